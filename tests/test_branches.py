@@ -1,4 +1,4 @@
-"""Two branches that both export, edit and build: one build brings all in step. Random ones are in `test_walks`."""
+"""Two branches that both export, edit and build: one build brings all in step. Random: `test_state_machine`."""
 
 from __future__ import annotations
 
@@ -11,7 +11,6 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from support import replay
 from support.git import NEEDS_GIT, Repository
 from support.networks import C1, LADDER, R2, RECORD, edit, kinds, run
 
@@ -140,8 +139,7 @@ def test_what_git_merges_is_in_step_after_one_build(repository: Repository, tmp_
     branch(repository, "theirs", theirs)
     unite(repository, "merge")
     assert not run().conflicts
-    with replay.in_haste():
-        assert run().in_step
+    assert run().in_step
     assert texts() == fresh(tmp_path / "fresh")
 
 

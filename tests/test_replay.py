@@ -1,6 +1,6 @@
 """Replays of the corpus's histories: each version built over the one before equals a fresh build, and edits follow.
 
-`URDFSYNC_REPLAYS=1` replays all histories, not only some small ones. `test_replay_edits` edits files in between.
+`URDFSYNC_REPLAYS=1` replays all histories, not only some small ones. `test_state_machine` edits files in between.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ REACH = {ChangeClass.NONE: set(), ChangeClass.UNMODELLED: set(), ChangeClass.PAR
 """Roles of the files that a step of a class may write."""
 BELOW = f"{replay.PACKAGE}/"
 
-pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("in_haste")]
+pytestmark = pytest.mark.slow
 each_history = pytest.mark.parametrize("name", CHOSEN or ["no-corpus"], ids=lambda name: name[-40:])
 
 

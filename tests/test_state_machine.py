@@ -1,0 +1,555 @@
+"""Exports, edits, builds, answers, undone merges, new names, branches, merges and clones of a project, in any order.
+
+After each command: it did not stop, every edit is where it was or went with its file, all verdicts agree, and what is
+in step equals a fresh build but for the edits. `URDFSYNC_REPLAYS=2000` makes so many steps, with fresh seeds.
+"""
+
+from __future__ import annotations
+
+import collections
+import dataclasses
+import difflib
+import functools
+import hashlib
+import os
+import re
+import shutil
+import subprocess
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from pathlib import Path
+from random import Random
+
+import pytest
+from hypothesis import HealthCheck, Phase, settings
+from hypothesis import strategies as st
+from hypothesis.stateful import RuleBasedStateMachine, initialize, precondition, rule, run_state_machine_as_test
+from lxml import etree
+from support import edits, replay, tree_changes
+from support.commands import Execute, Printed
+from support.edits import Line
+from support.git import NEEDS_GIT, Repository
+from support.urdfs import joint, limit, link
+
+from urdfsync.engine import decide
+
+pytestmark = [NEEDS_GIT, pytest.mark.slow]
+
+STEPS = 25
+"""Of one walk."""
+SOURCE, PACKAGE = Path("arm.urdf"), Path("modelica/Arm")
+WAYS = ("merge -q --no-edit {other}", "rebase -q {other}", "cherry-pick --keep-redundant-commits {start}..{other}")
+ANSWERS = ("--merge", "--merge --prefer mine", "--merge --prefer generated", "--keep", "--take")
+TAMED = ("comment", "declaration", "equation", "remark", "number", "sensor", "mention")
+"""Edits that only add something, or change one number."""
+_SHARED = re.compile(r"  // shared mine\d{6}$", re.MULTILINE)
+_OWN = re.compile(r"^.*mine\d{6}.*\n", re.MULTILINE)
+_TAG = re.compile(r"mine\d{6}|7171\.\d{6}")
+_DECLARED = re.compile(r"(?m)^  (?:(?:final|parameter|replaceable|inner|outer) )*[A-Z][\w.]* (\w+)")
+_COMMENT = re.compile(r"(?m)//.*$|\"(?:[^\"\\]|\\.)*\"")
+
+seeds = st.integers(0, 2**32).map(Random)
+"""Where, and what exactly."""
+
+
+# Exports
+
+
+def export(robot: etree._Element) -> None:
+    """Write the robot, with a blank line between its elements, so that git merges neighbours."""
+    lines = [etree.tostring(element, encoding="unicode", with_tail=False) for element in robot]
+    SOURCE.write_text("\n\n".join(['<robot name="arm">', *lines, "</robot>", ""]))
+
+
+def first_robot(random: Random) -> etree._Element:
+    """A small tree."""
+    links = ["base", "upper", "fore", "hand", "tool"][: random.randint(2, 5)]
+    joints = [
+        joint(f"{child}_joint", random.choice(["revolute", "continuous", "fixed"]), parent, child, axis="0 1 0")
+        for place, child in enumerate(links[1:], start=1)
+        for parent in [random.choice(links[max(0, place - 2) : place])]
+    ]
+    elements = "\n".join([*(link(name, 1.0 + place) for place, name in enumerate(links)), *joints])
+    return etree.fromstring(f"<robot>{elements}</robot>")
+
+
+def set_number(robot: etree._Element, random: Random) -> None:
+    place = random.choice([*robot.iter("mass", "limit", "origin")])
+    key, value = {"mass": ("value", "2.{}"), "limit": ("effort", "4{}"), "origin": ("xyz", "0.{} 0 0.5")}[
+        str(place.tag)
+    ]
+    place.set(key, value.format(random.choice([random.randint(1, 3), random.randint(10, 999)])))
+
+
+def add_link(robot: etree._Element, random: Random) -> None:
+    name = f"part{random.randint(1, 5)}"
+    if name not in {element.get("name") for element in robot}:
+        parent = str(random.choice(robot.findall("link")).get("name"))
+        new = joint(f"{name}_joint", "revolute", parent, name, axis="0 0 1", inside=[limit()])
+        robot.extend([etree.fromstring(link(name, 3)), etree.fromstring(new)])
+
+
+def rename(robot: etree._Element, random: Random) -> None:
+    element = random.choice([*robot.findall("link"), *robot.findall("joint")])
+    old, new = str(element.get("name")), f"{str(element.get('name')).split('_')[0]}_{random.choice('xyz')}"
+    if new not in {other.get("name") for other in robot}:
+        element.set("name", new)
+        for end in robot.iter("parent", "child") if element.tag == "link" else ():
+            if end.get("link") == old:
+                end.set("link", new)
+
+
+def change_tree(kind: str, robot: etree._Element, random: Random) -> etree._Element | None:
+    changed = tree_changes.changed(etree.tostring(robot), kind, random)
+    return None if changed is None else etree.fromstring(changed)
+
+
+EXPORTS: Mapping[str, Callable[[etree._Element, Random], etree._Element | None]] = {
+    "number": set_number,
+    "another number": set_number,
+    "add": add_link,
+    "rename": rename,
+    **{
+        kind: functools.partial(change_tree, kind)
+        for kind in ("another parent", "a link in between", "a link less", "links exchanged")
+    },
+}
+
+
+# Edits
+
+
+def add_sensor(path: Path, random: Random, number: str) -> None:
+    """A sensor at some part; renames change its connection."""
+    text = path.read_text()
+    if (ends := re.findall(r"connect\((\w+\.frame_[ab]), ", text)) and "\nequation\n" in text:
+        head, _, rest = text.partition("\nequation\n")
+        sensor = f"\n  Modelica.Mechanics.MultiBody.Sensors.AbsoluteSensor mine{number};\n"
+        connection = f"  connect({random.choice(ends)}, mine{number}.frame_a);  // shared mine{number}\n"
+        path.write_text(f"{head}{sensor}\nequation\n{connection}{rest}")
+
+
+def mention(path: Path, random: Random, number: str) -> None:
+    """A component of a class that an export may take away."""
+    text, classes = path.read_text(), sorted(PACKAGE.glob("*/*.mo"))
+    if "\nequation\n" in text and classes:
+        name = ".".join(random.choice(classes).with_suffix("").parts[2:])
+        path.write_text(text.replace("\nequation\n", f"\n  {name} mine{number};  // shared mine{number}\nequation\n", 1))
+
+
+EDITS: Mapping[str, edits.Edit] = {kind: edit for kind, (_, edit) in edits.EDITS.items()} | {
+    "sensor": add_sensor,
+    "mention": mention,
+}
+
+
+def is_but_for_edits(text: str, generated: str) -> bool:
+    """Whether a text is a generated one with nothing but tagged lines, remarks and numbers in it."""
+    mine = [line for line in _OWN.sub("", _SHARED.sub("", text)).splitlines() if line.strip()]
+    other = [line for line in generated.splitlines() if line.strip()]
+    patterns = (re.sub(r"7171\\\.\d{6}", r"[-\\w.+]+", re.escape(line)) for line in mine)
+    return len(mine) == len(other) and all(map(re.fullmatch, patterns, other))
+
+
+def texts(package: Path = PACKAGE) -> dict[str, str]:
+    """The package with plain line ends, by paths below it."""
+    found = replay.contents(package)
+    return {p: c.decode().replace("\r\n", "\n") for p, c in found.items() if p.endswith((".mo", ".order"))}
+
+
+def missing_names(texts: Mapping[str, str], files: Collection[str]) -> Iterator[str]:
+    """Links, joints and parts that a text names, and that are nowhere. This does not ask urdfsync."""
+    for path, text in texts.items():
+        code = _COMMENT.sub("", text) if path.endswith(".mo") else ""
+        for folder, name in re.findall(r"(?<![\w.])(Links|Joints)\.(\w+)", code):
+            if not {f"{folder}/{name}.mo", f"{folder}/{name}/package.mo"} & {*files}:
+                yield f"{path}: {folder}.{name}"
+        if path == "Arm.mo":
+            used = {name for ends in re.findall(r"connect\((\w+)\.\w+, (\w+)\.", code) for name in ends}
+            yield from (f"{path}: {name}" for name in used - set(_DECLARED.findall(code)))
+
+
+# The model, and what is done to both
+
+
+@dataclasses.dataclass
+class Expected:
+    """A package as it has to be: every edit is in its place, and all else is as a fresh build writes it."""
+
+    edits: dict[str, Line] = dataclasses.field(default_factory=dict)
+    """By tag."""
+    given_up: set[str] = dataclasses.field(default_factory=set)
+    """The tags in files that were given up, be it that this waits for other conflicts."""
+    loose: set[str] = dataclasses.field(default_factory=set)
+    """Files that may differ from a fresh build: the user said so, or git has made something of two of them."""
+
+    def move(self, moves: Mapping[str, str]) -> None:
+        """Files have new paths."""
+        self.edits = {
+            tag: dataclasses.replace(line, path=moves.get(line.path, line.path)) for tag, line in self.edits.items()
+        }
+        self.loose |= {moves[path] for path in self.loose & moves.keys()}
+
+    def lost(self, files: Mapping[str, bytes]) -> list[tuple[str, Line, Line | None]]:
+        """The edits that are not what or where they were; names in a line that is not only the user's may be others."""
+        found = edits.tagged(files)
+        pairs = [(tag, line, found.get(tag)) for tag, line in self.edits.items()]
+        return [
+            (tag, line, now)
+            for tag, line, now in pairs
+            if now is None or now.path != line.path or (line.own and now.text != line.text)
+        ]
+
+
+class Walk(RuleBasedStateMachine):
+    """One project, and whoever works on it."""
+
+    root: Path
+    execute: Callable[..., Printed]
+    monkeypatch: pytest.MonkeyPatch
+    tally: collections.Counter[str]
+
+    def __init__(self) -> None:
+        super().__init__()
+        shutil.rmtree(self.root, ignore_errors=True)
+        self.repository = Repository(self.root / "project", self.monkeypatch)
+        os.chdir(self.repository.folder)
+        self.count, self.branch, self.other = 0, "main", "other"
+        self.expected = Expected()
+        self.branches = {"main": self.expected}
+        self.built = dict[str, dict[str, str]]()
+        """Fresh packages by their source."""
+        self.conflicts = dict[str, str]()
+        """Where the user's file is, by the path of the new one."""
+        self.broken: Sequence[str] = ()
+        self.replaced = dict[str, str]()
+        """What the last command merged or replaced, by path."""
+
+    @initialize(random=seeds, merging=st.booleans(), driver=st.booleans())
+    def begin(self, random: Random, merging: bool, driver: bool) -> None:
+        approach = random.choice(['["package"]'] * 4 + ['["record"]', '["package", "record"]'])
+        self.configuration = f'[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\napproach = {approach}\n'
+        self.configuration += 'on_conflict = "merge"\n' if merging else ""
+        Path("urdfsync.toml").write_text(self.configuration)
+        export(first_robot(random))
+        if driver:
+            Path(".gitattributes").write_text("*.mo merge=urdfsync\n")
+            self.execute("merge-driver", "--install")
+        self.build(full=False)
+        self.repository.commit()
+
+    # What the user does
+
+    @rule(
+        kinds=st.lists(st.sampled_from(TAMED), min_size=1, max_size=4),
+        exports=st.lists(st.sampled_from(sorted(EXPORTS)), max_size=3),
+        full=st.booleans(),
+        random=seeds,
+    )
+    def work(self, kinds: Sequence[str], exports: Sequence[str], full: bool, random: Random) -> None:
+        """Edit some files, mostly the robot's model or records, export the robot, and build."""
+        for kind in kinds:
+            files = sorted(PACKAGE.rglob("*.mo"))
+            records = [path for path in files if path.stem.endswith("Parameters")]
+            robots = [path for path in files if path.name == "Arm.mo"]
+            some = records if kind == "number" else robots if random.random() < 0.6 else files
+            self.make(kind, random.choice(some or files), random)
+        self.change(exports, random)
+        self.build(full)
+
+    @rule(exports=st.lists(st.sampled_from(sorted(EXPORTS)), min_size=1, max_size=3), random=seeds)
+    def change(self, exports: Sequence[str], random: Random) -> None:
+        for kind in exports:
+            robot = etree.parse(SOURCE, etree.XMLParser(remove_blank_text=True)).getroot()
+            changed = EXPORTS[kind](robot, random)
+            export(robot if changed is None else changed)
+        self.replaced.clear()
+
+    @rule(kind=st.sampled_from(sorted(EDITS.keys() - {*TAMED})), random=seeds)
+    def edit_wildly(self, kind: str, random: Random) -> None:
+        before = texts()
+        self.make(kind, random.choice(sorted(PACKAGE.rglob("*.mo"))), random)
+        after = texts()
+        self.expected.loose |= {path for path in before.keys() | after.keys() if before.get(path) != after.get(path)}
+
+    def make(self, kind: str, path: Path, random: Random) -> None:
+        self.count += 1
+        EDITS[kind](path, random, f"{self.count:06d}")
+        self.look()
+
+    def look(self) -> None:
+        """Take the edits as they are, after somebody else than urdfsync has changed them."""
+        self.expected.edits = edits.tagged(replay.contents(PACKAGE))
+        self.replaced.clear()
+
+    @rule(full=st.booleans())
+    def build(self, full: bool) -> None:
+        """Build; a second build says the same and writes nothing."""
+        in_step, before = bool(self.built) and self.verdict(), self.everything()
+        code = self.run("build --full" if full else "build")
+        assert not in_step or (code == 0 and (full or self.everything() == before)), "in step, but written"
+        assert self.verdict() == (code == 0)
+        before = self.everything()
+        self.execute("build", code=code)
+        assert self.everything() == before, "a second build writes"
+
+    @precondition(lambda self: self.conflicts)
+    @rule(answer=st.sampled_from(ANSWERS), all_=st.booleans(), random=seeds)
+    def resolve(self, answer: str, all_: bool, random: Random) -> None:
+        """Answer a conflict, or all."""
+        path = random.choice(sorted(self.conflicts))
+        asked = self.conflicts if all_ else {path: self.conflicts[path]}
+        if answer in ("--keep", "--merge --prefer mine"):
+            self.expected.loose |= {*map(inside, asked)}
+        if answer.endswith(("take", "generated")):
+            self.give_up({*asked.values()})
+        code = self.run(f"resolve {'--all' if all_ else path} {answer}")
+        assert self.verdict() == (code == 0)
+
+    def give_up(self, paths: Collection[str]) -> None:
+        places = {*map(inside, paths)}
+        self.expected.given_up |= {tag for tag, line in self.expected.edits.items() if line.path in places}
+
+    @precondition(lambda self: self.replaced)
+    @rule(random=seeds)
+    def undo(self, random: Random) -> None:
+        """What was merged or replaced is as it was."""
+        path, text = random.choice(sorted(self.replaced.items()))
+        self.run(f"resolve {path} --undo")
+        assert Path(path).read_bytes().decode() == text
+        self.expected.loose.add(inside(path))
+        self.look()
+        self.verdict()
+
+    @precondition(lambda self: self.broken)
+    @rule(take=st.booleans())
+    def mend(self, take: bool) -> None:
+        """Out with edits that do not fit, or with the files."""
+        for path in self.broken:
+            self.give_up([path])
+            if take:
+                self.run(f"resolve {path} --take")
+            else:
+                Path(path).write_text(_OWN.sub("", Path(path).read_text()))
+        self.look()
+        self.verdict()
+
+    # Git
+
+    @rule()
+    def switch(self) -> None:
+        """Commit, and go on at the other branch, which begins here if there is none."""
+        self.repository.commit()
+        is_new = self.other not in self.branches
+        self.branches.setdefault(self.other, Expected(loose={*self.expected.loose}))
+        self.branch, self.other = self.other, self.branch
+        self.git("checkout", "-q", *(["-b"] if is_new else []), self.branch)
+        self.expected = self.branches[self.branch]
+        self.look()
+        self.verdict()
+
+    @precondition(lambda self: len(self.branches) == 2)
+    @rule(way=st.sampled_from(WAYS), is_clean=st.booleans(), random=seeds)
+    def merge(self, way: str, is_clean: bool, random: Random) -> None:
+        """Git brings both branches together, and one build what came of that in step."""
+        self.repository.commit()
+        self.tally["merges"] += 1
+        start = self.repository.git("merge-base", "HEAD", self.other).strip()
+        self.git(*way.format(start=start, other=self.other).split())
+        self.settle(random)
+        for _ in range(30):
+            if Path(".git/rebase-merge").exists():
+                self.git("-c", "core.editor=true", "rebase", "--continue")
+            elif Path(".git/sequencer").exists():
+                self.git("commit", "-q", "--allow-empty", "--no-edit", "-m", "settled")
+                self.git("-c", "core.editor=true", "cherry-pick", "--continue")
+            else:
+                break
+            self.settle(random)
+        else:
+            raise AssertionError("git does not end")
+        self.repository.commit()
+        self.expected.loose |= self.branches[self.other].loose
+        if is_clean:
+            self.git("clean", "-fdxq")  # as a clone has it
+        self.mark_mixtures()
+        self.look()
+        self.build(full=False)
+
+    def settle(self, random: Random) -> None:
+        """Take one side of each file that git can't merge, never of recorded states."""
+        unmerged = sorted(set(self.repository.git("diff", "--name-only", "--diff-filter=U").split()))
+        assert not [path for path in unmerged if path.startswith(".urdfsync/")]
+        for path in map(Path, unmerged):
+            side = random.choice(["ours", "theirs"])
+            if not self.git("checkout", f"--{side}", "--", str(path)):  # that side has deleted it
+                path.unlink(missing_ok=True)
+            elif b"<<<<<<< " in path.read_bytes():  # of two renames to one path, git marks the sides themselves
+                if not self.git("checkout", self.other, "--", str(path)):
+                    path.unlink()
+            elif texts().get(inside(path)) not in [package.get(inside(path)) for package in self.built.values()]:
+                self.expected.loose.add(inside(path))  # it may lack what the other side's export brought
+        if self.execute("status", code=None).code == 2:
+            self.git("checkout", "-q", self.other, "--", SOURCE.name)
+        self.git("add", "-A")
+
+    def mark_mixtures(self) -> None:
+        """Texts that git has made of two generated ones count as edits: nobody can tell them from such.
+
+        So do those of a side that was taken, whose generated text is not in the bases of the other.
+        """
+        bases = b"".join(replay.contents(Path(".urdfsync/bases")).values())
+        for path, text in texts().items():
+            generated = (package[path] for package in self.built.values() if path in package)
+            recorded = [text for text in generated if hashlib.sha256(text.encode()).hexdigest().encode() in bases]
+            if not any(is_but_for_edits(text, base) for base in recorded):
+                self.expected.loose.add(path)
+
+    @rule()
+    def clone(self) -> None:
+        """A clone, where nothing but committed files is, comes to the same result."""
+        self.repository.commit()
+        clone = self.root / "clone"
+        shutil.rmtree(clone, ignore_errors=True)
+        self.git("clone", "-q", ".", str(clone))
+        code = self.execute("build", "--config", clone / "urdfsync.toml", code=None).code
+        self.build(full=False)
+        assert self.execute("build", code=code)
+        for folder in (PACKAGE, Path(".urdfsync/robots")):
+            assert replay.contents(clone / folder) == replay.contents(folder)
+
+    def git(self, *arguments: str) -> bool:
+        """Run git; whether it succeeded."""
+        return not subprocess.run(["git", *arguments], capture_output=True).returncode
+
+    # What must hold
+
+    def run(self, command: str) -> int:
+        """Run a command that writes; no edit may be lost. The exit code."""
+        before = {path.as_posix(): path.read_bytes() for path in PACKAGE.rglob("*.mo")}
+        printed = self.execute(*command.split(), "--json", code=None)
+        assert printed.code in (0, 3) or SOURCE.name in printed.words, printed
+        (robot,) = printed.json["robots"]
+        writes = [action for action in robot["actions"] if action["action"] == "write" and not action["held"]]
+        self.expected.move({inside(one["origin"]): inside(one["path"]) for one in writes if one["origin"]})
+        now = replay.contents(PACKAGE)
+        lost = [edit for edit in self.expected.lost(now) if edit[0] not in self.expected.given_up]
+        assert not lost, ("lost", lost)
+        aside = b"".join(replay.contents(Path(".urdfsync")).values())
+        assert all(tag.encode() in aside for tag, _, _ in self.expected.lost(now)), "given up, and not put aside"
+        self.expected.edits = edits.tagged(now)
+        self.tally[" ".join(command.split()[:1] + [word for word in command.split() if word[:2] == "--"])] += 1
+        merged = {one["path"] for one in writes if one["reason"] == "merge" and not one["origin"]}
+        self.replaced = {path: before[path].decode() for path in merged & before.keys()}
+        return printed.code
+
+    def verdict(self) -> bool:
+        """Ask both commands that judge, which write nothing; what is in step equals a fresh build but for edits."""
+        before = self.everything()
+        documents = [self.execute(*words.split(), code=None) for words in ("status --json", "build --check --json")]
+        assert self.everything() == before
+        (status,), (check,) = (printed.json["robots"] for printed in documents)
+        assert status["in_step"] == check["in_step"]
+        assert status["failed"] == check["failed"]
+        codes = [printed.code for printed in documents]
+        assert [code == 0 for code in codes] == [status["in_step"]] * 2, codes
+        self.conflicts = {
+            one["path"]: one["origin"] or one["path"] for one in check["actions"] if one["action"] == "conflict"
+        }
+        reasons = {one["origin"] or one["path"]: one["reason"] for one in status["actions"] if one["status"]}
+        files = {one["file"] for one in check["diagnostics"] if one["severity"] != "note" and one["file"]}
+        self.broken = sorted(files & reasons.keys()) if check["broken"] else []
+        if check["in_step"]:
+            self.compare({inside(path): reason for path, reason in reasons.items()})
+        return bool(check["in_step"])
+
+    def compare(self, reasons: Mapping[str, str]) -> None:
+        """What is in step names nothing that is not there; but for edits it is a fresh package."""
+        files, wanted = texts(), self.fresh()
+        missing = list(missing_names({path: text for path, text in files.items() if path in wanted}, files))
+        assert not missing, f"in step, and names nothing: {missing}"
+        self.tally.update(compared=1, edits=len(edits.tagged(replay.contents(PACKAGE))), loose=len(self.expected.loose))
+        odd = {
+            path
+            for path in files.keys() | wanted.keys()
+            if path not in files or not is_but_for_edits(files[path], wanted.get(path, ""))
+        }
+        for path in sorted(odd - self.expected.loose):
+            is_users = path not in wanted and reasons.get(path) in (None, "orphan", "needed")
+            is_order = path.endswith("package.order") and {*wanted.get(path, "").split()} <= {*files[path].split()}
+            lines = difflib.unified_diff(wanted.get(path, "").splitlines(), files.get(path, "").splitlines(), n=1)
+            assert is_users or is_order, "\n".join([f"{path}: {reasons.get(path)}", *lines])
+        self.expected.loose &= odd
+
+    def fresh(self) -> dict[str, str]:
+        """The package as it is built from the source alone."""
+        source = SOURCE.read_text()
+        if source not in self.built:
+            work = self.root / "fresh"
+            shutil.rmtree(work, ignore_errors=True)
+            work.mkdir()
+            shutil.copy(SOURCE, work)
+            (work / "urdfsync.toml").write_text(self.configuration)
+            self.execute("build", "--config", work / "urdfsync.toml")
+            self.built[source] = texts(work / PACKAGE)
+        return self.built[source]
+
+    def everything(self) -> dict[str, bytes]:
+        """All that version control has."""
+        folders = (PACKAGE, Path(".urdfsync/robots"), Path(".urdfsync/bases"))
+        return {f"{folder}/{path}": text for folder in folders for path, text in replay.contents(folder).items()}
+
+
+def inside(path: str | Path) -> str:
+    """A path as it counts from the package."""
+    return Path(path).as_posix().removeprefix(f"{PACKAGE.as_posix()}/")
+
+
+@pytest.fixture
+def walks(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, execute: Execute) -> type[Walk]:
+    monkeypatch.chdir(tmp_path)
+    attributes = {"root": tmp_path / "walk", "execute": staticmethod(execute), "monkeypatch": monkeypatch}
+    attributes["tally"] = collections.Counter[str]()
+    return type("Walk", (Walk,), attributes)
+
+
+def test_any_order_of_work_is_right(walks: type[Walk]) -> None:
+    run_state_machine_as_test(
+        walks,
+        settings=settings(
+            max_examples=replay.STEPS // STEPS or 8,
+            stateful_step_count=STEPS,
+            derandomize=not replay.STEPS,
+            suppress_health_check=list(HealthCheck),
+            print_blob=True,
+            phases=[Phase.generate],
+        ),
+    )
+    print(dict(walks.tally))  # noqa: T201
+    assert all(walks.tally[what] for what in ("compared", "edits", "merges"))
+
+
+def test_a_lost_edit_would_be_found(walks: type[Walk], execute: Execute) -> None:
+    model = PACKAGE / "Arm.mo"
+
+    def careless(*arguments: object, code: int | None = 0) -> Printed:
+        printed = execute(*arguments, code=code)
+        if arguments == ("build", "--json"):
+            model.write_text(_OWN.sub("", model.read_text()))
+        return printed
+
+    walk = walks()
+    walk.begin(random=Random(1), merging=False, driver=False)
+    walk.make("comment", model, Random(1))
+    walk.execute = careless
+    with pytest.raises(AssertionError, match="lost"):
+        walk.build(full=False)
+
+
+def test_a_verdict_in_step_of_what_is_broken_would_be_found(walks: type[Walk], monkeypatch: pytest.MonkeyPatch) -> None:
+    walk = walks()
+    walk.begin(random=Random(1), merging=False, driver=False)
+    model = PACKAGE / "Arm.mo"
+    model.write_text(model.read_text().replace("equation\n", "equation\n  connect(base.frame_a, none.frame_a);\n"))
+    monkeypatch.setattr(decide, "find_misfits", lambda *_: ())
+    with pytest.raises(AssertionError, match="in step, and names nothing"):
+        walk.build(full=False)
