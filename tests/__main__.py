@@ -1,6 +1,7 @@
-"""All checks of the project: `python -m tests [--long] [pytest arguments]`.
+"""All checks of the project: `python -m tests [--long] [--tests] [pytest arguments]`.
 
-With `--long`, as CI runs them, the tests follow that take more than some seconds.
+With `--long`, as CI runs them, the tests come along that take more than some seconds; with `--tests` no code is
+linted.
 """
 
 import os
@@ -11,23 +12,25 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 
 # one more process than cores, since those that watch folders mostly wait
-PYTEST = ["pytest", "-n", str((os.cpu_count() or 1) + 1), "--dist", "worksteal"]
-CHECKS = {
+PYTEST = ["pytest", "-n", str((os.cpu_count() or 1) + 1), "--dist", "worksteal", "-m"]
+STATIC = {
     "lint": ["ruff", "check", "."],
     "format": ["ruff", "format", "--check", "."],
     "types": ["mypy"],
     "imports": ["lint-imports", "--no-cache"],
-    "examples in step": ["urdfsync", "build", "--check"],
-    "tests": [*PYTEST, "-m", "not slow and not large"],
 }
-SLOW = {"slow tests": [*PYTEST, "-m", "slow and not large"]}
+EXAMPLES = {"examples in step": ["urdfsync", "build", "--check"]}
+QUICK = {"tests": [*PYTEST, "not slow and not large"]}
+# in one run with the others: each process takes 13 s to find all tests
+LONG = {"tests": [*PYTEST, "not large"]}
+OPTIONS = ("--long", "--tests")
 
 
 def main() -> int:
     """Run every check, even after one has failed; the exit code is 1 if any did."""
     failed = []
-    given = [argument for argument in sys.argv[1:] if argument != "--long"]
-    checks = CHECKS | SLOW if "--long" in sys.argv else CHECKS
+    given = [argument for argument in sys.argv[1:] if argument not in OPTIONS]
+    checks = ({} if "--tests" in sys.argv else STATIC) | EXAMPLES | (LONG if "--long" in sys.argv else QUICK)
     for name, (module, *arguments) in checks.items():
         print(f"== {name}", flush=True)  # noqa: T201
         extra = given if module == "pytest" else []
