@@ -19,41 +19,40 @@ ARM = REPOSITORY / "modelica" / "UrdfSync" / "Resources" / "robots" / "six_axis_
 pytestmark = pytest.mark.slow
 
 
-@pytest.fixture(scope="module")
-def distributions(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A folder with wheel and sdist of the working tree."""
-    folder = tmp_path_factory.mktemp("dist")
-    subprocess.run([sys.executable, "-m", "build", "--outdir", folder, REPOSITORY], check=True, capture_output=True)
-    return folder
-
-
 def tracked(*folders: str) -> set[str]:
     listing = subprocess.run(["git", "ls-files", *folders], cwd=REPOSITORY, check=True, capture_output=True, text=True)
     return set(listing.stdout.splitlines())
 
 
-def test_wheel_carries_templates_and_library(distributions: Path) -> None:
-    (wheel,) = distributions.glob("*.whl")
+def test_wheel_and_sdist_are_complete_and_the_wheel_builds_a_robot(tmp_path: Path) -> None:
+    """One test: the distributions are built once."""
+    build = [sys.executable, "-m", "build", "--outdir", tmp_path / "dist", REPOSITORY]
+    subprocess.run(build, check=True, capture_output=True)
+    (wheel,), (sdist,) = (tmp_path.glob(f"dist/*.{ending}") for ending in ("whl", "tar.gz"))
+    assert_wheel_carries_templates_and_library(wheel)
+    assert_sdist_carries_all_that_the_tests_need(sdist)
+    assert_installed_wheel_builds_a_robot(wheel, tmp_path)
+
+
+def assert_wheel_carries_templates_and_library(wheel: Path) -> None:
     names = set(zipfile.ZipFile(wheel).namelist())
     assert names >= {f"urdfsync/_data/{name}" for name in tracked("templates", "modelica")}
     assert names >= tracked("urdfsync")
     assert not any(name.startswith(("tests/", "templates/", "modelica/")) for name in names)
 
 
-def test_sdist_carries_all_that_the_tests_need(distributions: Path) -> None:
-    (sdist,) = distributions.glob("*.tar.gz")
+def assert_sdist_carries_all_that_the_tests_need(sdist: Path) -> None:
     with tarfile.open(sdist) as archive:
         names = {name.partition("/")[2] for name in archive.getnames()}
     assert names >= tracked("urdfsync", "templates", "modelica", "tests", "tools", "docs", "urdfsync.toml", "LICENSE")
 
 
-def test_installed_wheel_builds_a_robot(distributions: Path, tmp_path: Path) -> None:
-    (wheel,) = distributions.glob("*.whl")
+def assert_installed_wheel_builds_a_robot(wheel: Path, tmp_path: Path) -> None:
     environment = tmp_path / "environment"
     venv.create(environment, with_pip=True)
     folder = environment / ("Scripts" if sys.platform == "win32" else "bin")
     pip: list[str | Path] = [folder / "python", "-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
-    subprocess.run([*pip, wheel], check=True)
+    subprocess.run([*pip, "--no-compile", wheel], check=True)
     project = tmp_path / "project"
     project.mkdir()
     alone = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}

@@ -12,10 +12,11 @@ from pathlib import Path
 from unittest import mock
 
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from support import answers
 from support.answers import save, saved
+from support.cases import often
 from support.meshes import stl
 from support.screen import print_on_terminal
 
@@ -352,12 +353,11 @@ STEPS = st.lists(st.one_of(CHANGES, st.sampled_from([BUILD, CHECK, STATUS, "rest
 
 
 @pytest.mark.slow
-@settings(max_examples=40, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@often(20)
 @given(STEPS)
 def test_check_and_command_agree(
     in_step: Path, tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch, steps: list[object]
 ) -> None:
-    """About 15 s of CPU."""
     site = tmp_path_factory.mktemp("site")
     place = site / "project"
     shutil.copytree(in_step, place)

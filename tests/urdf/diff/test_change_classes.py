@@ -9,9 +9,10 @@ from typing import NamedTuple
 
 import msgspec
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from support import mutations
+from support.cases import often
 from support.packages import RENDERER, read
 
 from urdfsync.changes import Changes, compare
@@ -80,7 +81,7 @@ def check(changes: Changes, before: Mapping[str, File], after: Mapping[str, File
 
 
 @pytest.mark.slow
-@settings(max_examples=300)
+@often(150)
 @given(st.randoms(use_true_random=False), st.integers(0, 3), OPTIONS)
 def test_the_class_of_random_changes_says_which_files_differ(random: Random, count: int, options: Options) -> None:
     first = mutations.version(random)
