@@ -133,7 +133,8 @@ def mention(path: Path, random: Random, number: str) -> None:
     text, classes = path.read_text(), sorted(PACKAGE.glob("*/*.mo"))
     if "\nequation\n" in text and classes:
         name = ".".join(random.choice(classes).with_suffix("").parts[2:])
-        path.write_text(text.replace("\nequation\n", f"\n  {name} mine{number};  // shared mine{number}\nequation\n", 1))
+        line = f"  {name} mine{number};  // shared mine{number}"
+        path.write_text(text.replace("\nequation\n", f"\n{line}\nequation\n", 1))
 
 
 EDITS: Mapping[str, edits.Edit] = {kind: edit for kind, (_, edit) in edits.EDITS.items()} | {
