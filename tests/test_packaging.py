@@ -26,7 +26,7 @@ def tracked(*folders: str) -> set[str]:
 
 def test_wheel_and_sdist_are_complete_and_the_wheel_builds_a_robot(tmp_path: Path) -> None:
     """One test: the distributions are built once."""
-    build = [sys.executable, "-m", "build", "--outdir", tmp_path / "dist", REPOSITORY]
+    build: list[str | Path] = [sys.executable, "-m", "build", "--outdir", tmp_path / "dist", REPOSITORY]
     subprocess.run(build, check=True, capture_output=True)
     (wheel,), (sdist,) = (tmp_path.glob(f"dist/*.{ending}") for ending in ("whl", "tar.gz"))
     assert_wheel_carries_templates_and_library(wheel)
