@@ -18,7 +18,7 @@ import pytest
 from support.commands import Execute
 
 from urdfsync import cli, config
-from urdfsync.check.results import CheckResult, CheckStatus, CompiledModel, EditEffect, ToolResult
+from urdfsync.check.results import CheckResult, CheckStatus, CompiledModel, EditEffect, ToolResult, TrialTime
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Deviation, Quantity, Role
 from urdfsync.engine.actions import FileStatus, Kind, Reason
@@ -260,6 +260,7 @@ def checked() -> CheckResult:
                 (EditEffect(("Joints/Hold_joint.mo",), (swing,), ("joint hold",)),),
                 12.5,
                 870.0,
+                (TrialTime("motion", 7.5),),
             ),
             ToolResult("OpenModelica 1.27.0", (CompiledModel("Arm", 410),), seconds=31.5, megabytes=702.0),
         ),

@@ -230,6 +230,18 @@ class Proposal(msgspec.Struct, frozen=True):
     reason: str
 
 
+class Part(enum.StrEnum):
+    """Part of a model that a verdict speaks of."""
+
+    BODIES = "rigid bodies"
+    LOSSES = "friction and gears"
+    FREE_MOTION = "free motion"
+    """Accelerations that follow from efforts."""
+    BENCHES = "Run and Test"
+    SENSORS = "sensors"
+    LIMITS = "limits"
+
+
 class Quantity(enum.StrEnum):
     """Quantity of a frame, an axis, the root or the whole model that is compared with a reference; in SI units."""
 
@@ -241,6 +253,15 @@ class Quantity(enum.StrEnum):
     """Force and torque that hold the root."""
     MASS = "mass"
     CENTRE = "centre of mass"
+    ACCELERATION = "acceleration"
+    READING = "reading"
+    """Of a sensor."""
+    GEAR = "gear"
+    """Reduction, offset and inertia of the rotor."""
+    WARNING = "warning"
+    """Whether a limit is passed: 1 if so, else 0."""
+    CONNECTION = "connection"
+    """Whether a bench is connected as it should be: 0 if so, else 1."""
 
 
 class Deviation(msgspec.Struct, frozen=True):
@@ -256,6 +277,14 @@ class Deviation(msgspec.Struct, frozen=True):
     size: float
     """The greatest absolute value of the reference for this quantity in this unit over all elements."""
     unit: str
+    part: Part = Part.BODIES
+    detail: str = ""
+    """Which one of several: `below its lower position limit`."""
+
+    @property
+    def key(self) -> tuple[str, ...]:
+        """All that says which quantity of which element this is."""
+        return self.part, self.quantity, self.element, self.unit, self.detail
 
     @property
     def relative(self) -> float:
@@ -275,15 +304,34 @@ class Probe(msgspec.Struct, frozen=True):
     step: float
     """Interval of results, in s."""
     values: tuple[str, ...]
+    optional: str = ""
+    """A regular expression: variables that are handed back as well, if the package has them."""
 
 
 class Compared(msgspec.Struct, frozen=True):
-    """One quantity of one element that is compared: which values of the probe it is made of."""
+    """One quantity of one element that is compared: which values of the probe it is made of, and when."""
 
     quantity: Quantity
     element: str
     unit: str
     values: tuple[str, ...]
+    instants: tuple[float, ...]
+    """Times, in s."""
+    part: Part = Part.BODIES
+    detail: str = ""
+    """See `Deviation.detail`."""
+
+
+class Trial(msgspec.Struct, frozen=True):
+    """One simulation of an experiment."""
+
+    name: str
+    """In words, for messages: `free motion`."""
+    probe: Probe
+    compared: tuple[Compared, ...]
+    """From the root outwards."""
+    expected: Mapping[str, tuple[float, ...]]
+    """Expected numbers of each value at the times in `time`; NaN is possible."""
 
 
 class Experiment(msgspec.Struct, frozen=True):
@@ -293,12 +341,11 @@ class Experiment(msgspec.Struct, frozen=True):
     """Name and version."""
     content: bytes
     """The source to generate the package from: the one given, or a copy that has what a comparison needs."""
-    probe: Probe
-    """It moves a package that follows from `content`, and as well one that follows from the source."""
-    compared: tuple[Compared, ...]
-    """From the root outwards."""
-    expected: Mapping[str, tuple[float, float]]
-    """Expected number of each value at the beginning and at the end; NaN is possible."""
+    trials: tuple[Trial, ...]
+    """They move a package that follows from `content`, and as well one that follows from the source.
+
+    The first one tells what single edits do; it has to come to its end.
+    """
     notes: tuple[str, ...] = ()
     """Differences of `content` from the given source, with reasons: one sentence each, without a full stop."""
     unchecked: tuple[str, ...] = ()
@@ -531,6 +578,12 @@ class Domain(Protocol):
         made up. It runs in a process of its own. Raises SourceError if the reference can't be had or can't read it.
         """
         return "there is no reference for such packages"
+
+    def wiring(
+        self, texts: Mapping[str, bytes], snapshot: Snapshot, target: Target, options: Any
+    ) -> Iterable[Deviation]:
+        """Return whether the benches of a generated package are connected as they should be, by their texts."""
+        return ()
 
 
 def brings_back(option: str, new_name: str = "") -> str:

@@ -64,17 +64,26 @@ def test_every_file_and_every_change_is_told(whole: list[Deviation], single: dic
     assert all(one.relative > TOLERANCE for effect in found for one in effect.deviations)
 
 
+ENDS = (0.0, 1.0)
 COMPARED = (
-    Compared(Quantity.EFFORT, "joint a", "N·m", ("a",)),
-    Compared(Quantity.EFFORT, "joint b", "N·m", ("b",)),
-    Compared(Quantity.EFFORT, "joint c", "N", ("c", "d")),
+    Compared(Quantity.EFFORT, "joint a", "N·m", ("a",), ENDS),
+    Compared(Quantity.EFFORT, "joint b", "N·m", ("b",), ENDS),
+    Compared(Quantity.EFFORT, "joint c", "N", ("c", "d"), ENDS),
 )
-EXPECTED: dict[str, tuple[float, ...]] = {"a": (1.0, 2.0), "b": (-50.0, 7.0), "c": (0.0, 0.0), "d": (0.5, 300.0)}
+EXPECTED: dict[str, tuple[float, ...]] = {
+    "time": ENDS,
+    "a": (1.0, 2.0),
+    "b": (-50.0, 7.0),
+    "c": (0.0, 0.0),
+    "d": (0.5, 300.0),
+}
 
 
-def test_differences_are_the_greatest_of_the_first_and_last_instant_and_sizes_those_of_a_unit() -> None:
-    """A torque is not held against forces."""
-    found = compare(COMPARED, {**EXPECTED, "a": (1.5, 99.0, 2.25), "d": (0.0, 9.0, 301.0)}, EXPECTED)
+def test_differences_are_the_greatest_of_the_instants_and_sizes_those_of_a_unit() -> None:
+    """A torque is not held against forces, and what is between the instants does not count."""
+    series = {**EXPECTED, "time": (0.0, 0.5, 1.0), "a": (1.5, 99.0, 2.25), "b": (-50.0, 0.0, 7.0)}
+    series |= {"c": (0.0, 1.0, 0.0), "d": (0.0, 9.0, 301.0)}
+    found = compare(COMPARED, series, EXPECTED)
     assert [(one.difference, one.value, one.size) for one in found] == [
         (0.5, 2.0, 50.0), (0.0, 50.0, 50.0), (1.0, 300.0, 300.0),
     ]  # fmt: skip

@@ -7,14 +7,14 @@ from collections.abc import Mapping
 import msgspec
 import pytest
 
-from urdfsync.check.compilation import compare
+from urdfsync.check.compilation import compare_all
 from urdfsync.check.compilers.compiler import Tool
 from urdfsync.check.process import Limits
 from urdfsync.check.results import CheckResult, CheckStatus, CompiledModel, ToolResult
 from urdfsync.check.two_tools import run_compilations
 from urdfsync.commands.check import show_results
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.domain import Compared, Experiment, Probe, Quantity
+from urdfsync.domain import Compared, Experiment, Probe, Quantity, Trial
 from urdfsync.output.console import Console
 
 TOOLS = (Tool("rumoca"), Tool("omc"))
@@ -22,30 +22,37 @@ TITLES = {"rumoca": "rumoca 0.10.2", "omc": "OpenModelica 1.27.0"}
 EXPERIMENT = Experiment(
     "Pinocchio 4.1.0",
     b"",
-    Probe("", "Probe", 1.0, 1.0, ("x", "tau")),
     (
-        Compared(Quantity.POSITION, "link hand", "m", ("x",)),
-        Compared(Quantity.EFFORT, "joint elbow", "N·m", ("tau",)),
+        Trial(
+            "motion",
+            Probe("", "Probe", 1.0, 1.0, ("x", "tau")),
+            (
+                Compared(Quantity.POSITION, "link hand", "m", ("x",), (0.0, 1.0)),
+                Compared(Quantity.EFFORT, "joint elbow", "N·m", ("tau",), (0.0, 1.0)),
+            ),
+            {"time": (0.0, 1.0), "x": (0.5, 0.75), "tau": (2.0, 4.0)},
+        ),
     ),
-    {"x": (0.5, 0.75), "tau": (2.0, 4.0)},
 )
+EXPECTED = EXPERIMENT.trials[0].expected
 LOST = Diagnostic(Severity.ERROR, "does-not-compile", "`elbo` is unknown", "Arm.mo", 7)
 
-Numbers = Mapping[str, tuple[float, float]]
+Numbers = Mapping[str, tuple[float, ...]]
 
 
 class Said:
     """In the place of `Compilation`: a compiler that finds these numbers and says this."""
 
     def __init__(self, tool: Tool, numbers: Numbers, edited: Numbers, *said: Diagnostic) -> None:
-        self.generated, self.edited = numbers, edited or None
+        times = {"time": (0.0, 1.0)}
+        self.generated, self.edited = ({"motion": {**times, **some}} if some else {} for some in (numbers, edited))
         self.result, self.diagnostics, self.gaps = ToolResult(TITLES[tool.name]), [*said], list[str]()
 
     def run(self, experiment: Experiment | None) -> None:
         """Fill the result."""
         self.result.compiled = (CompiledModel("Arm", 10),)
         if experiment and self.generated:
-            self.result.deviations = compare(experiment.compared, self.generated, experiment.expected)
+            self.result.deviations = compare_all(experiment.trials, self.generated)
 
 
 def compiled(experiment: Experiment | None, *said: Said) -> CheckResult:
@@ -81,11 +88,10 @@ def lines(result: CheckResult, capsys: pytest.CaptureFixture[str]) -> list[str]:
 
 def test_three_that_agree_are_right(capsys: pytest.CaptureFixture[str]) -> None:
     numbers = {"x": (0.5, 0.75), "tau": (2.0, 4.0 + 4.4e-15)}
-    result = check({"rumoca": EXPERIMENT.expected, "omc": numbers})
+    result = check({"rumoca": EXPECTED, "omc": numbers})
     assert result.status(strict=True) is CheckStatus.RIGHT
     assert lines(result, capsys) == [
-        "arm: right: 1 model compiles; 10 unknowns; poses agree exactly (link hand); "
-        "torques agree to 1.1e-15 (joint elbow); 0.0 s",
+        "arm: right: 1 model compiles; rigid bodies right; 0.0 s",
         "  rumoca 0.10.2 and OpenModelica 1.27.0 agree to 1.1e-15",
         "  rumoca 0.10.2: 12.0 s, 0 MB; OpenModelica 1.27.0: 34.0 s, 0 MB",
     ]
@@ -109,8 +115,8 @@ def test_who_stands_alone_is_named(
 
 def test_edits_that_two_compilers_understand_in_two_ways_are_a_difference(capsys: pytest.CaptureFixture[str]) -> None:
     """Such as a modifier that one of them ignores: then what is simulated is not what was written."""
-    same = {"rumoca": EXPERIMENT.expected, "omc": EXPERIMENT.expected}
-    result = check(same, {"rumoca": EXPERIMENT.expected, "omc": {"x": (0.5, 0.75), "tau": (2.0, 4.25)}})
+    same = {"rumoca": EXPECTED, "omc": EXPECTED}
+    result = check(same, {"rumoca": EXPECTED, "omc": {"x": (0.5, 0.75), "tau": (2.0, 4.25)}})
     assert result.status(strict=False) is CheckStatus.DIFFERS
     assert lines(result, capsys)[1:-1] == [
         "  joint elbow: with your edits, the torque by OpenModelica 1.27.0 "
@@ -120,7 +126,7 @@ def test_edits_that_two_compilers_understand_in_two_ways_are_a_difference(capsys
 
 
 def test_a_finding_of_both_is_said_once_and_one_of_one_alone_names_it() -> None:
-    numbers = {"rumoca": EXPERIMENT.expected, "omc": EXPERIMENT.expected}
+    numbers = {"rumoca": EXPECTED, "omc": EXPECTED}
     elsewhere = msgspec.structs.replace(LOST, message="units do not fit", line=9)
     in_its_words = msgspec.structs.replace(LOST, message="Variable elbo not found")
     warning = msgspec.structs.replace(LOST, severity=Severity.WARNING)

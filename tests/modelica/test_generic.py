@@ -100,11 +100,12 @@ def test_poses_and_efforts_of_prescribed_motion_agree_with_pinocchio(modelica_li
 def in_form(name: str, form: str) -> physics.Case:
     """The experiment with one of the robots in one of the formulations."""
     case = physics.prepare(generic.ROBOTS[name].encode(), name.title(), approach=("record",))
-    probe = case.experiment.probe
-    assert probe.source.count(".GenericRobot ") == 1
-    source = probe.source.replace(".GenericRobot ", f".{form} ")
-    experiment = msgspec.structs.replace(case.experiment, probe=msgspec.structs.replace(probe, source=source))
-    return physics.Case(experiment, case.package)
+    trials = []
+    for trial in case.experiment.trials:
+        assert trial.probe.source.count(".GenericRobot ") == 1
+        source = trial.probe.source.replace(".GenericRobot ", f".{form} ")
+        trials.append(msgspec.structs.replace(trial, probe=msgspec.structs.replace(trial.probe, source=source)))
+    return physics.Case(msgspec.structs.replace(case.experiment, trials=tuple(trials)), case.package)
 
 
 def test_free_motion_agrees_with_pinocchio(modelica_library: Path, tmp_path: Path) -> None:

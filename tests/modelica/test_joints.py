@@ -10,14 +10,13 @@ import numpy as np
 import pinocchio as pin
 import pytest
 from support import generic, physics
-from support.modelica import Array, Run, Task, bench, simulate
+from support.modelica import DRIVES, Array, Run, Task, bench, simulate
 from support.packages import Package, generate
 from support.urdfs import dynamics, joint, limit, link, links, mimic, robot
 
 from urdfsync.domain import Target
 from urdfsync.urdf.physics import motion
 from urdfsync.urdf.physics.motion import Course
-from urdfsync.urdf.physics.probe import DRIVES
 from urdfsync.urdf.physics.reference import Reference, read
 from urdfsync.urdf.robot import MOTION_KINDS
 
@@ -124,7 +123,7 @@ def release(name: str, urdf: str) -> tuple[Package, Task, Array]:
 def accelerations(urdf: str, axes: Sequence[str], courses: Sequence[Course]) -> Array:
     """Accelerations of axes without drives, the base at rest."""
     reference = Reference(read(urdf.encode(), "robot.urdf"), axes)
-    state = reference.state(0.0, courses)
+    state = reference.state(courses)
     v = reference.projection @ [course.speed for course in courses]
     state.q[:7] = pin.neutral(reference.model)[:7]
     load = pin.nonLinearEffects(reference.model, reference.model.createData(), state.q, v) + reference.losses(v)
@@ -203,7 +202,7 @@ def test_a_rotor_behind_a_gear_counts_as_the_armature_of_pinocchio(modelica_libr
     model = reference.model
     for name, inertia in {"shoulder": 3.0, "elbow": 0.7, "slide": 3.2, "press": 3.4}.items():
         model.armature[model.joints[model.getJointId(name)].idx_v] = inertia
-    state = reference.state(0.0, courses)
+    state = reference.state(courses)
     state.q[:7], state.v[:6], state.a[:6] = pin.neutral(model)[:7], 0, 0
     load = pin.rnea(model, model.createData(), state.q, state.v, state.a) + reference.losses(state.v)
 

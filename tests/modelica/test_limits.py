@@ -13,14 +13,13 @@ from pathlib import Path
 
 import pytest
 from support import generic
-from support.modelica import Run, Series, Task, bench, simulate, simulate_all
+from support.modelica import DRIVES, Run, Series, Task, bench, simulate, simulate_all
 from support.packages import generate, strict
 from support.urdfs import joint, limit, link, mimic, robot
 
 from urdfsync.domain import Axis, Signal, Target
 from urdfsync.simulate.joints import joint_results
 from urdfsync.urdf.benches import bench as bench_of
-from urdfsync.urdf.physics.probe import DRIVES
 
 pytestmark = pytest.mark.slow
 

@@ -6,12 +6,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from support.modelica import Run, Series, bench, simulate
+from support.modelica import DRIVES, Run, Series, bench, simulate
 from support.packages import generate
 from support.urdfs import joint, limit, link, mimic, robot
 
 from urdfsync.domain import Target
-from urdfsync.urdf.physics.probe import DRIVES
 
 pytestmark = pytest.mark.slow
 

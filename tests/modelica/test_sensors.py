@@ -7,16 +7,15 @@ from pathlib import Path
 import numpy as np
 import pinocchio as pin
 import pytest
+from support import physics
 from support.modelica import Array, Run, Task, bench, simulate
 from support.packages import generate
 from support.urdfs import joint, links, robot
 
 from urdfsync.domain import Target
 from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.options import Options
 from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.physics import motion
-from urdfsync.urdf.physics.probe import probe
 from urdfsync.urdf.physics.reference import Reference, read
 
 pytestmark = pytest.mark.slow
@@ -51,13 +50,14 @@ VALUES = [
 ]
 
 
-def expected(time: float) -> Array:
+def expected(instant: motion.Instant) -> Array:
     """What Pinocchio says of the `VALUES`; to it the wrist is a joint that does not move, since it joins fixed ones."""
     content = ARM.replace('name="wrist" type="fixed"', 'name="wrist" type="continuous"').encode()
     tree = KinematicTree.of(read_robot(ARM.encode(), "arm.urdf").robot)  # type: ignore[arg-type]
     axes = motion.driven_axes(tree)
     reference = Reference(read(content, "arm.urdf"), [each.name for each in axes])
-    model, state = reference.model, reference.state(time, [motion.axis_course(each) for each in axes])
+    courses = [motion.axis_courses(each, 0.0)[instant] for each in axes]
+    model, state = reference.model, reference.state(courses, [each[instant] for each in motion.base_courses()])
     hand = model.frames[model.getFrameId("hand", pin.BODY)]
     place = pin.SE3(pin.rpy.rpyToMatrix(0.4, -0.5, 0.6), np.array([0.1, 0.2, -0.3]))
     imu = model.addFrame(pin.Frame("imu", hand.parentJoint, hand.placement * place, pin.OP_FRAME))
@@ -80,13 +80,13 @@ def expected(time: float) -> Array:
 
 def test_sensors_show_what_pinocchio_says_in_motion(modelica_library: Path, tmp_path: Path) -> None:
     """The base and all joints move; Pinocchio's wrenches are those of the parent on the child, in the child's axes."""
-    package = generate(ARM.encode(), Target("Arm", "Arm"))
-    tree = KinematicTree.of(read_robot(ARM.encode(), "arm.urdf").robot, ("Arm",))  # type: ignore[arg-type]
-    moved = probe(tree, Target("Arm", "Arm"), Options())
-    task = Task(moved.source, moved.model, [Run(moved.stop, moved.step)], VALUES)
-    (series,) = simulate(modelica_library, [package.write(tmp_path)], [task])
-    for place, time in ((0, 0.0), (-1, moved.stop)):
-        found, wanted = np.array([series.values[value][place] for value in VALUES]), expected(time)
+    case = physics.prepare(ARM.encode(), "Arm").only("motion")
+    probe = case.experiment.trials[0].probe
+    assert set(VALUES) <= set(probe.values), "the check looks at them, too"
+    task = Task(probe.source, probe.model, [Run(probe.stop, probe.step)], VALUES)
+    (series,) = simulate(modelica_library, [case.package.write(tmp_path)], [task])
+    for instant in (motion.Instant.START, motion.Instant.FAST):
+        found, wanted = np.array([series.values[value][instant] for value in VALUES]), expected(instant)
         assert found == pytest.approx(wanted, rel=1e-9, abs=1e-9 * np.abs(wanted).max())
 
 

@@ -176,7 +176,7 @@ def free_motion(robot: Robot, start: Sequence[Course], stop: float, steps: int, 
 def at_rest(robot: Robot, p: Array, v: Array) -> Configuration:
     """The state with these positions and speeds of the axes, the base at rest at the origin."""
     reference = robot.reference
-    state = reference.state(0, [Course(*pair, 0.0) for pair in zip(p, v, strict=True)])
+    state = reference.state([Course(*pair, 0.0) for pair in zip(p, v, strict=True)])
     state.q[:7], state.v[:6], state.a[:6] = (0, 0, 0, 0, 0, 0, 1), 0, 0
     return state
 

@@ -25,6 +25,19 @@ CACHE = UserCache(Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache
 GRAVITY = 9.80665
 """Of the standard library's world."""
 
+_DRIVE = """
+  model {domain}Drive "Moves a flange as q = a0 + a1*t + a2*t^2/2"
+    parameter Real a0 = 0;
+    parameter Real a1 = 0;
+    parameter Real a2 = 0;
+    Modelica.Mechanics.{domain}.Interfaces.Flange_b flange;
+  equation
+    flange.{q} = a0 + a1*time + a2*time^2/2;
+  end {domain}Drive;
+"""
+DRIVES = _DRIVE.format(domain="Rotational", q="phi") + _DRIVE.format(domain="Translational", q="s")
+"""Models that move a flange, for a package that imports Modelica."""
+
 
 @dataclasses.dataclass(frozen=True)
 class Run:
@@ -47,6 +60,8 @@ class Task:
     model: str
     runs: Sequence[Run] = ()
     values: Sequence[str] = ()
+    pattern: str = ""
+    """See `CompileTask`."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -95,17 +110,17 @@ def compile_task(model: str, *libraries: str, runs: Sequence[Run] = (), values: 
     return Task(task.source, task.model, runs, values)
 
 
-def execute(library: Path, packages: Iterable[Path], todo: Sequence[Task]) -> list[Outcome]:
+def execute(library: Path, packages: Iterable[Path], todo: Sequence[Task], own: Path = URDFSYNC) -> list[Outcome]:
     """Compile and run tasks in a child process, with the standard library, UrdfSync and the folders `packages`.
 
     A child that dies gives outcomes with its last words as the error.
     """
     found = modelica_libraries.find_standard_library(os.environ, library)
     standard = modelica_libraries.standard_library_copy(found.parts, (), CACHE)  # the part of it that robots need
-    roots, tasks = tuple(map(str, (standard, URDFSYNC, *packages))), []
+    roots, tasks = tuple(map(str, (standard, own, *packages))), []
     for task in todo:
         runs = (Simulation(run.stop, run.step, run.parameters, run.tolerance) for run in task.runs)
-        tasks.append(CompileTask(task.model, task.source, tuple(runs), tuple(task.values)))
+        tasks.append(CompileTask(task.model, task.source, tuple(runs), tuple(task.values), task.pattern))
     CACHE.trim()
     try:
         results = run_job(Tool("rumoca"), CompileJob(roots, tuple(tasks)), CACHE, Limits("a test", 3600, 16e9))
@@ -121,15 +136,15 @@ def execute(library: Path, packages: Iterable[Path], todo: Sequence[Task]) -> li
     return outcomes
 
 
-def simulate_all(library: Path, packages: Iterable[Path], todo: Sequence[Task]) -> list[Series]:
+def simulate_all(library: Path, packages: Iterable[Path], todo: Sequence[Task], own: Path = URDFSYNC) -> list[Series]:
     """Execute tasks that compile; returns all their runs, those that came to no end among them."""
-    outcomes = execute(library, packages, todo)
+    outcomes = execute(library, packages, todo, own)
     assert [outcome.error for outcome in outcomes] == [""] * len(todo)
     return [run for outcome in outcomes for run in outcome.runs]
 
 
-def simulate(library: Path, packages: Iterable[Path], todo: Sequence[Task]) -> list[Series]:
+def simulate(library: Path, packages: Iterable[Path], todo: Sequence[Task], own: Path = URDFSYNC) -> list[Series]:
     """Execute tasks that compile, and whose runs all come to their end; returns these runs."""
-    runs = simulate_all(library, packages, todo)
+    runs = simulate_all(library, packages, todo, own)
     assert [run.error for run in runs] == [""] * len(runs)
     return runs

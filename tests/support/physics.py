@@ -7,13 +7,17 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from support.modelica import Run, Task, simulate
+import msgspec
+
+from support.modelica import URDFSYNC, Run, Task, simulate
 from support.packages import Package, generate
 from urdfsync.check import compilation
-from urdfsync.check.results import agrees, largest
-from urdfsync.domain import Deviation, Experiment, Quantity, Target
+from urdfsync.check.flags import flagged
+from urdfsync.check.results import agrees, relative
+from urdfsync.domain import Deviation, Experiment, Target
 from urdfsync.urdf.domain import DOMAIN
 from urdfsync.urdf.options import Options
+from urdfsync.urdf.snapshot import to_snapshot
 
 
 @dataclasses.dataclass(frozen=True)
@@ -22,6 +26,18 @@ class Case:
 
     experiment: Experiment
     package: Package
+
+    def only(self, trial: str) -> Case:
+        """The same with one simulation, or with none for an empty name."""
+        trials = tuple(each for each in self.experiment.trials if each.name == trial)
+        return Case(msgspec.structs.replace(self.experiment, trials=trials), self.package)
+
+    def changed(self, file: str, old: str, new: str) -> Case:
+        """The same with another text in one file."""
+        text = self.package.texts[file]
+        assert old in text, f"{file} has no {old!r}:\n{text}"
+        texts = {**self.package.texts, file: text.replace(old, new)}
+        return Case(self.experiment, dataclasses.replace(self.package, texts=texts))
 
 
 def prepare(source: bytes | Path, name: str = "Bot", **options: Any) -> Case:
@@ -35,18 +51,31 @@ def prepare(source: bytes | Path, name: str = "Bot", **options: Any) -> Case:
     return Case(experiment, generate(source, target, **options))
 
 
-def compare(library: Path, folder: Path, cases: Sequence[Case]) -> list[tuple[Deviation, ...]]:
+def compare(library: Path, folder: Path, cases: Sequence[Case], own: Path = URDFSYNC) -> list[tuple[Deviation, ...]]:
     """Simulate the probes of packages with names of their own, below `folder`: how far each is from the reference."""
     folders = [case.package.write(folder) for case in cases]
-    probes = [case.experiment.probe for case in cases]
-    tasks = [Task(p.source, p.model, [Run(p.stop, p.step)], p.values) for p in probes]
-    results = []
-    for case, run in zip(cases, simulate(library, folders, tasks), strict=True):
-        series = {name: values.tolist() for name, values in run.values.items()}
-        results.append(compilation.compare(case.experiment.compared, series, case.experiment.expected))
+    for file in (file for package in folders for file in package.rglob("*.mo")):
+        file.write_text(flagged(file.read_text("utf-8")), "utf-8")
+    probes = [trial.probe for case in cases for trial in case.experiment.trials]
+    tasks = [Task(p.source, p.model, [Run(p.stop, p.step)], p.values, p.optional) for p in probes]
+    runs, results = iter(simulate(library, folders, tasks, own) if tasks else ()), []
+    for case in cases:
+        motions = {}
+        for trial in case.experiment.trials:
+            run = next(runs)
+            values = {name: numbers.tolist() for name, numbers in run.values.items()}
+            motions[trial.name] = {"time": run.times.tolist(), **values}
+        wiring = DOMAIN.wiring(
+            {path: text.encode() for path, text in case.package.texts.items()},
+            to_snapshot(case.package.robot),
+            case.package.target,
+            case.package.options,
+        )
+        results.append((*compilation.compare_all(case.experiment.trials, motions), *wiring))
     return results
 
 
 def fault(deviations: Sequence[Deviation]) -> Deviation | None:
     """The difference that is greatest against its kind, if one is beyond the tolerance."""
-    return None if all(map(agrees, deviations)) else largest(deviations, tuple(Quantity))
+    faults = [deviation for deviation in deviations if not agrees(deviation)]
+    return max(faults, key=relative, default=None)

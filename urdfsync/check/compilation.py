@@ -23,13 +23,14 @@ from urdfsync.check.compilers.compiler import (
     compile_task,
     one_line,
 )
+from urdfsync.check.flags import with_flags
 from urdfsync.check.jobs import Jobs
 from urdfsync.check.libraries import Libraries
 from urdfsync.check.package import PackageTexts, RobotPackage, UsersModels
 from urdfsync.check.process import Limits
-from urdfsync.check.results import MOST_SINGLE_EDITS, CompiledModel, EditEffect, ToolResult, agrees, listed
+from urdfsync.check.results import MOST_SINGLE_EDITS, CompiledModel, EditEffect, ToolResult, TrialTime, agrees, listed
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError, findings_of
-from urdfsync.domain import Compared, Deviation, Experiment
+from urdfsync.domain import Compared, Deviation, Experiment, Trial
 from urdfsync.engine.generation import generated_texts
 from urdfsync.files import shown
 from urdfsync.output.phrases import counted
@@ -39,6 +40,7 @@ _USERS = "users"
 """The job that compiles models of the user's outside of the package."""
 _MOST_DIAGNOSTICS = 5
 _LONGEST_MESSAGE = 300
+_SAME_TIME = 1e-7  # s
 _BALANCE = re.compile(r"([\d,]+) equations?(?:\(s\))?(?:,| and| for) ([\d,]+) (?:unknown|variable)")
 
 _Job: TypeAlias = tuple[Mapping[str, bytes], Sequence[CompileTask]]
@@ -72,10 +74,10 @@ class Compilation:
         self.result = ToolResult(self._compiler.TITLE)
         self.diagnostics: list[Diagnostic] = []
         self.gaps: list[str] = []
-        self.generated: Series | None = None
-        """The motion of the package as it is generated, completed for the comparison; None without a simulation."""
-        self.edited: Series | None = None
-        """The motion of the package on disk, if it is edited; None without a simulation."""
+        self.generated: Mapping[str, Series] = {}
+        """The simulations of the package as it is generated, completed for the comparison, by the names of trials."""
+        self.edited: Mapping[str, Series] = {}
+        """Those of the package on disk, if it is edited."""
 
     def run(self, experiment: Experiment | None) -> None:
         """Compile the package, and compare it by an experiment: 20 s for a six-axis arm, minutes for a humanoid."""
@@ -88,44 +90,47 @@ class Compilation:
 
     def _versions(self, experiment: Experiment) -> dict[str, _Job]:
         """Return jobs that move the generated package and the edited one, and each edit of the user by itself."""
-        package, probe = self._package, experiment.probe
-        run = Simulation(probe.stop, probe.step)
-        move = [CompileTask(probe.model, probe.source, (run,), probe.values, title="the comparison")]
+        package = self._package
+        move = [_task(trial) for trial in experiment.trials]
         is_same = experiment.content == package.generation.inputs.source.content
         completed = package.generated if is_same else generated_texts(package.generation, experiment.content)
-        jobs: dict[str, _Job] = {"completed": (completed, move)}
+        jobs: dict[str, _Job] = {"completed": (with_flags(completed), move)}
         if package.edits:
-            jobs["edited"] = package.files.texts, move
+            jobs["edited"] = with_flags(package.files.texts), move
             if not is_same:
-                jobs["generated"] = package.generated, move
+                jobs["generated"] = with_flags(package.generated), move
             own = {path: content for path, content in package.on_disk.items() if path not in package.generated}
             for file in package.edits if 1 < len(package.edits) <= MOST_SINGLE_EDITS else ():
-                jobs[file] = {**package.generated, **own, file: package.on_disk[file]}, move
+                texts = {**package.generated, **own, file: package.on_disk[file]}
+                jobs[file] = with_flags(texts), move[:1]
         return jobs
 
     def _compare(self, experiment: Experiment, done: Mapping[str, Sequence[CompileResult]]) -> None:
         """Hold the generated package against the reference, and the edited one against the generated."""
-        package, compared = self._package, experiment.compared
-        self.generated, faults = self._series(done["completed"])
+        package, trials = self._package, experiment.trials
+        self.generated, faults = self._motions(done["completed"], trials)
+        times = zip(trials, done["completed"], strict=False)
+        self.result.times = tuple(TrialTime(trial.name, answer.seconds) for trial, answer in times if answer.seconds)
         self.diagnostics += faults
-        if self.generated is not None:
-            self.result.deviations = compare(compared, self.generated, experiment.expected)
+        if self.generated:
+            generation, robot = package.generation, package.robot
+            snapshot, domain = generation.now.snapshot, generation.inputs.domain
+            wiring = domain.wiring(package.generated, snapshot, robot.target, robot.options)
+            self.result.deviations = (*compare_all(trials, self.generated), *wiring)
         if not package.edits:
             return
         without_edits = self.generated
         if "generated" in done:
-            without_edits, faults = self._series(done["generated"])
+            without_edits, faults = self._motions(done["generated"], trials)
             self.diagnostics += faults
-        self.edited, faults = self._series(done["edited"])
+        self.edited, faults = self._motions(done["edited"], trials)
         if faults:  # no fault of an edited package
             self.gaps.append(f"the effect of your edits was not measured: {faults[0].message}")
-        if self.edited is None or without_edits is None:
+        if not self.edited or not without_edits:
             return
-        alone = {file: self._series(done[file])[0] for file in package.edits if file in done}
-        single = {
-            file: compare(compared, series, without_edits) for file, series in alone.items() if series is not None
-        }
-        whole = compare(compared, self.edited, without_edits)
+        alone = {file: self._motions(done[file], trials)[0] for file in package.edits if file in done}
+        single = {file: compare_all(trials, motions, without_edits) for file, motions in alone.items() if motions}
+        whole = compare_all(trials, self.edited, without_edits)
         self.result.effects = tuple(edit_effects(package.edits, package.files.owners, whole, single))
 
     def _model_jobs(self, count: int) -> dict[str, _Job]:
@@ -198,19 +203,34 @@ class Compilation:
         tell(f"{self._package.robot.name}: loading libraries, then compiling {listed([task.title for task in tasks])}")
         return (self._users_jobs if label == _USERS else self._jobs).run(label, texts, tasks)
 
-    def _series(self, results: Sequence[CompileResult]) -> tuple[Series | None, list[Diagnostic]]:
-        """Return the one simulation of a job; None, and why, if there is none."""
-        if not results:
-            return None, []
-        (result,) = results
-        self._note_version(result)
-        if result.problem:
-            return None, explain(result.problem, self._compiler, self._package.files)
-        (run,) = result.runs
-        if run.problem:
-            message = f"the robot can't be simulated: {one_line(run.problem)[:200]}"
-            return None, [Diagnostic(Severity.ERROR, "no-simulation", message)]
-        return run.values, []
+    def _motions(
+        self, results: Sequence[CompileResult], trials: Sequence[Trial]
+    ) -> tuple[dict[str, Series], list[Diagnostic]]:
+        """Return the simulation of each trial of a job by its name, and why there is none of the first one.
+
+        What the compiler can't do of the others is a gap.
+        """
+        motions = dict[str, Series]()
+        for trial, result in zip(trials, results, strict=False):
+            self._note_version(result)
+            problem = result.problem or result.runs[0].problem
+            if not problem:
+                motions[trial.name] = result.runs[0].values
+            elif trial is not trials[0]:
+                gap = f"{trial.name} was not compared: {one_line(problem)[:_LONGEST_MESSAGE]}"
+                self.gaps += [gap] * (gap not in self.gaps)
+            elif result.problem:
+                return {}, explain(problem, self._compiler, self._package.files)
+            else:
+                message = f"the robot can't be simulated: {one_line(problem)[:200]}"
+                return {}, [Diagnostic(Severity.ERROR, "no-simulation", message)]
+        return motions, []
+
+
+def _task(trial: Trial) -> CompileTask:
+    probe = trial.probe
+    run, title = Simulation(probe.stop, probe.step), f"the comparison ({trial.name})"
+    return CompileTask(probe.model, probe.source, (run,), probe.values, probe.optional, title=title)
 
 
 def _as_part(finding: Diagnostic) -> Diagnostic:
@@ -219,28 +239,51 @@ def _as_part(finding: Diagnostic) -> Diagnostic:
     return msgspec.structs.replace(finding, severity=Severity.WARNING, hint=hint)
 
 
+def compare_all(
+    trials: Iterable[Trial], motions: Mapping[str, Series], others: Mapping[str, Series] | None = None
+) -> tuple[Deviation, ...]:
+    """Return the differences of simulations from what is expected of them, or from others."""
+    deviations = list[Deviation]()
+    for trial in trials:
+        expected = trial.expected if others is None else others.get(trial.name)
+        if trial.name in motions and expected is not None:
+            deviations += compare(trial.compared, motions[trial.name], expected)
+    return tuple(deviations)
+
+
 def compare(compared: Iterable[Compared], series: Series, expected: Series) -> tuple[Deviation, ...]:
-    """Return the differences from the expected values, at beginning and end; one without a number is infinite."""
+    """Return the differences from the expected values, at the instants; one without a number is infinite."""
     deviations: list[Deviation] = []
     for quantity in compared:
-        places = [(name, instant) for name in quantity.values for instant in (0, -1)]
+        places = [(name, instant) for name in quantity.values for instant in quantity.instants]
         pairs = [(_number(series, *place), _number(expected, *place)) for place in places]
         differences = [abs(value - other) for value, other in pairs]
         greatest = math.inf if any(map(math.isnan, differences)) else max(differences)
         value = max((abs(other) for _, other in pairs if math.isfinite(other)), default=0.0)
-        deviations.append(Deviation(quantity.quantity, quantity.element, greatest, value, 0.0, quantity.unit))
-    sizes: dict[tuple[str, str], float] = {}
+        deviations.append(
+            Deviation(
+                quantity.quantity, quantity.element, greatest, value, 0.0, quantity.unit, quantity.part, quantity.detail
+            )
+        )
+    sizes: dict[tuple[str, str, str], float] = {}
     for deviation in deviations:
-        kind = deviation.quantity, deviation.unit
+        kind = deviation.quantity, deviation.unit, deviation.part
         sizes[kind] = max(sizes.get(kind, 0.0), deviation.value)
     return tuple(
-        msgspec.structs.replace(deviation, size=sizes[deviation.quantity, deviation.unit]) for deviation in deviations
+        msgspec.structs.replace(deviation, size=sizes[deviation.quantity, deviation.unit, deviation.part])
+        for deviation in deviations
     )
 
 
-def _number(series: Series, name: str, instant: int) -> float:
+def _number(series: Series, name: str, instant: float) -> float:
+    """Return the number of a variable at a time; a name that is a regular expression has to fit one variable."""
     numbers = series.get(name)
-    return numbers[instant] if numbers else math.nan
+    if numbers is None:
+        fitting = [other for other in series if re.fullmatch(name, other)] if "\\" in name else []
+        numbers = series[fitting[0]] if len(fitting) == 1 else None
+    times = series.get("time", ())
+    place = next((k for k, time in enumerate(times) if abs(time - instant) < _SAME_TIME), None)
+    return numbers[place] if numbers and place is not None else math.nan
 
 
 def edit_effects(
@@ -261,14 +304,8 @@ def edit_effects(
     apart = {
         file: [deviation for deviation in deviations if not agrees(deviation)] for file, deviations in single.items()
     }
-    explained = {
-        (deviation.quantity, deviation.element, deviation.unit)
-        for deviations in apart.values()
-        for deviation in deviations
-    }
-    rest = [
-        deviation for deviation in changes if (deviation.quantity, deviation.element, deviation.unit) not in explained
-    ]
+    explained = {deviation.key for deviations in apart.values() for deviation in deviations}
+    rest = [deviation for deviation in changes if deviation.key not in explained]
     quiet = [file for file in files if not apart.get(file)]
     yield from (effect([file], deviations) for file, deviations in apart.items() if deviations)
     if rest or quiet:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Collection, Iterator, Sequence
 from typing import Any
@@ -9,21 +10,19 @@ from typing import Any
 import msgspec
 
 from urdfsync.check.results import (
-    EFFORTS,
-    MASSES,
-    POSES,
+    KINDS,
     TOLERANCE,
     CheckResult,
     CheckStatus,
     EditEffect,
     ToolResult,
     agrees,
-    largest,
     listed,
     relative,
+    worst,
 )
 from urdfsync.diagnostics import Severity
-from urdfsync.domain import Deviation, Quantity
+from urdfsync.domain import Deviation, Part, Quantity
 from urdfsync.output.console import StyledLine, line
 from urdfsync.output.phrases import counted
 
@@ -35,7 +34,11 @@ _STYLES = {
     "differs": ("≠", "bold red"),
     "failed": ("✗", "bold red"),
 }
-_KINDS = (("poses", POSES), ("torques", EFFORTS), ("masses", MASSES))
+_STATED = {
+    Quantity.WARNING: "the warning “{detail}” does not come where it should, or comes elsewhere",
+    Quantity.CONNECTION: "{detail} is not connected as it should be",
+}
+"""Differences that are no amounts."""
 
 
 def robot_lines(result: CheckResult, *, strict: bool, verbose: bool, marks: bool) -> Iterator[StyledLine]:
@@ -69,7 +72,10 @@ def _differences(result: CheckResult) -> Iterator[tuple[str, str]]:
     deviations = next((tool.deviations for tool in result.tools if tool.deviations), ())
     for deviation, others in _by_kind([deviation for deviation in deviations if not agrees(deviation)]):
         what, amount = _amount(deviation)
-        yield f"{deviation.element}: {what} differs from {reference} by {amount}{others}{advice}", "bold red"
+        fault = f"{what} differs from {reference} by {amount}"
+        if stated := _STATED.get(deviation.quantity):
+            fault = stated.format(detail=deviation.detail)
+        yield f"{deviation.element}: {fault}{others}{advice}", "bold red"
         if deviation.unit in ("N·m", "N", "kg"):
             yield f"  its largest {what} by {reference} is {_digits(deviation.value)} {deviation.unit}", "dim"
         advice = ""
@@ -80,9 +86,15 @@ def _details(result: CheckResult) -> Iterator[str]:
     for tool in result.tools:
         by = f" by {tool.tool}" if len(result.tools) > 1 else ""
         for model in tool.compiled:
-            size = f"{model.unknowns:,} unknowns" if model.unknowns else "compiles"
-            yield f"{model.model}: {size}{by}"
+            yield f"{model.model}: compiles{by}"
+        for part, deviation in worst(tool.deviations or ()).items():
+            place = f"{deviation.element}, {deviation.quantity}"
+            yield f"{part}: relative differences of up to {deviation.relative:.1e} ({place}){by}"
+        for trial in tool.times:
+            yield f"{trial.name}: {trial.seconds:.1f} s{by}"
         for deviation in tool.deviations or ():
+            if deviation.quantity in _STATED:
+                continue
             what, amount = _amount(deviation)
             yield f"{deviation.element}: {what} differs by {amount} ({deviation.relative:.1e}){by}"
     for deviation in result.between or ():
@@ -98,10 +110,15 @@ def _two_tools(result: CheckResult) -> Iterator[tuple[str, str]]:
     if result.between is not None:
         outliers: dict[str, list[Deviation]] = {}
         reference = result.reference or "the reference"
-        for three in zip(first.deviations or (), second.deviations or (), result.between, strict=False):
+        by_second = {deviation.key: deviation for deviation in second.deviations or ()}
+        between = {deviation.key: deviation for deviation in result.between}
+        for deviation in first.deviations or ():
+            if deviation.key not in by_second or deviation.key not in between:
+                continue  # by one compiler alone, or without any
+            three = deviation, by_second[deviation.key], between[deviation.key]
             if not all(map(agrees, three)):
-                worst = max(three, key=relative)
-                outliers.setdefault(_outlier(first.tool, second.tool, reference, *three), []).append(worst)
+                outlier = _outlier(first.tool, second.tool, reference, *three)
+                outliers.setdefault(outlier, []).append(max(three, key=relative))
         for name, deviations in outliers.items():
             for deviation, others in _by_kind(deviations):
                 what, amount = _amount(deviation)
@@ -133,7 +150,7 @@ def _outlier(first: str, second: str, reference: str, *deviations: Deviation) ->
 
 def closing_lines(results: Sequence[CheckResult], *, strict: bool) -> Iterator[StyledLine]:
     """Yield the sentences about several robots, each once."""
-    for label, field in (("not checked", "unchecked"), ("for the comparison", "notes")):
+    for label, field in (("not compared", "unchecked"), ("for the comparison", "notes")):
         robots: dict[str, list[str]] = {}
         for result in results:
             for sentence in dict.fromkeys(getattr(result, field)):
@@ -160,6 +177,10 @@ def to_json(result: CheckResult, strict: bool) -> dict[str, Any]:
         "summary": summary(result, strict),
         "degrees_of_freedom": result.freedoms,
         "tolerance": TOLERANCE,
+        "parts": [
+            {"verdict": _word(each).partition(" ")[0], "worst": _values(each), "part": part}
+            for part, each in worst(result.deviations).items()
+        ],
         "agrees": None if all(tool.deviations is None for tool in result.tools) else not result.differs,
         "tools": list(map(_tool_values, result.tools)),
         "between": _all_values(result.between),
@@ -182,21 +203,21 @@ def _tool_values(tool: ToolResult) -> dict[str, Any]:
             {**msgspec.structs.asdict(effect), "deviations": _all_values(effect.deviations)} for effect in tool.effects
         ],
         "seconds": tool.seconds,
+        "times": [{"trial": trial.name, "seconds": trial.seconds} for trial in tool.times],
         "megabytes": tool.megabytes,
     }
 
 
 def _all_values(deviations: Sequence[Deviation] | None) -> list[dict[str, Any]] | None:
     """Return deviations as plain data; JSON has no infinite numbers."""
-    if deviations is None:
-        return None
-    every = []
-    for deviation in deviations:
-        values = {**msgspec.structs.asdict(deviation), "relative": deviation.relative}
-        for name, value in values.items():
-            values[name] = None if isinstance(value, float) and not math.isfinite(value) else value
-        every.append({**values, "reason": "" if values["difference"] is not None else "the simulation gave no number"})
-    return every
+    return None if deviations is None else list(map(_values, deviations))
+
+
+def _values(deviation: Deviation) -> dict[str, Any]:
+    values = {**msgspec.structs.asdict(deviation), "relative": deviation.relative}
+    for name, value in values.items():
+        values[name] = None if isinstance(value, float) and not math.isfinite(value) else value
+    return {**values, "reason": "" if values["difference"] is not None else "the simulation gave no number"}
 
 
 def summary(result: CheckResult, strict: bool) -> str:
@@ -206,23 +227,21 @@ def summary(result: CheckResult, strict: bool) -> str:
     if result.compiled:
         own = [model for model in result.compiled if not model.is_users]
         count, users = len(own), len(result.compiled) - len(own)
-        model = max(own or result.compiled, key=lambda model: model.unknowns)
         yours = f", and {users} of yours" if users else ""
         if failing := len({name for tool in result.tools for name in tool.failing}):
             yours += f"; {failing} of yours {'does' if failing == 1 else 'do'} not"
         facts.append(f"1 model compiles{yours}" if count == 1 else f"{count} models compile{yours}")
         if result.freedoms is not None:
             facts.append(f"{counted(result.freedoms, 'degree')} of freedom")
-        if model.unknowns:
-            facts.append(f"{model.unknowns:,} unknowns{'' if count == 1 else ' in the largest'}")
     elif not errors:
         facts.append("syntax and layout")
-    for name, quantities in _KINDS:
-        if worst := largest(result.deviations, quantities):
-            agreement = f"agree to {worst.relative:.1e}" if worst.difference else "agree exactly"
-            place = "" if quantities is MASSES else f" ({worst.element})"
-            facts.append(f"{name} {agreement if agrees(worst) else 'differ'}{place}")
+    facts += [f"{part} {_word(deviation)}" for part, deviation in worst(result.deviations).items()]
     return f"{verdict(result, strict)}: {'; '.join(facts)}; {result.seconds:.1f} s"
+
+
+def _word(deviation: Deviation) -> str:
+    """Return the verdict on a part of the model by its greatest deviation."""
+    return "right" if agrees(deviation) else f"differ ({deviation.element})"
 
 
 def verdict(result: CheckResult, strict: bool) -> str:
@@ -239,9 +258,10 @@ def _by_kind(deviations: Sequence[Deviation], owners: Collection[str] = ()) -> I
     The element nearest to the cause comes first: an edited one. Else it is the first from the root, since a displaced
     link takes along all that hangs on it; of efforts it is the last joint, since each joint carries all behind it.
     """
-    for _, quantities in _KINDS:
-        kind = [deviation for deviation in deviations if deviation.quantity in quantities]
-        if quantities is EFFORTS:
+    for is_free, quantities in itertools.product((False, True), KINDS):
+        own = (each for each in deviations if (each.part is Part.FREE_MOTION) == is_free)
+        kind = [each for each in own if each.quantity in quantities]
+        if Quantity.EFFORT in quantities:
             kind.reverse()
         kind.sort(key=lambda deviation: (deviation.element not in owners, deviation.quantity is Quantity.REACTION))
         if names := list(dict.fromkeys(deviation.element for deviation in kind)):
@@ -254,7 +274,8 @@ def _edited(effect: EditEffect) -> str:
 
 def _change(deviation: Deviation, others: str = "") -> str:
     what, amount = _amount(deviation)
-    return f"the {what} of {deviation.element} by {amount}{others}"
+    by = "" if deviation.quantity in _STATED else f" by {amount}"
+    return f"the {what} of {deviation.element}{by}{others}"
 
 
 def _amount(deviation: Deviation) -> tuple[str, str]:
@@ -263,6 +284,8 @@ def _amount(deviation: Deviation) -> tuple[str, str]:
     Lengths are in mm; elements of a rotation matrix are told as the angle that they show.
     """
     what, unit, value = str(deviation.quantity), deviation.unit, deviation.difference
+    if deviation.quantity in _STATED:
+        return f"{what} “{deviation.detail}”", "more than nothing"
     if deviation.quantity in (Quantity.EFFORT, Quantity.REACTION):
         what = f"{'reaction ' if deviation.quantity is Quantity.REACTION else ''}{'force' if unit == 'N' else 'torque'}"
     if deviation.quantity is Quantity.ORIENTATION:

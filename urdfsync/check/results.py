@@ -11,18 +11,24 @@ import msgspec
 
 from urdfsync.check.compilers.compiler import Tool
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.domain import Deviation, Quantity
+from urdfsync.domain import Deviation, Part, Quantity
 from urdfsync.engine.result import Exit
 
 TOLERANCE = 1e-10
 """The greatest difference that counts as agreement, relative to the greatest value of its kind or 1."""
+ACCELERATION_TOLERANCE = 1e-7
+"""The same for accelerations that follow from efforts: equations are solved for them, where digits are lost."""
 
 MOST_SINGLE_EDITS = 6
 """The most edited files that are tried one by one; the effects of more are measured together."""
 
-POSES = (Quantity.POSITION, Quantity.ORIENTATION)
-EFFORTS = (Quantity.EFFORT, Quantity.REACTION)
-MASSES = (Quantity.MASS, Quantity.CENTRE)
+KINDS = (
+    (Quantity.POSITION, Quantity.ORIENTATION),
+    (Quantity.EFFORT, Quantity.REACTION),
+    (Quantity.MASS, Quantity.CENTRE),
+    *((quantity,) for quantity in list(Quantity)[6:]),
+)
+"""Quantities that are told together."""
 
 
 class CheckOptions(msgspec.Struct, frozen=True):
@@ -84,6 +90,13 @@ class EditEffect(msgspec.Struct, frozen=True):
     """The elements that the files belong to, in the domain's words."""
 
 
+class TrialTime(msgspec.Struct, frozen=True):
+    """The CPU time of one simulation with its compiling."""
+
+    name: str
+    seconds: float
+
+
 class ToolResult(msgspec.Struct):
     """The answers of one compiler about a package."""
 
@@ -99,6 +112,8 @@ class ToolResult(msgspec.Struct):
     seconds: float = 0.0
     megabytes: float = 0.0
     """The most memory that its processes took together, looked at ten times a second."""
+    times: tuple[TrialTime, ...] = ()
+    """Those of the comparison, if the compiler tells them."""
 
 
 class CheckResult(msgspec.Struct):
@@ -179,7 +194,12 @@ class CheckResult(msgspec.Struct):
 
 def agrees(deviation: Deviation) -> bool:
     """Whether a difference is within the tolerance; one that is no number is not."""
-    return deviation.relative <= TOLERANCE
+    return deviation.relative <= tolerance(deviation)
+
+
+def tolerance(deviation: Deviation) -> float:
+    """Return the greatest relative difference that counts as agreement."""
+    return ACCELERATION_TOLERANCE if deviation.quantity is Quantity.ACCELERATION else TOLERANCE
 
 
 def relative(deviation: Deviation) -> float:
@@ -187,9 +207,14 @@ def relative(deviation: Deviation) -> float:
     return math.inf if math.isnan(deviation.relative) else deviation.relative
 
 
-def largest(deviations: Iterable[Deviation], quantities: Sequence[Quantity]) -> Deviation | None:
-    """Return the deviation that is greatest relative to its kind; None if nothing of these quantities was compared."""
-    return max((deviation for deviation in deviations if deviation.quantity in quantities), key=relative, default=None)
+def worst(deviations: Iterable[Deviation]) -> dict[Part, Deviation]:
+    """Return the deviation of each part that is greatest against its tolerance, in the order of the parts."""
+    greatest = dict[Part, Deviation]()
+    for part in Part:
+        own = [deviation for deviation in deviations if deviation.part is part]
+        if own:
+            greatest[part] = max(own, key=lambda deviation: relative(deviation) / tolerance(deviation))
+    return greatest
 
 
 def exit_code(results: Iterable[CheckResult], strict: bool) -> Exit:

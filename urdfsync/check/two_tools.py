@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import msgspec
 
-from urdfsync.check.compilation import Compilation, compare
+from urdfsync.check.compilation import Compilation, compare_all
 from urdfsync.check.process import Limits
 from urdfsync.check.results import CheckResult
 from urdfsync.diagnostics import Diagnostic
@@ -33,9 +33,9 @@ def run_compilations(
     if experiment and len(compilations) > 1:
         first, second = compilations
         if first.generated and second.generated:
-            result.between = compare(experiment.compared, second.generated, first.generated)
+            result.between = compare_all(experiment.trials, second.generated, first.generated)
         if first.edited and second.edited:
-            result.between_edited = compare(experiment.compared, second.edited, first.edited)
+            result.between_edited = compare_all(experiment.trials, second.edited, first.edited)
 
 
 def _findings(compilations: Sequence[Compilation]) -> list[Diagnostic]:

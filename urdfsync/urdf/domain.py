@@ -12,6 +12,7 @@ from urdfsync.domain import (
     Bench,
     Conversion,
     Dependency,
+    Deviation,
     Domain,
     Experiment,
     Import,
@@ -189,6 +190,15 @@ class UrdfDomain(Domain):
         from urdfsync.urdf.physics.experiment import experiment  # with numpy, which no build needs
 
         return experiment(content, file, target, options)
+
+    def wiring(
+        self, texts: Mapping[str, bytes], snapshot: Snapshot, target: Target, options: Options
+    ) -> Iterable[Deviation]:
+        """Look at the connections of Run and Test, which only the package approach has."""
+        from urdfsync.urdf.physics.wiring import wiring  # no build needs it
+
+        tree = KinematicTree.of(from_snapshot(snapshot), (target.name,))
+        return wiring(texts, tree, target, options) if "package" in options.approach else ()
 
 
 DOMAIN = UrdfDomain()

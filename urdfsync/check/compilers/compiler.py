@@ -94,6 +94,8 @@ class CompileResult(msgspec.Struct, frozen=True):
     """Parameters that the task sets and on which nothing in the compiled model depends."""
     version: str = ""
     """The version of the compiler, as it says itself."""
+    seconds: float = 0.0
+    """CPU time that the task took; 0 if the compiler does not tell it of one task."""
     fmu: bytes = b""
 
 

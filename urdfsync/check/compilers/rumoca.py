@@ -9,6 +9,7 @@ from __future__ import annotations
 import importlib.util
 import math
 import re
+import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -94,7 +95,9 @@ def work(job: CompileJob) -> Iterator[CompileResult]:
 
     session = rumoca.Session(roots=list(job.roots))
     for task in job.tasks:
-        yield msgspec.structs.replace(_compile(session, task), version=rumoca.version())
+        begin = time.process_time()
+        result = _compile(session, task)
+        yield msgspec.structs.replace(result, version=rumoca.version(), seconds=time.process_time() - begin)
 
 
 def _compile(session: rumoca.Session, task: CompileTask) -> CompileResult:

@@ -1,20 +1,22 @@
 """The motion of a robot in the comparison: a function of names and limits alone, the same on every machine.
 
-The base and all driven axes follow polynomials of time.
+One simulation goes through all instants, since compiling is what costs. Around each instant base and axes follow
+parabolas, so that position, speed and acceleration are what they are to be, and jump to the next in between.
 """
 
 from __future__ import annotations
 
+import enum
 import math
 import random
+from collections.abc import Iterable, Mapping
 from typing import NamedTuple
 
+from urdfsync.modelica.literals import vector
 from urdfsync.urdf.kinematics.poses import own_range
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.robot import MOTIONS, Joint, Vector
 
-DURATION = 0.01
-"""End of the motion, in s: prescribed motion is exact all the time."""
 GRAVITY = 9.81
 """Along -z of the world, in m/s²."""
 
@@ -22,16 +24,71 @@ _FARTHEST = 10.0  # limits beyond it (m or rad) say nothing about where a joint 
 
 
 class Course(NamedTuple):
-    """One coordinate over time, q = position + speed·t + acceleration·t²/2."""
+    """One coordinate at an instant."""
 
     position: float
     speed: float
     acceleration: float
 
-    def at(self, time: float) -> Course:
-        """Return the course as it is at a later time."""
-        position = self.position + self.speed * time + self.acceleration * time**2 / 2
-        return Course(position, self.speed + self.acceleration * time, self.acceleration)
+
+class Instant(enum.IntEnum):
+    """What is looked at when, in s. All up to `TURNED` are compared with the reference, at the others limits alone."""
+
+    START = 0
+    """At rest under gravity, where Run and Test begin; only accelerations differ."""
+    SLOW = 1
+    """As slow as dry friction takes to change its sign."""
+    BACK = 2
+    """The same in the other direction."""
+    FAST = 3
+    TURNED = 4
+    """Fast in the other direction."""
+    BELOW = 5
+    """Just below the lower end of the range, and just too fast."""
+    LOW = 6
+    """Just inside, and just slow enough."""
+    HIGH = 7
+    ABOVE = 8
+    STRAINED = 9
+    """The effort is just above its limit."""
+    LOADED = 10
+    """The effort is just below, in the other direction."""
+
+
+COMPARED = tuple(map(float, list(Instant)[: Instant.TURNED + 1]))
+"""The instants at which all is compared."""
+JUST = 1e-3
+"""Part of a limit by which it is passed, or kept."""
+LOADS = {Instant.STRAINED: 1 + JUST, Instant.LOADED: -1 + JUST}
+"""The part of the limit of its effort that each axis is driven by."""
+_SWINGS = {
+    Instant.START: (0.0, 0.0, 0.0),
+    Instant.SLOW: (0.5, 2e-3, 0.7),
+    Instant.BACK: (-0.3, -1e-3, -0.9),
+    Instant.FAST: (0.8, 1.0, 1.5),
+    Instant.TURNED: (-0.7, -1.0, -1.1),
+}
+"""Parts of one amplitude in position, speed and acceleration."""
+_SHIFTS = {
+    Instant.START: (0.0, 0.0, 1.0),
+    Instant.SLOW: (1.0, 0.0, -1.2),
+    Instant.BACK: (0.6, 0.0, 0.8),
+    Instant.FAST: (-0.4, 0.0, 1.3),
+    Instant.TURNED: (0.9, 0.0, -0.7),
+}
+"""Those of another amplitude, so that speed and acceleration are independent."""
+
+
+def table(courses: Iterable[Course]) -> str:
+    """Return a coordinate at all instants as a matrix of Modelica."""
+    return f"{{{', '.join(vector(course) for course in courses)}}}"
+
+
+def _swinging(start: float, swing: float, shift: float) -> list[Course]:
+    """Return a coordinate at the instants up to `TURNED`."""
+    rows = (zip(_SWINGS[instant], _SHIFTS[instant], strict=True) for instant in _SWINGS)
+    courses = ([swing * a + shift * b for a, b in row] for row in rows)
+    return [Course(start + position, speed, gain) for position, speed, gain in courses]
 
 
 PATH = (Course(0.4, -0.6, 1.1), Course(-0.3, 0.8, -0.7), Course(0.9, 0.5, 1.6))
@@ -40,6 +97,17 @@ TURN = Course(0.7, 0.9, -1.4)
 """Angle of the root link's frame about `TURN_AXIS`."""
 TURN_AXIS: Vector = (2 / 7, 3 / 7, -6 / 7)
 """At an angle to all axes of the world, so that gravity and centrifugal forces act along all axes of the root link."""
+
+
+FREE_START: Mapping[str, Vector] = {
+    "r_start": (0.3, -0.2, 1.5),
+    "rpy_start": (0.4, -0.3, 0.9),
+    "v_start": (0.5, -0.3, 0.8),
+    "w_start": (0.7, -1.1, 0.6),
+}
+"""How a free base sets out, resolved in the world; no two angles are equal, so that their order shows."""
+BENCH_GRAVITY = 9.80665
+"""Of the standard library's world, in which Run and Test are."""
 
 
 def axis_course(joint: Joint) -> Course:
@@ -59,6 +127,25 @@ def axis_course(joint: Joint) -> Course:
         middle, reach = (lower + upper) / 2, min((upper - lower) / 4, 0.5)
     position = middle + draw.uniform(-reach, reach)
     return Course(position, signed(0.25, 0.5), signed(0.5, 1.0))
+
+
+def axis_courses(joint: Joint, start: float, strains: Mapping[Instant, float] = {}) -> tuple[Course, ...]:
+    """Return a driven axis that starts at `start` at all instants; `strains` are its accelerations under load."""
+    course, (lower, upper) = axis_course(joint), own_range(joint)
+    middle, reach = (lower + upper) / 2, (upper - lower) / 2
+    if not math.isfinite(reach):
+        middle, reach = start, 0.5
+    speed = joint.limit.velocity if joint.limit and joint.limit.velocity is not None else abs(course.speed)
+    courses = _swinging(start, course.speed, course.acceleration / 2)
+    for side, just in ((-1, JUST), (-1, -JUST), (1, -JUST), (1, JUST)):
+        courses.append(Course(middle + side * reach * (1 + just), side * speed * (1 + just), 0.0))
+    return (*courses, *(Course(middle, 0.0, strains.get(instant, 0.0)) for instant in LOADS))
+
+
+def base_courses() -> tuple[tuple[Course, ...], ...]:
+    """Return x, y, z and the angle of the base at all instants; it rests where limits are passed."""
+    every = [(course.position, _swinging(*course)) for course in (*PATH, TURN)]
+    return tuple((*courses, *(Course(start, 0.0, 0.0) for _ in range(6))) for start, courses in every)
 
 
 def driven_axes(tree: KinematicTree) -> tuple[Joint, ...]:

@@ -5,46 +5,24 @@ It relies on little of the package, so that packages may be edited: on the varia
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
 
 import msgspec
 
-from urdfsync.domain import Compared, Probe, Quantity, Target
+from urdfsync.domain import Probe, Target
 from urdfsync.modelica.literals import vector
 from urdfsync.urdf.connectors import connector_names
-from urdfsync.urdf.drives import can_be_driven
+from urdfsync.urdf.kinematics.poses import start_positions
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.physics import motion
-from urdfsync.urdf.robot import MOTION_KINDS, MOTIONS
+from urdfsync.urdf.physics.motion import Course, table
+from urdfsync.urdf.robot import MOTION_KINDS, MOTIONS, Joint
 
 _GROUND_DEPTH = 1e9  # m: the contacts of a mobile robot are that far down, and nothing touches
-_DRIVE = """
-  model {domain}Drive "Moves a flange as q = a0 + a1*t + a2*t^2/2"
-    parameter Real a0 = 0;
-    parameter Real a1 = 0;
-    parameter Real a2 = 0;
-    Modelica.Mechanics.{domain}.Interfaces.Flange_b flange;
-  equation
-    flange.{q} = a0 + a1*time + a2*time^2/2;
-  end {domain}Drive;
-"""
-DRIVES = _DRIVE.format(domain="Rotational", q="phi") + _DRIVE.format(domain="Translational", q="s")
-"""Models that move a flange, for a package that imports Modelica."""
-
-_BASE = """
-  model MovingBase "Moves and turns a frame"
-    Modelica.Mechanics.MultiBody.Interfaces.Frame_b frame_b;
-    Modelica.Units.SI.Angle phi;
-    Modelica.Units.SI.AngularVelocity w;
-  equation
-    Connections.root(frame_b.R);
-    frame_b.r_0 = {{{path}}};
-    phi = {turn};
-    w = der(phi);
-    frame_b.R = Modelica.Mechanics.MultiBody.Frames.planarRotation({axis}, phi, w);
-  end MovingBase;
-"""
+_PARTS = (Path(__file__).parent / "parts.mo").read_text("utf-8")
 
 FORCE = tuple(f"base.frame_b.f[{i}]" for i in (1, 2, 3))
 TORQUE = tuple(f"base.frame_b.t[{i}]" for i in (1, 2, 3))
@@ -63,23 +41,31 @@ class RobotVariables(msgspec.Struct, frozen=True):
     """An expression: the sum of mass times place over all links, in kg·m."""
     flanges: Mapping[str, str]
     """Connector of the axis of each joint that can be driven."""
-    compared: tuple[Compared, ...]
-    """Quantities that are compared, from the root outwards."""
+    places: Mapping[str, tuple[str, ...]]
+    """Place of each link's frame."""
+    axes: Mapping[str, tuple[str, ...]]
+    """Its rotation matrix, as Modelica has it."""
+    records: Mapping[str, str]
+    """Record of each joint."""
+    joints: Mapping[str, str]
+    """Component of each joint; none in the record."""
+    sensors: Mapping[str, str]
+    """Component of each sensor; none in the record."""
 
 
-def robot_variables(tree: KinematicTree, target: Target, options: Options) -> RobotVariables:
-    """Return the names for the approach that is compared: that of the package, if there is a choice.
-
-    With the record, the generic robot is moved: links are numbers there, and only their poses are told.
-    """
-    compared, moments, three = list[Compared](), list[str](), (1, 2, 3)
-    is_package = "package" in options.approach
+def robot_variables(tree: KinematicTree, target: Target, options: Options, approach: str) -> RobotVariables:
+    """Return the names for an approach. With the record, the generic robot is moved: links are numbers there."""
+    moments, three = list[str](), (1, 2, 3)
+    places, axes, is_package = dict[str, tuple[str, ...]](), dict[str, tuple[str, ...]](), approach == "package"
+    names = connector_names(tree, options)
+    sensors = {name: f"robot.{component}" for name, component in names.sensors.items() if is_package}
+    joints = {joint.name: f"robot.{tree.joint(joint.name).component}" for joint in tree.joints if is_package}
     if is_package:
         declaration = f"{target.package}.{target.name} robot(animation = false, "
-        flanges = {name: f"robot.{drive.axis}" for name, drive in connector_names(tree, options).drives.items()}
+        flanges = {name: f"robot.{drive.axis}" for name, drive in names.drives.items()}
     else:
-        record = f"redeclare parameter {target.package}.{target.name}Parameters data"
-        declaration = f"UrdfSync.Robots.GenericRobot robot({record}, "
+        data = f"redeclare parameter {target.package}.{target.name}Parameters data"
+        declaration = f"UrdfSync.Robots.GenericRobot robot({data}, checkLimits = false, "
         flanges = {
             joint.name: f"robot.{kind}Axis[{number}]"
             for kind in MOTIONS
@@ -88,54 +74,115 @@ def robot_variables(tree: KinematicTree, target: Target, options: Options) -> Ro
     for k, link in enumerate(tree.links, 1):
         if is_package:
             part = f"robot.{tree.link(link.name).component}"
-            place = tuple(f"{part}.frame_a.r_0[{i}]" for i in three)
-            axes = tuple(f"{part}.frame_a.R.T[{i},{j}]" for i in three for j in three)
-            inertial = f"{part}.parameters.inertial"
-            centre = f"Modelica.Mechanics.MultiBody.Frames.resolve1({part}.frame_a.R, {inertial}.origin.xyz)"
-            moments.append(f"{inertial}.mass*({part}.frame_a.r_0 + {centre})")
+            places[link.name] = tuple(f"{part}.frame_a.r_0[{i}]" for i in three)
+            axes[link.name] = tuple(f"{part}.frame_a.R.T[{i},{j}]" for i in three for j in three)
+            numbers = f"{part}.parameters.inertial"
+            centre = f"Modelica.Mechanics.MultiBody.Frames.resolve1({part}.frame_a.R, {numbers}.origin.xyz)"
+            moments.append(f"{numbers}.mass*({part}.frame_a.r_0 + {centre})")
         else:
-            place = tuple(f"robot.r_0[{k},{i}]" for i in three)
-            axes = tuple(f"robot.R_0[{k},{j},{i}]" for i in three for j in three)
+            places[link.name] = tuple(f"robot.r_0[{k},{i}]" for i in three)
+            axes[link.name] = tuple(f"robot.R_0[{k},{j},{i}]" for i in three for j in three)
             centre = f"robot.R_0[{k}, :, :]*robot.data.linkCenters[{k}, :]"
             moments.append(f"robot.data.linkMasses[{k}]*(robot.r_0[{k}, :] + {centre})")
-        compared.append(Compared(Quantity.POSITION, f"link {link.name}", "m", place))
-        compared.append(Compared(Quantity.ORIENTATION, f"link {link.name}", "", axes))
-    for joint in filter(can_be_driven, tree.joints):
-        unit, effort = ("N·m", "tau") if MOTION_KINDS[joint.type] == "rotational" else ("N", "f")
-        compared.append(Compared(Quantity.EFFORT, f"joint {joint.name}", unit, (f"{flanges[joint.name]}.{effort}",)))
-    compared += [
-        Compared(Quantity.REACTION, f"link {tree.links[0].name}", "N", FORCE),
-        Compared(Quantity.REACTION, f"link {tree.links[0].name}", "N·m", TORQUE),
-        Compared(Quantity.MASS, "robot", "kg", MASS),
-        Compared(Quantity.CENTRE, "robot", "m", CENTRE),
-    ]
-    return RobotVariables(declaration, " + ".join(moments), flanges, tuple(compared))
+    record = "robot.{}.parameters" if is_package else "robot.data.{}"
+    records = {joint.name: record.format(tree.joint(joint.name).component) for joint in tree.joints}
+    return RobotVariables(declaration, " + ".join(moments), flanges, places, axes, records, joints, sensors)
 
 
-def probe(tree: KinematicTree, target: Target, options: Options) -> Probe:
-    """Return a model in which every axis of the robot moves, and the values to compare."""
-    names = robot_variables(tree, target, options)
-    libraries = [name for name, _ in options.uses]
-    imports = dict.fromkeys([*libraries, target.package.partition(".")[0]])  # rumoca loads no others
+def moving_probe(
+    tree: KinematicTree, target: Target, options: Options, names: RobotVariables,
+    courses: Mapping[str, Sequence[Course]], gears: Iterable[str], values: Iterable[str], optional: str,
+) -> Probe:  # fmt: skip
+    """Return a model in which every axis of the robot moves along `courses`, through all instants."""
     world = f"n = {{0, 0, -1}}, g = {motion.GRAVITY!r}, enableAnimation = false"
     declarations = [f"inner Modelica.Mechanics.MultiBody.World world({world})"]
     if options.base == "floating":
         declarations.append(f"inner UrdfSync.Contacts.Ground ground(height = {-_GROUND_DEPTH!r})")
-    declarations += ["MovingBase base", f"{names.declaration}checkLimits = false, fixedStart = false)"]
+    declarations.append(f"{names.declaration}fixedStart = false)")
     connections = ["base.frame_b, robot.frame_a"]
     for k, joint in enumerate(motion.driven_axes(tree), 1):
-        course = ", ".join(f"a{power} = {value!r}" for power, value in enumerate(motion.axis_course(joint)))
-        declarations.append(f"{MOTION_KINDS[joint.type].capitalize()}Drive drive{k}({course})")
+        drive = MOTION_KINDS[joint.type].capitalize()
+        declarations.append(f"{drive}Drive drive{k}(courses = {table(courses[joint.name])})")
         connections.append(f"drive{k}.flange, {names.flanges[joint.name]}")
+    for k, joint_name in enumerate(gears, 1):
+        gear = f"{names.records[joint_name]}.transmission"
+        declarations.append(f"Real gear{k}[3] = {{{gear}.reduction, {gear}.offset, {gear}.rotorInertia}}")
     centre = f"({names.moment})/(if mass > 0 then mass else 1)"
     declarations += ["Real mass = robot.m", f"Real centre[3] = {centre}"]
-    *path, turn = (f"{q!r} + ({v!r})*time + ({a!r})*time^2/2" for q, v, a in (*motion.PATH, motion.TURN))
+    ways = zip(("x", "y", "z", "turn"), motion.base_courses(), strict=True)
+    base = ", ".join(f"{name} = {table(courses_)}" for name, courses_ in ways)
+    declarations.append(f"MovingBase base({base}, axis = {vector(motion.TURN_AXIS)})")
+    source = _text(target, options, "", declarations, connections)
+    last = float(max(motion.Instant))
+    return Probe(source, "Probe_.Probe", last, 1.0, tuple(values), optional)
+
+
+def free_probe(
+    tree: KinematicTree, target: Target, options: Options, names: RobotVariables, efforts: Sequence[float],
+    values: Iterable[str],
+) -> Probe:  # fmt: skip
+    """Return a model in which the axes are pushed, from other speeds than zero; every second one from its own place.
+
+    It stands in the bench that Run and Test extend: so gravity is theirs.
+    """
+    starts, turning, sliding = list[str](), dict[str, tuple[float, float]](), dict[str, tuple[float, float]]()
+    positions = start_positions(tree)
+    for k, joint in enumerate(motion.driven_axes(tree)):
+        course, is_turning = free_course(joint, positions[joint.name], k), MOTION_KINDS[joint.type] == "rotational"
+        (turning if is_turning else sliding)[joint.name] = course.position, course.speed
+        q, v = ("phi", "w") if is_turning else ("s", "v")
+        place = f"{q}_start = {course.position!r}, " if k % 2 else ""
+        component = names.joints.get(joint.name, "").removeprefix("robot.")
+        starts.append(f"{component}({place}{v}_start = {course.speed!r})")
+    if not names.joints and starts:
+        starts = [
+            f"{name}_start = {vector([start[k] for start in some.values()])}"
+            for some, pair in ((turning, ("phi", "w")), (sliding, ("s", "v")))
+            for k, name in enumerate(pair)
+            if some
+        ]
+    modifiers = ", ".join([*starts, "fixedStart = true)"])
+    declarations, connections = [f"{names.declaration}{modifiers}"], ["world.frame_b, robot.frame_a"]
+    bench = "UrdfSync.Robots.PartialBench(world(enableAnimation = false))"
+    if options.base == "floating":
+        connections = ["base.frame_b, robot.frame_a"]
+        start = ", ".join(f"{name} = {vector(value)}" for name, value in motion.FREE_START.items())
+        ground = f"ground(height = {-_GROUND_DEPTH!r}, animation = false)"
+        bench = f"UrdfSync.Robots.PartialMobileBench({start}, world(enableAnimation = false), {ground})"
+    for k, (joint, effort) in enumerate(zip(motion.driven_axes(tree), efforts, strict=True), 1):
+        declarations.append(f"{MOTION_KINDS[joint.type].capitalize()}Push push{k}(effort = {effort!r})")
+        connections.append(f"push{k}.flange, {names.flanges[joint.name]}")
+    source = _text(target, options, bench, declarations, connections)
+    return Probe(source, "Probe_.Probe", 1e-6, 1e-6, tuple(values))
+
+
+def free_course(joint: Joint, start: float, number: int) -> Course:
+    """Return where the axis with this number, from 0, begins to move freely, and how fast; and a likely gain."""
+    course = motion.axis_course(joint)
+    return course if number % 2 else course._replace(position=start)
+
+
+def limit_pattern(tree: KinematicTree, joint: Joint, ending: str) -> str:
+    """Return a regular expression for the variable of a warning, with the name of the joint in its message.
+
+    The robot itself looks at the effort of a joint that leads others, which carries theirs.
+    """
+    component, name = re.escape(tree.joint(joint.name).component), "warning_getInstanceName"
+    if ending.endswith("effort_limit") and joint.name in tree.followers_by_leader():
+        return rf"robot\.{name}_{component}_joint_{component}_parameters_name_{ending}"
+    return rf"robot\.{component}\.{name}_joint_parameters_name_{ending}"
+
+
+def _text(target: Target, options: Options, bench: str, declarations: Iterable[str], connections: Iterable[str]) -> str:
+    """Return the package `Probe_`, whose model `Probe` may extend a bench."""
+    libraries = [name for name, _ in options.uses]
+    imports = dict.fromkeys([*libraries, target.package.partition(".")[0]])  # rumoca loads no others
     lines = [
         "package Probe_",
         *(f"  import {library};" for library in imports),
-        DRIVES,
-        _BASE.format(path=", ".join(path), turn=turn, axis=vector(motion.TURN_AXIS)),
+        _PARTS,
         "  model Probe",
+        *([f"    extends {bench};"] if bench else []),
         *(f"    {declaration};" for declaration in declarations),
         "  equation",
         *(f"    connect({connection});" for connection in connections),
@@ -143,5 +190,4 @@ def probe(tree: KinematicTree, target: Target, options: Options) -> Probe:
         "end Probe_;",
         "",
     ]
-    values = tuple(value for quantity in names.compared for value in quantity.values)
-    return Probe("\n".join(lines), "Probe_.Probe", motion.DURATION, motion.DURATION / 4, values)
+    return "\n".join(lines)

@@ -1,7 +1,7 @@
-"""The reference: poses and efforts of a robot by Pinocchio, at prescribed motion.
+"""The reference: poses, efforts, accelerations and readings of sensors of a robot by Pinocchio.
 
-Pinocchio reads the file by itself. Only the parts that its reader leaves out are added here: `mimic` elements, and the
-inertia that drives add to joints.
+Pinocchio reads the file by itself. Only the parts that its reader leaves out are added here: `mimic` elements, drives,
+and the places of sensors. They are read once more, since our own reader is under test.
 
 Notation as in Featherstone, Rigid Body Dynamics Algorithms (2008): efforts by the recursive Newton-Euler algorithm
 (RNEA, section 5.3). Joints that mimic others enter through q = B·p + c with the positions p of the driven axes. The
@@ -10,8 +10,10 @@ efforts of these are Bᵀ·tau.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import contextlib
+from collections.abc import Collection, Mapping, Sequence
 from typing import Any, NamedTuple
+from xml.etree.ElementTree import Element, tostring
 
 import msgspec
 import numpy as np
@@ -20,10 +22,9 @@ from numpy.typing import NDArray
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.extras import install_command
 from urdfsync.urdf.parse import xml
-from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.physics import motion
 from urdfsync.urdf.physics.motion import Course
-from urdfsync.urdf.robot import Mimic, effective, reflected_inertia
+from urdfsync.urdf.robot import Mimic, Sensor, Vector
 
 Array = NDArray[np.float64]
 
@@ -42,10 +43,26 @@ class PinocchioRobot(NamedTuple):
     """Mimic relation of each follower, by the names of joints."""
 
 
-def read(content: bytes, file: str) -> PinocchioRobot:
-    """Read a URDF with Pinocchio. Raises SourceError if Pinocchio is not installed or refuses the file."""
+class Gear(NamedTuple):
+    """The drive of a joint, read once more."""
+
+    reduction: float = 1.0
+    offset: float = 0.0
+    rotor: float = 0.0
+
+
+def read(content: bytes, file: str, loose: Collection[str] = ()) -> PinocchioRobot:
+    """Read a URDF with Pinocchio. Raises SourceError if Pinocchio is not installed or refuses the file.
+
+    Fixed joints in `loose` are joints that do not move, since Pinocchio knows no force in those that it merges.
+    """
     pin = pinocchio()
     root = xml.parse(content).root
+    if loose:
+        for joint in root.findall("joint"):
+            if joint.get("name") in loose and joint.get("type") == "fixed":
+                joint.set("type", "continuous")
+        content = tostring(root)
     followers = {
         joint.get("name", ""): Mimic(
             mimic.get("joint", ""), float(mimic.get("multiplier", "1")), float(mimic.get("offset", "0"))
@@ -61,11 +78,47 @@ def read(content: bytes, file: str) -> PinocchioRobot:
         message = f"Pinocchio can't read this file: {str(error).rstrip('.')}"
         hint = "correct the file, or check without --physics"
         raise SourceError(Diagnostic(Severity.ERROR, "pinocchio-refuses", message, file, hint=hint)) from error
-    robot = read_robot(content, file).robot
-    for joint in map(effective, robot.joints if robot else ()):
-        if inertia := reflected_inertia(joint):
-            model.armature[model.joints[model.getJointId(joint.name)].idx_v] = inertia
+    gears = read_gears(root)
+    for joint in root.findall("joint"):
+        name, armature = joint.get("name", ""), joint.find("dynamics[@armature]")
+        if model.existJointName(name) and (coordinates := model.joints[model.getJointId(name)]).nv == 1:
+            gear = gears.get(name, Gear())
+            added = 0.0 if armature is None else float(armature.get("armature", "0"))
+            model.armature[coordinates.idx_v] = added + gear.rotor * gear.reduction**2
     return PinocchioRobot(model, followers)
+
+
+def read_gears(root: Element) -> dict[str, Gear]:
+    """Return the gears of a URDF by their joints: of a transmission with one joint, by the ends of its tags."""
+    gears = dict[str, Gear]()
+    for element in root.iter("transmission"):
+        numbers = dict[str, float]()
+        for part in element.iter():
+            tag = part.tag.rpartition(":")[2].replace("_", "").lower()
+            with contextlib.suppress(ValueError):
+                numbers[tag] = float(part.get("value", part.text or ""))
+        names = ("gearratio", "mechanicalreduction"), ("offset",), ("rotorinertia",)
+        values = [next((numbers[name] for name in some if name in numbers), None) for some in names]
+        if len(joints := element.findall("joint")) == 1 and any(value is not None for value in values):
+            gear = Gear(values[0] or 1.0, values[1] or 0.0, values[2] or 0.0)
+            if gear != Gear():
+                gears.setdefault(joints[0].get("name", ""), gear)
+    return gears
+
+
+def read_place(root: Element, sensor: Sensor) -> tuple[list[float], list[float]]:
+    """Return place and angles of a sensor on its link: of the first element with its name that has a place."""
+    for element in root.iter("sensor"):
+        if sensor.name.rpartition("/")[2] not in (element.get("name"), ""):
+            continue
+        if (origin := element.find("origin")) is not None:
+            texts = origin.get("xyz", "0 0 0"), origin.get("rpy", "0 0 0")
+            return [float(x) for x in texts[0].split()], [float(x) for x in texts[1].split()]
+        if (pose := element.find("pose")) is not None and len(numbers := (pose.text or "").split()) == 6:
+            values = [float(x) for x in numbers]
+            in_degrees = pose.get("degrees", "").strip().lower() in ("true", "1")
+            return values[:3], list(np.radians(values[3:])) if in_degrees else values[3:]
+    return list(sensor.origin.xyz), list(sensor.origin.rpy)
 
 
 def pinocchio() -> Any:
@@ -85,6 +138,8 @@ class Configuration(msgspec.Struct, frozen=True):
     q: Array
     v: Array
     a: Array
+    positions: Array
+    """Positions of joints, by the coordinates of the velocity; those of the base count for nothing."""
 
 
 class Reference:
@@ -101,15 +156,16 @@ class Reference:
             if joint.shortname().startswith(_SLIDING_JOINTS):
                 self.steepness[joint.idx_v] = SLIDING_STEEPNESS
 
-    def state(self, time: float, courses: Sequence[Course]) -> Configuration:
-        """Return the configuration at a time; `courses` are those of the axes from time 0."""
+    def state(self, courses: Sequence[Course], base: Sequence[Course] = (*motion.PATH, motion.TURN)) -> Configuration:
+        """Return the configuration with the axes there; of the base, place and angle."""
         pin, model = self.pin, self.model
-        p, speeds, gains = np.array([course.at(time) for course in courses]).reshape(-1, 3).T
-        q = pin.integrate(model, pin.neutral(model), self.projection @ p + self._offset)
-        state = Configuration(q, self.projection @ speeds, self.projection @ gains)
+        p, speeds, gains = np.array(courses).reshape(-1, 3).T
+        positions = self.projection @ p + self._offset
+        q = pin.integrate(model, pin.neutral(model), positions)
+        state = Configuration(q, self.projection @ speeds, self.projection @ gains, positions)
         # Pinocchio resolves velocity and acceleration of the root link in its own frame.
-        place, velocity, acceleration = np.array([course.at(time) for course in motion.PATH]).T
-        angle, speed, gain = motion.TURN.at(time)
+        place, velocity, acceleration = np.array(base[:3]).T
+        angle, speed, gain = base[3]
         axis = np.array(motion.TURN_AXIS)
         inward = pin.exp3(angle * axis).T
         state.q[:7] = *place, *pin.Quaternion(inward.T).coeffs()
@@ -117,12 +173,96 @@ class Reference:
         state.a[:6] = *inward @ acceleration - np.cross(speed * axis, inward @ velocity), *gain * axis
         return state
 
-    def solve(self, state: Configuration) -> Instant:
+    def free_state(self, courses: Sequence[Course], start: Mapping[str, Vector]) -> Configuration:
+        """Return a configuration at time 0, with the start values of a free base; else it rests at zero."""
+        state, pin = self.state(courses), self.pin
+        state.q[:7], state.v[:6], state.a[:6] = (*(0,) * 6, 1), 0, 0
+        if start:
+            rotation = pin.rpy.rpyToMatrix(*start["rpy_start"])
+            state.q[:7] = *start["r_start"], *pin.Quaternion(rotation).coeffs()
+            state.v[:3], state.v[3:6] = (rotation.T @ np.array(start[name]) for name in ("v_start", "w_start"))
+        return state
+
+    def base_gain(self, state: Configuration, gains: Array) -> Array:
+        """Return the acceleration of the root link's frame in the world, without gravity."""
+        rotation = self.pin.Quaternion(state.q[3:7]).matrix()
+        return np.asarray(rotation @ (gains[:3] + np.cross(state.v[3:6], state.v[:3])))
+
+    def coordinates(self) -> dict[str, int]:
+        """Return the coordinate of the velocity of each joint that moves."""
+        return {name: joint.idx_v for name, joint in zip(self.model.names, self.model.joints, strict=True)}
+
+    def effort_gains(self, state: Configuration, efforts: Array) -> Array:
+        """Return the accelerations of the axes that follow from their efforts, where the base moves as in `state`.
+
+        (Bᵀ·M·B)·a = efforts - Bᵀ·(tau of a = 0).
+        """
+        data, still = self.model.createData(), state.a.copy()
+        still[6:] = 0
+        load = self.pin.rnea(self.model, data, state.q, state.v, still) + self.losses(state.v)
+        return self._solved(self._mass(state.q), self.projection, efforts - self.projection.T @ load)
+
+    def free_gains(self, state: Configuration, efforts: Array, is_free: bool) -> Array:
+        """Return the accelerations of all coordinates that follow from the efforts of the axes.
+
+        The base rests, unless `is_free`: then nothing holds it.
+        """
+        data, nv = self.model.createData(), self.model.nv
+        load = self.pin.rnea(self.model, data, state.q, state.v, np.zeros(nv)) + self.losses(state.v)
+        ways, drives = self.projection, efforts
+        if is_free:
+            ways = np.column_stack([np.eye(nv, 6), ways])
+            drives = np.concatenate([np.zeros(6), drives])
+        return np.asarray(ways @ self._solved(self._mass(state.q), ways, drives - ways.T @ load))
+
+    def _mass(self, q: Array) -> Array:
+        upper = np.triu(self.pin.crba(self.model, self.model.createData(), q))
+        return np.asarray(upper + np.triu(upper, 1).T)
+
+    @staticmethod
+    def _solved(mass: Array, ways: Array, efforts: Array) -> Array:
+        if not len(efforts):
+            return np.zeros(0)
+        return np.asarray(np.linalg.lstsq(ways.T @ mass @ ways, efforts)[0])
+
+    def acceleration(self, state: Configuration, sensor: Sensor, root: Element) -> tuple[Array, Array]:
+        """Return acceleration minus gravity and angular velocity at a place on a link, in the axes of the sensor."""
+        pin, model = self.pin, self.model
+        place, angles = read_place(root, sensor)
+        link = model.frames[model.getFrameId(sensor.at, pin.BODY)]
+        pose = link.placement * pin.SE3(pin.rpy.rpyToMatrix(*angles), np.array(place))
+        added = pin.Frame(f"sensor {sensor.name}", link.parentJoint, pose, pin.OP_FRAME)
+        frame = model.addFrame(added, append_inertia=False)
+        data = model.createData()
+        pin.forwardKinematics(model, data, state.q, state.v, state.a)
+        pin.updateFramePlacements(model, data)
+        gravity = data.oMf[frame].rotation.T @ model.gravity.linear
+        gain = pin.getFrameClassicalAcceleration(model, data, frame, pin.LOCAL).linear - gravity
+        return gain, pin.getFrameVelocity(model, data, frame, pin.LOCAL).angular
+
+    def wrench(self, state: Configuration, sensor: Sensor, parent: str, root: Element) -> tuple[Array, Array]:
+        """Return force and torque in the joint that a sensor is at, below the link `parent`, in the sensor's axes."""
+        pin, model = self.pin, self.model
+        data, joint = model.createData(), model.getJointId(sensor.at)
+        pin.rnea(model, data, state.q, state.v, state.a)
+        pin.updateFramePlacements(model, data)
+        words = next((part for part in root.iter("sensor") if part.get("name") == sensor.name.rpartition("/")[2]), root)
+        where, way = (words.findtext(f"force_torque/{tag}", "").strip() for tag in ("frame", "measure_direction"))
+        axes = np.eye(3)
+        if where == "parent":
+            link = data.oMf[model.getFrameId(parent, pin.BODY)].rotation
+            axes = link.T @ data.oMi[joint].rotation
+        elif where == "sensor":
+            axes = pin.rpy.rpyToMatrix(*read_place(root, sensor)[1]).T
+        sign = 1 if way == "parent_to_child" else -1
+        return sign * axes @ data.f[joint].linear, sign * axes @ data.f[joint].angular
+
+    def solve(self, state: Configuration) -> Solution:
         """Return poses, and the efforts of base and axes."""
         pin, data = self.pin, self.model.createData()
         load = pin.rnea(self.model, data, state.q, state.v, state.a) + self.losses(state.v)
         pin.framesForwardKinematics(self.model, data, state.q)
-        return Instant(self, data, state.q, load[:3], load[3:6], self.projection.T @ load)
+        return Solution(self, data, state.q, load[:3], load[3:6], self.projection.T @ load)
 
     def losses(self, v: Array) -> Array:
         """Return efforts of damping and dry friction at velocity v."""
@@ -143,7 +283,7 @@ class Reference:
         return projection, offset
 
 
-class Instant(msgspec.Struct, frozen=True):
+class Solution(msgspec.Struct, frozen=True):
     """Poses and efforts of a robot at one instant, by the reference."""
 
     reference: Reference

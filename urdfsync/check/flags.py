@@ -1,0 +1,46 @@
+"""Packages in which warnings are variables, so that one simulation tells when each would come.
+
+A compiler may print no warnings, or look at them at the beginning only.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+
+_ASSERTION = re.compile(
+    r"^  assert\((?P<condition>[^;]*?),\s+(?P<message>getInstanceName\(\)[^;]*), AssertionLevel\.warning\);",
+    re.MULTILINE,
+)
+"""An assertion that only warns, in the layout of generated files; not one inside of another equation."""
+_EQUATIONS = re.compile(r"^equation$", re.MULTILINE)
+_OTHERS = re.compile(r"^(algorithm|initial equation|initial algorithm)$", re.MULTILINE)
+
+
+def with_flags(texts: Mapping[str, bytes]) -> dict[str, bytes]:
+    """Return the files of a package with a variable in the place of each assertion that only warns."""
+    return {
+        path: flagged(content.decode("utf-8", "surrogateescape")).encode("utf-8", "surrogateescape")
+        if path.endswith(".mo")
+        else content
+        for path, content in texts.items()
+    }
+
+
+def flagged(text: str) -> str:
+    """Return the text of a class with variables in the place of warnings: 1 where the warning comes, else 0.
+
+    The name of each is `warning_` and the words of its message. A class with algorithms stays as it is.
+    """
+    names = dict[str, None]()
+
+    def flag(match: re.Match[str]) -> str:
+        name = "warning_" + re.sub(r"\W+", "_", match["message"]).strip("_")
+        if name in names:
+            return match[0]
+        names[name] = None
+        return f"  {name} = noEvent(if {match['condition']} then 0 else 1);"
+
+    changed = _ASSERTION.sub(flag, text)
+    declared = "".join(f"Real {name};\n" for name in names)
+    return _EQUATIONS.sub(f"{declared}equation", changed, count=1) if names and not _OTHERS.search(text) else text

@@ -1,0 +1,96 @@
+"""How Run and Test are connected, as their texts say it: they are compiled, but nobody drives Run."""
+
+from __future__ import annotations
+
+import re
+from collections import defaultdict
+from collections.abc import Iterator, Mapping, Sequence
+
+from urdfsync.domain import Deviation, Part, Quantity, Target
+from urdfsync.modelica.literals import string
+from urdfsync.modelica.parser import parse
+from urdfsync.modelica.syntax import Class, Component, Modifier, Name
+from urdfsync.urdf.connectors import Drive, connector_names, input_vector
+from urdfsync.urdf.kinematics.tree import KinematicTree
+from urdfsync.urdf.options import Options
+
+_CONNECT = re.compile(r"\bconnect\(([\w.]+(?:\[\d+\])?), ([\w.]+(?:\[\d+\])?)\)")
+_REFERENCES = {"position": ("phi_ref", "s_ref"), "velocity": ("w_ref", "v_ref"), "effort": ("tau", "f")}
+"""Inputs of sources, by what they are told."""
+_BENCHES = ("PartialBench", "PartialMobileBench")
+
+
+def wiring(texts: Mapping[str, bytes], tree: KinematicTree, target: Target, options: Options) -> Iterator[Deviation]:
+    """Yield whether each axis has a source of its own, with its own input; and whether gravity is that of the bench."""
+    names, numbered = connector_names(tree, options), 0
+    classes = {bench: _read(texts, f"{target.name}{bench}") for bench in ("Run", "Test")}
+    for bench, (definition, _) in classes.items():
+        yield _deviation("robot", f"gravity of {bench}", definition is not None and _has_own_gravity(definition))
+    used = defaultdict[str, set[str]](set)
+    for joint, drive in names.drives.items():
+        component = tree.joint(joint).component
+        record = texts.get(f"Joints/{tree.joint(joint).type}Parameters.mo", b"").decode()
+        is_named = f"name = {string(joint)}" in record
+        yield Deviation(
+            Quantity.WARNING, f"joint {joint}", float(not is_named), 1.0, 1.0, "", Part.LIMITS, "names the joint"
+        )
+        if drive.command is None:
+            continue
+        numbered += 1
+        for bench, (definition, ends) in classes.items():
+            source = _source(ends, drive)
+            is_right = source not in used[bench] and source != "" and definition is not None
+            used[bench].add(source)
+            if bench == "Run":
+                expected = f"{input_vector(names)}[{numbered}]" if options.inputs == "vector" else _input(drive)
+                references = [f"{source}.{name}" for name in _REFERENCES[drive.command]]
+                is_right = is_right and [e for name in references for e in ends.get(name, ())] == [expected]
+            elif definition is not None:
+                parts = [part for part in definition.components if str(part.name) == source]
+                is_right = is_right and all(_moves(part, component) for part in parts)
+            yield _deviation(f"joint {joint}", f"source in {bench}", is_right)
+
+
+def _deviation(element: str, detail: str, is_right: bool) -> Deviation:
+    return Deviation(Quantity.CONNECTION, element, float(not is_right), 1.0, 1.0, "", Part.BENCHES, detail)
+
+
+def _read(texts: Mapping[str, bytes], name: str) -> tuple[Class | None, Mapping[str, Sequence[str]]]:
+    """Return a class of the package, and the ends that each end in it is connected to."""
+    text = texts.get(f"{name}.mo", b"").decode()
+    ends = defaultdict[str, list[str]](list)
+    for first, second in _CONNECT.findall(text):
+        ends[first].append(second)
+        ends[second].append(first)
+    return next(iter(parse(text).classes), None), ends
+
+
+def _has_own_gravity(definition: Class) -> bool:
+    """Return whether a bench extends one of the library's, and leaves its world as it is."""
+    bases = [base for base in definition.extends if base.type.parts[-1] in _BENCHES]
+    changed = [str(argument.name) for base in bases for argument in base.arguments]
+    return len(bases) == 1 and "world" not in (*changed, *(str(part.name) for part in definition.components))
+
+
+def _source(ends: Mapping[str, Sequence[str]], drive: Drive) -> str:
+    """Return the component that alone moves an axis against its own housing; empty if there is none."""
+    flanges, supports = (ends.get(f"robot.{name}", ()) for name in (drive.axis, drive.support))
+    if len(flanges) != 1 or len(supports) != 1:
+        return ""
+    source, _, connector = flanges[0].rpartition(".")
+    return source if connector == "flange" and supports[0] == f"{source}.support" else ""
+
+
+def _input(drive: Drive) -> str | None:
+    return {"position": drive.position, "velocity": drive.velocity, "effort": drive.effort}[drive.command or ""]
+
+
+def _moves(part: Component, component: str) -> bool:
+    """Return whether the modifiers of a source speak of one joint alone."""
+
+    def uses(arguments: Sequence[Modifier]) -> Iterator[Name]:
+        for argument in arguments:
+            yield from argument.uses
+            yield from uses(argument.arguments)
+
+    return {name.parts[1] for name in uses(part.arguments) if name.parts[0] == "robot"} <= {component}
