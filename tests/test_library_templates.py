@@ -62,7 +62,13 @@ def library_artifacts() -> Iterator[Artifact | Order]:
         data = named_data("Joints", name, f"UrdfSync.Records.{name}Joint")
         facts = JOINT_KINDS[joint]
         data |= {"dynamics": facts.has_axis, "accelerations": True, "note": note}
-        data |= {"inertia": facts.motion is not None, "motor": False}
+        data |= {
+            "inertia": facts.motion is not None,
+            "motor": False,
+            "friction": "smooth",
+            "elastic": False,
+            "saturated": False,
+        }
         yield Artifact(f"Joints/{name}.mo", Role.MODEL, f"joint/{joint}.mo.jinja", data, name)
 
 

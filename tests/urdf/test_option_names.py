@@ -114,3 +114,48 @@ def test_passive_joints_are_a_note_unless_the_option_says_what_is_driven() -> No
     assert found(WITH_DRIVE) == [("driven", Severity.NOTE, note)]
     assert found(WITH_DRIVE, driven=("wheel",)) == []
     assert found(WITH_DRIVE, approach=("record",)) == []
+
+
+def test_laws_and_drives_that_make_no_model() -> None:
+    """Each joint is told with its reason; a table has the line of its entry, an option its own."""
+    dry, wet = ('<dynamics friction="2"/>',), ('<dynamics damping="2"/>',)
+    arm = urdfs.robot(
+        *map(urdfs.link, ("base", "a", "b", "c", "d")),
+        urdfs.joint("dry", "revolute", "base", "a", inside=dry),
+        urdfs.joint("wet", "revolute", "a", "b", inside=wet),
+        urdfs.joint("bare", "revolute", "b", "c"),
+        urdfs.joint("tail", "revolute", "c", "d", inside=[urdfs.mimic("dry"), *dry]),
+    )
+
+    def told(**options: Any) -> list[tuple[str, str]]:
+        return sorted((option, said.partition(";")[0]) for option, _, said in found(arm, **options))
+
+    assert told(friction="lugre") == [("friction", "`friction` means `wet`, which has no dry friction")]
+    assert told(friction={"dry": "lugre"}, elastic=("dry",), saturated=("dry",)) == []
+    assert told(friction={"dry": "stiction"}, driven=()) == []
+    assert told(friction={"dry": "stiction", "bare": "lugre"}) == [
+        ("friction.bare", "`friction` means `bare`, which has no dry friction"),
+        ("friction.dry", "`friction` means `dry`, which sticks while Test prescribes its motion"),
+    ]
+    assert told(friction={"tail": "lugre"}) == [
+        ("friction.tail", f"`friction` names `tail`, but the robot has no such {DRIVEN}")
+    ]
+    assert told(saturated=("wet",)) == [
+        ("saturated", "`saturated` means `wet`, which has a drive that prescribes its motion at any effort")
+    ]
+    assert told(elastic=("wet", "wett")) == [
+        ("elastic", f"`elastic` names `wett`, but the robot has no such {DRIVEN} that Run and Test drive")
+    ]
+
+
+def test_an_effort_needs_an_inertia_before_the_spring() -> None:
+    for dynamics, count in (('damping="1"', 1), ('damping="1" armature="0.1"', 0)):
+        arm = urdfs.robot(
+            *map(urdfs.link, ("base", "a")),
+            urdfs.joint("dry", "revolute", "base", "a", inside=[f"<dynamics {dynamics}/>"]),
+            '<transmission name="t"><joint name="dry">'
+            "<hardwareInterface>EffortJointInterface</hardwareInterface></joint></transmission>",
+        )
+        words = [said for _, _, said in found(arm, elastic="all", saturated="all")]
+        assert len(words) == count
+        assert all("has no inertia before the spring" in said for said in words)

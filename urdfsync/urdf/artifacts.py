@@ -10,6 +10,7 @@ import msgspec
 from urdfsync.domain import Artifact, Import, Order, Role, Target
 from urdfsync.modelica.literals import html
 from urdfsync.urdf.connectors import connector_names
+from urdfsync.urdf.drives import driven_joints
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.model.record import NO_LIMITS, record_data
 from urdfsync.urdf.model.robot import bench_data, joint_model, joint_title, robot_data
@@ -33,14 +34,14 @@ def artifacts(robot: Robot, imports: Mapping[str, Import], target: Target, optio
     names, structure = connector_names(tree, options), tree.structure()
     files = list(_package(tree, target, options))
     if "package" in options.approach:
-        benches = bench_data(tree, names, options)
+        benches, driven = bench_data(tree, names, options), driven_joints(tree.joints, options)
         files.append(_of_robot("", "robot", target, options, robot_data(structure, names)))
         files.append(_of_robot("Run", "run", target, options, benches))
         files.append(_of_robot("Test", "test", target, options, benches))
         for link in tree.links:
             files += _link(link, tree.link(link.name), imports, package, options)
         for joint in tree.joints:
-            files += _joint(joint, tree.joint(joint.name), package, options)
+            files += _joint(joint, tree.joint(joint.name), package, options, joint.name in driven)
         if tree.sensors:
             data = {"record": f"{target.name}Sensors", "sensors": sensor_records(tree, names)}
             files.append(_of_robot("Sensors", "sensors", target, options, data, Role.RECORD))
@@ -167,7 +168,9 @@ def _link(
     )
 
 
-def _joint(joint: Joint, name: Identifier, package: str, options: Options) -> tuple[Artifact, Artifact]:
+def _joint(
+    joint: Joint, name: Identifier, package: str, options: Options, is_driven: bool
+) -> tuple[Artifact, Artifact]:
     """Return record and model of a joint."""
     owner = f"joint {joint.name}"
     named = {
@@ -179,7 +182,7 @@ def _joint(joint: Joint, name: Identifier, package: str, options: Options) -> tu
     record = {"joint": joint, "limits": joint.limit or NO_LIMITS}
     ends = f"<code>{html(joint.child)}</code> relative to link <code>{html(joint.parent)}</code>"
     note = f"The URDF joint <code>{html(joint.name)}</code>: link {ends} {JOINT_KINDS[joint.type].does}. {_EDIT}"
-    model = joint_model(joint, options) | {"note": note}
+    model = joint_model(joint, options, is_driven) | {"note": note}
     template = f"joint/{joint.type}"
     return (
         Artifact(f"Joints/{name.record}.mo", Role.RECORD, f"{template}_parameters.mo.jinja", named | record, owner),

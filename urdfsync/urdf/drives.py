@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from urdfsync.urdf.options import Options
+from urdfsync.urdf.options import FrictionLaw, Options
 from urdfsync.urdf.robot import MOTION_KINDS, Joint
 
 
@@ -44,6 +44,22 @@ def passive_joints(joints: Iterable[Joint]) -> frozenset[str]:
 def has_motor(joint: Joint, options: Options) -> bool:
     """Return whether the motor's side of the joint's gear has a flange."""
     return options.drives == "motor" and joint.transmission is not None and can_be_driven(joint)
+
+
+def friction_law(joint: Joint, options: Options) -> FrictionLaw | None:
+    """Return the law of the losses of a joint with one axis; None without losses.
+
+    A joint that follows another one has the smooth law: two that are stuck would hold the same motion twice.
+    """
+    if joint.dynamics is None:
+        return None
+    law = options.friction if isinstance(options.friction, str) else options.friction.get(joint.name, "smooth")
+    return law if can_be_driven(joint) else "smooth"
+
+
+def is_chosen(joint: Joint, names: str | tuple[str, ...]) -> bool:
+    """Return whether the option `elastic` or `saturated` means a joint, if that is driven."""
+    return names == "all" or (not isinstance(names, str) and joint.name in names)
 
 
 def can_be_driven(joint: Joint) -> bool:

@@ -9,17 +9,18 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Collection, Iterator, Sequence, Set
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence, Set
 
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.spelling import nearest
-from urdfsync.urdf.drives import can_be_driven, driven_joints, passive_joints
+from urdfsync.urdf.drives import can_be_driven, driven_joints, is_chosen, passive_joints
 from urdfsync.urdf.kinematics.poses import own_range
 from urdfsync.urdf.names import natural_key
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import Joint
+from urdfsync.urdf.robot import Joint, reflected_inertia
 
 _DRIVABLE = "revolute, continuous or prismatic joint without <mimic>"
+_DRIVEN = f"{_DRIVABLE} that Run and Test drive"
 
 
 def check_options(
@@ -43,11 +44,16 @@ def check_options(
         for name in [name for name in options.commands if name in ranges and name not in driven]:
             message = f"`commands` names `{name}`, which `driven` leaves out"
             yield f"commands.{name}", Diagnostic(Severity.ERROR, "drive-of-no-joint", message, hint="add it there")
-        frames = options.frames if isinstance(options.frames, tuple) else ()
         checks += (
-            ("frames", frames, links, "link", "frame-of-no-link"),
+            ("frames", _listed(options.frames), links, "link", "frame-of-no-link"),
             ("driven", options.driven or (), drivable, _DRIVABLE, "drive-of-no-joint"),
             *((f"commands.{name}", (name,), drivable, _DRIVABLE, "drive-of-no-joint") for name in options.commands),
+            ("elastic", _listed(options.elastic), driven, _DRIVEN, "drive-of-no-joint"),
+            ("saturated", _listed(options.saturated), driven, _DRIVEN, "drive-of-no-joint"),
+            *(
+                (f"friction.{name}", (name,), drivable, _DRIVABLE, "law-of-no-joint")
+                for name in _named(options.friction)
+            ),
         )
     for option, given, possible, kind, code in checks:
         for name, count in Counter(given).items():
@@ -59,6 +65,8 @@ def check_options(
                 hint = f"did you mean `{near}`?" if near else "correct its name, or take it out"
                 message = f"`{option.partition('.')[0]}` names `{name}`, but the robot has no such {kind}"
                 yield option, Diagnostic(Severity.ERROR, code, message, hint=hint)
+    if "package" in options.approach:
+        yield from _check_laws(joints, options)
     if "package" in options.approach and options.driven is None:
         yield from _find_passive(joints, passive_joints(joints) - driven)
 
@@ -75,3 +83,39 @@ def _find_passive(joints: Sequence[Joint], passive: Set[str]) -> Iterator[tuple[
             message = f"Run and Test do not drive {listed}: {reason}"
             hint = "if that is wrong, list all joints to drive in `driven`"
             yield "driven", Diagnostic(Severity.NOTE, "passive-joints", message, hint=hint)
+
+
+def _listed(names: str | tuple[str, ...]) -> tuple[str, ...]:
+    return () if isinstance(names, str) else names
+
+
+def _named(friction: str | Mapping[str, str]) -> Iterable[str]:
+    return () if isinstance(friction, str) else friction
+
+
+def _check_laws(joints: Sequence[Joint], options: Options) -> Iterator[tuple[str, Diagnostic]]:
+    """Yield an error for each joint whose chosen friction and drive make no model."""
+    driven, named = driven_joints(joints, options), _named(options.friction)
+    for joint in filter(can_be_driven, joints):
+        law = options.friction if isinstance(options.friction, str) else options.friction.get(joint.name, "smooth")
+        is_dry = joint.dynamics is not None and joint.dynamics.friction > 0
+        is_driven, by_effort = joint.name in driven, joint.command == "effort"
+        is_elastic = is_driven and is_chosen(joint, options.elastic)
+        faults = []
+        if law != "smooth" and not is_dry and (joint.dynamics or joint.name in named):
+            hint = "give its <dynamics> friction, or choose laws by joints"
+            faults.append(("friction", "has no dry friction", hint))
+        elif law == "stiction" and is_driven and not is_elastic:
+            faults.append(
+                ("friction", "sticks while Test prescribes its motion", 'name it in `elastic`, or choose "lugre"')
+            )
+        if is_elastic and by_effort and not reflected_inertia(joint):
+            hint = "give it an armature or a rotor, or take it out"
+            faults.append(("elastic", "is driven by an effort, but has no inertia before the spring", hint))
+        if is_driven and is_chosen(joint, options.saturated) and not is_elastic and not by_effort:
+            hint = "name it in `elastic`, or give it the command `effort`"
+            faults.append(("saturated", "has a drive that prescribes its motion at any effort", hint))
+        for option, reason, hint in faults:
+            place = f"friction.{joint.name}" if option == "friction" and joint.name in named else option
+            message = f"`{option}` means `{joint.name}`, which {reason}"
+            yield place, Diagnostic(Severity.ERROR, f"{option}-impossible", message, hint=hint)

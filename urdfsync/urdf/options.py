@@ -16,6 +16,7 @@ _VISUALIZER_USES = {"visualization2": ("Visualization2", "1.1")}
 """Further library of the packages for a visualizer."""
 
 
+FrictionLaw: TypeAlias = Literal["smooth", "stiction", "lugre"]
 LeftOut: TypeAlias = Literal["loop-joint", "stray-inertial"]
 """Codes of errors about what moves with the robot and can't be in its model."""
 
@@ -39,6 +40,12 @@ class Options(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """The quantity by which Run drives a joint, by URDF names of joints; others go by the source."""
     start: Mapping[str, float] = {}
     """Positions at which simulations begin, in rad or m, by URDF names of joints; others go by the source."""
+    friction: FrictionLaw | Mapping[str, FrictionLaw] = "smooth"
+    """The law of dry friction: of all joints that have it and follow no other one, or by URDF names of joints."""
+    elastic: Literal["none", "all"] | tuple[str, ...] = "none"
+    """URDF names of driven joints with a spring and a damper between drive and joint."""
+    saturated: Literal["none", "all"] | tuple[str, ...] = "none"
+    """URDF names of driven joints whose drives keep their limits of effort and velocity."""
     drives: Literal["joint", "motor"] = "joint"
     """`motor`: the robot model has a flange at the motor's side of each gear, too."""
     frames: Literal["leaves", "all"] | tuple[str, ...] = "leaves"

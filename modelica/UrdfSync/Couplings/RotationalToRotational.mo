@@ -7,16 +7,13 @@ model RotationalToRotational "A turning joint follows a turning joint"
     "Multiplier and offset";
 
   parameter Modelica.Units.SI.Angle phi_min = -Modelica.Constants.inf
-    "Smallest position of the joint that follows"
-    annotation (Dialog(group="Range of the follower"));
+    "Smallest position of the joint that follows";
 
   parameter Modelica.Units.SI.Angle phi_max = Modelica.Constants.inf
-    "Largest position of the joint that follows"
-    annotation (Dialog(group="Range of the follower"));
+    "Largest position of the joint that follows";
 
   parameter Modelica.Units.SI.AngularVelocity w_max = Modelica.Constants.inf
-    "Largest speed of the joint that follows"
-    annotation (Dialog(group="Range of the follower"));
+    "Largest speed of the joint that follows";
 
   final parameter Boolean narrows = abs(parameters.multiplier) > Modelica.Constants.eps
     "= true, if the joint that follows moves at all, and so narrows the range of its leader";

@@ -1,27 +1,10 @@
 within UrdfSync.Friction;
 
 model Rotational "Viscous damping and smooth dry friction between two rotational flanges"
-  extends UrdfSync.Icons.Friction;
-  extends Modelica.Mechanics.Rotational.Interfaces.PartialTwoFlanges;
-
-  parameter UrdfSync.Records.RotationalDynamics parameters
-    "Damping, dry friction and its steepness";
-
-  Modelica.Units.SI.Angle phi_rel
-    "Position of flange_b relative to flange_a";
-
-  Modelica.Units.SI.AngularVelocity w
-    "Speed of flange_b relative to flange_a";
-
-  Modelica.Units.SI.Torque tau
-    "Loss torque: it acts against the motion";
+  extends UrdfSync.Friction.PartialRotational;
 
 equation
-  phi_rel = flange_b.phi - flange_a.phi;
-  w = der(phi_rel);
   tau = parameters.damping*w + parameters.friction*tanh(0.5*parameters.steepness*w);
-  flange_b.tau = tau;
-  flange_a.tau = -tau;
 
   annotation (Documentation(info="<html>
 <pre>

@@ -1,27 +1,10 @@
 within UrdfSync.Friction;
 
 model Translational "Viscous damping and smooth dry friction between two translational flanges"
-  extends UrdfSync.Icons.Friction;
-  extends Modelica.Mechanics.Translational.Interfaces.PartialTwoFlanges;
-
-  parameter UrdfSync.Records.TranslationalDynamics parameters
-    "Damping, dry friction and its steepness";
-
-  Modelica.Units.SI.Position s_rel
-    "Position of flange_b relative to flange_a";
-
-  Modelica.Units.SI.Velocity v
-    "Speed of flange_b relative to flange_a";
-
-  Modelica.Units.SI.Force f
-    "Loss force: it acts against the motion";
+  extends UrdfSync.Friction.PartialTranslational;
 
 equation
-  s_rel = flange_b.s - flange_a.s;
-  v = der(s_rel);
   f = parameters.damping*v + parameters.friction*tanh(0.5*parameters.steepness*v);
-  flange_b.f = f;
-  flange_a.f = -f;
 
   annotation (Documentation(info="<html>
 <pre>

@@ -13,7 +13,12 @@ tau = d*w + tau_d*tanh(s*w/2)     joints that turn: N.m, rad/s
 f   = d*v + f_d*tanh(s*v/2)       joints that slide: N, m/s
 </pre>
 <p>
-The steepness <code>s</code> is no number of URDF. It stands in the record of each joint: <code>elbow(parameters(dynamics(steepness = 300)))</code>.
+This law is smooth: under load a joint creeps. Two others hold: <a href=\"modelica://UrdfSync.Friction.RotationalStiction\">stiction</a>, which is exact and has events, and
+<a href=\"modelica://UrdfSync.Friction.RotationalLuGre\">LuGre</a>, which has a stiff state instead. The option <code>friction</code> of a robot chooses, and so does
+<code>redeclare model FrictionLaw = UrdfSync.Friction.RotationalLuGre</code> in a joint.
+</p>
+<p>
+All numbers but damping and dry friction are no numbers of URDF. They stand in the record of each joint: <code>elbow(parameters(dynamics(steepness = 300)))</code>.
 </p>
 </html>"));
 end Friction;

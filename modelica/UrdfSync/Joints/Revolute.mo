@@ -24,7 +24,12 @@ model Revolute "Revolute joint"
     "Motion along the axis"
     annotation (Placement(transformation(extent={{0, -10}, {20, 10}})));
 
-  UrdfSync.Friction.Rotational friction(parameters = parameters.dynamics)
+  replaceable model FrictionLaw = UrdfSync.Friction.Rotational
+    constrainedby UrdfSync.Friction.PartialRotational
+    "Law of damping and dry friction"
+    annotation (choicesAllMatching=true);
+
+  FrictionLaw friction(parameters = parameters.dynamics)
     "Damping and dry friction"
     annotation (Placement(transformation(extent={{0, 30}, {20, 50}})));
 
@@ -61,8 +66,8 @@ equation
     annotation (Line(points={{4, 10}, {4, 20}, {-14, 20}, {-14, 40}, {0, 40}}, color={0, 0, 0}));
   connect(revolute.axis, friction.flange_b)
     annotation (Line(points={{10, 10}, {10, 20}, {40, 20}, {40, 40}, {20, 40}}, color={0, 0, 0}));
-  connect(revolute.axis, inertia.flange_a)
-    annotation (Line(points={{10, 10}, {10, 20}, {40, 20}, {40, 40}, {76, 40}}, color={0, 0, 0}));
+  connect(axis, inertia.flange_a)
+    annotation (Line(points={{0, 100}, {0, 94}, {46, 94}, {46, 40}, {76, 40}}, color={0, 0, 0}));
 
   annotation (
     Icon(coordinateSystem(preserveAspectRatio=true, extent={{-100, -100}, {100, 100}}), graphics={

@@ -12,12 +12,24 @@ record RotationalDynamics "Losses of a turning joint"
   UrdfSync.Types.RotationalSteepness steepness = 100
     "How sharply the dry friction changes its sign around standstill";
 
+  Modelica.Units.SI.Torque breakaway(min = 0) = friction
+    "Torque at which a joint breaks loose that stands still; laws with stiction only";
+
+  Modelica.Units.SI.AngularVelocity stribeckSpeed = 0.05
+    "Speed at which the breakaway torque has nearly gone; LuGre only";
+
+  Modelica.Units.SI.Angle bristleDeflection = 1e-4
+    "Deflection of the bristles at which they slide; LuGre only";
+
+  Modelica.Units.SI.Time bristleTime = 1e-3
+    "Damping of the bristles, divided by their stiffness; LuGre only";
+
   Modelica.Units.SI.Inertia armature = 0
     "Inertia that the drive adds at the joint";
 
   annotation (Documentation(info="<html>
 <p>
-The <code>&lt;dynamics&gt;</code> element of URDF, and a number of the friction law that URDF does not have:
+The <code>&lt;dynamics&gt;</code> element of URDF, and numbers of the friction laws that URDF does not have:
 <a href=\"modelica://UrdfSync.Friction.Rotational\">Friction.Rotational</a> describes it. A joint has 90 % of its dry friction at
 <code>2.94/steepness</code>: at 0.03 rad/s, which is 1.7 degrees per second.
 </p>

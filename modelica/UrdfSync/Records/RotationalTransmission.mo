@@ -12,9 +12,16 @@ record RotationalTransmission "Gear and rotor of the drive of a turning joint"
   Modelica.Units.SI.Inertia rotorInertia = 0
     "Inertia of the rotor, on the motor's side of the gear";
 
+  Modelica.Units.SI.RotationalSpringConstant stiffness = 1e4
+    "Stiffness between drive and joint, if the drive is elastic";
+
+  Modelica.Units.SI.RotationalDampingConstant damping(min = 0) = 100
+    "Damping in parallel to the stiffness";
+
   annotation (Documentation(info="<html>
 <p>
-The numbers of the <code>&lt;transmission&gt;</code> of a joint: position of the motor = reduction * (position of the joint - offset).
+The numbers of the <code>&lt;transmission&gt;</code> of a joint: position of the motor = reduction * (position of the joint - offset). Stiffness and
+damping are no numbers of URDF, and count for drives that the option <code>elastic</code> names.
 </p>
 </html>"));
 end RotationalTransmission;

@@ -7,28 +7,22 @@ block AxisSweeps "Smooth ways of all axes of one kind to the roomier ends of the
     "Number of axes";
 
   parameter Real start[n] = zeros(n)
-    "Positions at the beginning, all in rad or all in m"
-    annotation (Dialog(group="Range"));
+    "Positions at the beginning, all in rad or all in m";
 
   parameter Real lower[n] = fill(-1, n)
-    "Smallest positions"
-    annotation (Dialog(group="Range"));
+    "Smallest positions";
 
   parameter Real upper[n] = fill(1, n)
-    "Largest positions"
-    annotation (Dialog(group="Range"));
+    "Largest positions";
 
   parameter Real velocity[n] = fill(1, n)
-    "Largest velocities"
-    annotation (Dialog(group="Range"));
+    "Largest velocities";
 
   parameter Real reach = 1
-    "Longest way"
-    annotation (Dialog(group="Motion"));
+    "Longest way";
 
   parameter Modelica.Units.SI.Time period = 10
-    "Time of the way there and back"
-    annotation (Dialog(group="Motion"));
+    "Time of the way there and back";
 
   final parameter Real turn[n] = UrdfSync.Dynamics.sweepTurns(start, lower, upper, velocity, period, reach)
     "Turning points";

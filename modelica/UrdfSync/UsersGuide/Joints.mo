@@ -58,7 +58,7 @@ tau = d*w + f*tanh(s*w/2)
 <p>
 It acts against the motion. For sliding joints read force for torque and <code>v</code> for <code>w</code>. The second term is the law
 <code>2*f/(1 + exp(-s*w)) - f</code> of Pign&egrave;de and Oldemeyer, written so that no speed makes it overflow. There is no stiction:
-under load an axis creeps. Damping is in N&middot;m&middot;s/rad for turning and N&middot;s/m for sliding joints, friction in N&middot;m and N.
+under load an axis creeps. <a href=\"modelica://UrdfSync.Friction\">Other laws</a> hold: redeclare the joint's class <code>FrictionLaw</code>. Damping is in N&middot;m&middot;s/rad for turning and N&middot;s/m for sliding joints, friction in N&middot;m and N.
 A planar joint has one component, with the same two numbers, per direction of motion.
 </p>
 <h4>Mimic</h4>

@@ -39,6 +39,12 @@ HAS_STANDARD_LIBRARY = False
 
 _FILE = "Task.mo"  # always the same, so that a text takes the place of the one before in the compiler's memory
 _UNKNOWN = frozenset(("state", "algebraic", "output", "discrete_real", "discrete_value"))
+_SEARCH = "mode search limit"
+_STUCK = (
+    "rumoca finds no beginning for joints with the friction law stiction that slide at the start: "
+    'choose `friction = "lugre"`, or OpenModelica with `--tool`'
+)
+"""In place of what rumoca 0.10.2 says of two such joints."""
 _SPAN = re.compile(r" @ Span \{.*?\) \}")
 
 _SHADOW = "variability violation: "
@@ -208,4 +214,5 @@ def _simulate(model: rumoca.Model, run: Simulation, task: CompileTask) -> Simula
 
 def _words(error: Exception) -> str:
     """Return the compiler's message without places in its own notation."""
-    return _SPAN.sub("", str(error.args[0] if error.args else error))
+    words = _SPAN.sub("", str(error.args[0] if error.args else error))
+    return _STUCK if _SEARCH in words else words

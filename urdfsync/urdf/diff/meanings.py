@@ -13,7 +13,7 @@ import msgspec
 
 from urdfsync.domain import ChangeClass, ChangeKind, Difference, Import, Meaning, Version
 from urdfsync.urdf import robot
-from urdfsync.urdf.drives import driven_joints
+from urdfsync.urdf.drives import can_be_driven, driven_joints
 from urdfsync.urdf.meshes import lookup
 from urdfsync.urdf.model.robot import joint_model
 from urdfsync.urdf.model.shapes import link_model, link_shapes, touching
@@ -153,7 +153,7 @@ def _data(element: Link | Joint, imports: Mapping[str, Import] | None, options: 
     """Return the data of models, and those of records, of an element; without `imports` all meshes count as found."""
     if isinstance(element, Joint):
         joint = effective(element)
-        return (structure(joint), joint_model(joint, options)), joint
+        return (structure(joint), joint_model(joint, options, can_be_driven(joint))), joint
     if imports is None:
         facts = {"bounds": (), "hull": ((0.0, 0.0, 0.0),)}
         keys = _mesh_keys(element) if options.meshes == "import" else ()

@@ -14,7 +14,7 @@ import msgspec
 
 from urdfsync.urdf.connectors import Connectors, input_vector
 from urdfsync.urdf.diagram.layout import layout
-from urdfsync.urdf.drives import has_motor
+from urdfsync.urdf.drives import friction_law, has_motor, is_chosen
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.model.sensors import sensor_models, sensor_outputs
 from urdfsync.urdf.options import Options
@@ -30,8 +30,11 @@ def joint_title(joint: Joint) -> str:
     return f'{joint.type} joint "{joint.name}" from link "{joint.parent}" to link "{joint.child}"'
 
 
-def joint_model(joint: Joint, options: Options) -> dict[str, bool]:
-    """Return which parts the model of a joint has; its rotor is a part of its own if the motor has a flange."""
+def joint_model(joint: Joint, options: Options, is_driven: bool) -> dict[str, Any]:
+    """Return which parts the model of a joint has; its rotor is a part of its own if the motor has a flange.
+
+    The spring of an elastic drive keeps the limits of effort and velocity, if Run does not.
+    """
     armature, with_motor = joint.dynamics and joint.dynamics.armature, has_motor(joint, options)
     inertia = armature if with_motor else reflected_inertia(joint)
     return {
@@ -39,6 +42,9 @@ def joint_model(joint: Joint, options: Options) -> dict[str, bool]:
         "accelerations": limits_acceleration(joint),
         "inertia": inertia is not None,
         "motor": with_motor,
+        "friction": friction_law(joint, options),
+        "elastic": is_driven and is_chosen(joint, options.elastic),
+        "saturated": is_driven and is_chosen(joint, options.saturated) and joint.command != "effort",
     }
 
 
@@ -116,10 +122,11 @@ def bench_data(tree: KinematicTree, names: Connectors, options: Options) -> dict
     """
     top, rows = _icon_top(names), _drives(tree, names)
     sensors = sensor_outputs(tree, names)
+    saturated = {joint.name for joint in tree.joints if is_chosen(joint, options.saturated)}
     drives = [row | {"y": _FRAME_Y + row["y"] * 3 // 2, "icon_y": row["y"]} for row in rows if row["command"]]
     return {
         "visualizer": options.visualizer,
-        "drives": [row | {"input": row[row["command"]]} for row in drives],
+        "drives": [row | {"input": row[row["command"]], "saturated": row["name"] in saturated} for row in drives],
         "starts": [tree.joint(joint.name).component for joint in tree.starts()],
         "free": [row["joint"] for row in rows if row["command"] in (None, "effort")],
         "inputs": options.inputs,

@@ -42,6 +42,9 @@ def experiment(content: bytes, file: str, target: Target, options: Options) -> E
     if left_out := [entry.message for entry in reading.diagnostics if entry.code in options.allow]:
         return left_out[0]
     robot = _robot(reading)
+    # the reference has the smooth law and rigid drives, and the embedded compiler starts no two joints that slide
+    if (options.friction, options.elastic, options.saturated) != ("smooth", "none", "none"):
+        return "friction or drives are other than smooth and rigid"
     if loose := obstacles(robot.joints):
         return f"joint {loose[0].name} is {loose[0].type}, and nothing prescribes how it moves"
     completed, notes = completion.completed_for_pinocchio(content)

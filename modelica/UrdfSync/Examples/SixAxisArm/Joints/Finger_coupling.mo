@@ -24,7 +24,12 @@ model Finger_coupling "Prismatic joint \"finger_coupling\" from link \"gripper_b
     "Motion along the axis"
     annotation (Placement(transformation(extent={{0, -10}, {20, 10}})));
 
-  UrdfSync.Friction.Translational friction(parameters = parameters.dynamics)
+  replaceable model FrictionLaw = UrdfSync.Friction.Translational
+    constrainedby UrdfSync.Friction.PartialTranslational
+    "Law of damping and dry friction"
+    annotation (choicesAllMatching=true);
+
+  FrictionLaw friction(parameters = parameters.dynamics)
     "Damping and dry friction"
     annotation (Placement(transformation(extent={{0, 30}, {20, 50}})));
 

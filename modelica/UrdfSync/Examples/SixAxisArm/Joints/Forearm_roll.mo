@@ -24,7 +24,12 @@ model Forearm_roll "Revolute joint \"forearm_roll\" from link \"elbow_housing\" 
     "Motion along the axis"
     annotation (Placement(transformation(extent={{0, -10}, {20, 10}})));
 
-  UrdfSync.Friction.Rotational friction(parameters = parameters.dynamics)
+  replaceable model FrictionLaw = UrdfSync.Friction.Rotational
+    constrainedby UrdfSync.Friction.PartialRotational
+    "Law of damping and dry friction"
+    annotation (choicesAllMatching=true);
+
+  FrictionLaw friction(parameters = parameters.dynamics)
     "Damping and dry friction"
     annotation (Placement(transformation(extent={{0, 30}, {20, 50}})));
 

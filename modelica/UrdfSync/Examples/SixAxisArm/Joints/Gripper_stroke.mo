@@ -24,7 +24,12 @@ model Gripper_stroke "Prismatic joint \"gripper_stroke\" from link \"gripper_bod
     "Motion along the axis"
     annotation (Placement(transformation(extent={{0, -10}, {20, 10}})));
 
-  UrdfSync.Friction.Translational friction(parameters = parameters.dynamics)
+  replaceable model FrictionLaw = UrdfSync.Friction.Translational
+    constrainedby UrdfSync.Friction.PartialTranslational
+    "Law of damping and dry friction"
+    annotation (choicesAllMatching=true);
+
+  FrictionLaw friction(parameters = parameters.dynamics)
     "Damping and dry friction"
     annotation (Placement(transformation(extent={{0, 30}, {20, 50}})));
 
