@@ -2,32 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import pytest
 from support.files import unchanged
-from support.networks import LADDER, MANIFEST, ROBOT, Snapshot, edit, failure, resistor, run, run_all, said, source
-from support.networks import kinds as all_kinds
+from support.networks import (
+    LADDER,
+    Snapshot,
+    edit,
+    make_parent,
+    resistor,
+    run,
+    said,
+    source,
+)
+from support.networks import inner_kinds as kinds
+from support.networks import set_keys as configure
 
 from urdfsync import registry
 from urdfsync.diagnostics import Severity
 from urdfsync.engine.actions import Reason
-from urdfsync.engine.result import Exit, Result, exit_code
+from urdfsync.engine.result import Exit, exit_code
 from urdfsync.state.record import Choice
-
-
-def kinds(result: Result) -> dict[str, Reason]:
-    return all_kinds(result, f"{LADDER}/")
-
-
-def configure(**keys: str) -> None:
-    """Set keys of the robot; the values are TOML."""
-    lines = {"source": '"ladder.json"', "package": '"Ladder"', "domain": '"rcnetwork"'} | keys
-    text = "\n".join(f"{key} = {value}" for key, value in lines.items())
-    Path("urdfsync.toml").write_text(f"[robots.ladder]\n{text}\n")
-
 
 # What a build writes
 
@@ -58,39 +54,6 @@ def test_changed_white_space_touches_nothing(project: Path, old: str, new: str) 
     with unchanged(project / place):
         assert run().in_step
     assert run().in_step
-
-
-def test_a_changed_option_or_template_renders_again(project: Path) -> None:
-    run()
-    configure(prefix='"pin"')
-    assert kinds(run()) == {"Ladder.mo": Reason.UPDATE}
-    template = project / "own/element/parameters.mo.jinja"
-    template.parent.mkdir(parents=True)
-    template.write_text(
-        "within << package >>.Elements;\nrecord << element.name >>Parameters\nend << element.name >>Parameters;\n"
-    )
-    configure(prefix='"pin"', templates='"own"')
-    assert set(kinds(run())) == {f"Elements/{name}Parameters.mo" for name in ("C1", "C2", "R1", "R2")}
-    template.with_name(".parameters.mo.jinja.swp").write_text("of an editor")
-    assert run().in_step
-    edit(template, "record", "record  ")
-    assert set(kinds(run()).values()) == {Reason.UPDATE}
-    assert run().in_step
-
-
-def test_a_full_build_generates_what_is_recorded_as_generated(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """As after a change of the program that nobody has raised the revision for."""
-    run()
-    domain = type(registry.domain("rcnetwork"))
-    real = domain.artifacts
-
-    def artifacts(self: Any, model: Any, *others: Any) -> Any:
-        elements = {name: {**element, "ohm": 7} for name, element in model["elements"].items()}
-        return real(self, {**model, "elements": elements}, *others)
-
-    monkeypatch.setattr(domain, "artifacts", artifacts)
-    assert run().in_step
-    assert kinds(run(full=True))["Elements/R1Parameters.mo"] is Reason.UPDATE
 
 
 def test_a_package_that_moves_takes_edits_along_and_leaves_what_is_the_users(project: Path) -> None:
@@ -132,38 +95,6 @@ def test_a_package_that_cant_move_stays(project: Path, snapshot_of: Snapshot) ->
     assert not (project / LADDER).exists()
 
 
-def test_a_robot_with_another_name_takes_its_state_along(project: Path) -> None:
-    run()
-    edit(f"{LADDER}/Elements/R1.mo", "end R1;", "// mine\nend R1;")
-    source("4.7e-6", "1e-5")
-    edit("urdfsync.toml", "[robots.ladder]", "[robots.filter]")
-    assert [found.code for found in run(dry=True).diagnostics] == ["renamed-robot"]
-    result = run()
-    assert kinds(result) == {"Elements/R1.mo": Reason.KEEP, "Elements/C2Parameters.mo": Reason.UPDATE}
-    assert said(result) == [
-        "urdfsync.toml:1: note: robot `filter` was called `ladder`; "
-        "its recorded state goes on under the new name [renamed-robot]"
-    ]
-    states = {path.name for path in (project / ".urdfsync/robots").iterdir()}
-    assert states == {"filter.state"}
-    assert run().diagnostics == ()
-
-
-def test_state_of_robots_that_are_gone_is_mentioned_once_and_kept(project: Path) -> None:
-    run()
-    Path("urdfsync.toml").write_text(ROBOT.format("filter", "Filter") + ROBOT.format("third", "Third"))
-    for _ in range(3):
-        first, second = run_all()
-        assert said(first) == [
-            "urdfsync.toml: note: the state of `ladder` is still there, but the configuration has no such robot; "
-            "bring the robot back, or delete .urdfsync/robots/ladder.* and what is left of its package [stray-state]"
-        ]
-        assert second.diagnostics == ()
-        assert (project / LADDER / "package.mo").exists()
-        assert Path(MANIFEST).exists()
-        Path(MANIFEST).write_text("it need not be readable")
-
-
 # Other versions
 
 
@@ -184,36 +115,11 @@ def test_a_package_for_an_older_library_is_told_while_it_waits(project: Path, mo
     assert run(choices={f"{LADDER}/Elements/R1Parameters.mo": Choice.KEEP}).diagnostics == ()
 
 
-def test_a_recorded_model_that_this_version_can_not_generate_stops_nothing(
-    project: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    run()
-    domain = type(registry.domain("rcnetwork"))
-    real = domain.artifacts
-
-    def artifacts(self: Any, model: Any, *others: Any) -> Any:
-        if model["elements"]["R1"]["ohm"] == 100:
-            raise KeyError("siemens")
-        return real(self, model, *others)
-
-    monkeypatch.setattr(domain, "artifacts", artifacts)
-    resistor(120)
-    assert kinds(run()) == {"Elements/R1Parameters.mo": Reason.UPDATE}
-    assert run().in_step
-
-
 # The packages around
 
 
-def package(name: str) -> Path:
-    folder = Path("modelica", name)
-    folder.mkdir(parents=True)
-    (folder / "package.mo").write_text(f"package {name}\nend {name};\n")
-    return folder
-
-
 def test_parents_list_the_package_and_are_made_if_the_configuration_says_so(project: Path) -> None:
-    plant = package("Plant")
+    plant = make_parent("Plant")
     (plant / "package.order").write_text("Other\n")
     configure(package='"Plant.Ladder"')
     assert said(run()) == [
@@ -238,53 +144,3 @@ def test_parents_list_the_package_and_are_made_if_the_configuration_says_so(proj
 
 
 # What is refused
-
-
-REFUSED: dict[str, tuple[dict[str, str], Callable[[], object]]] = {
-    "urdfsync.toml:5: error: robot `ladder`: the output folder … does not exist; create it": (
-        *({"output": '"../elsewhere"'}, Path),
-    ),
-    "urdfsync.toml:5: error: robot `ladder`: the output folder lib can't be made: lib is no folder": (
-        *({"output": '"lib"'}, lambda: Path("lib").write_text("")),
-    ),
-    "urdfsync.toml:5: error: robot `ladder`: the output folder modelica/Plant is a Modelica package itself": (
-        *({"output": '"modelica/Plant"'}, lambda: package("Plant")),
-    ),
-    "urdfsync.toml:3: error: robot `ladder`: the parent package `Plant` does not exist in modelica; "
-    "create it, or set `create_parents = true` [no-parent]": ({"package": '"Plant.Ladder"'}, Path),
-    "urdfsync.toml:3: error: robot `ladder`: package `Plant` is the single file": (
-        *({"package": '"Plant.Ladder"', "create_parents": "true"}, lambda: Path("modelica/Plant.mo").write_text("")),
-    ),
-    "ladder.json:6: error: element `R1` needs either `ohm` or `farad` [element-value]": (
-        *({}, lambda: source('"ohm": 100', '"ohm": 100, "farad": 1')),
-    ),
-    "urdfsync.toml:2: error: robot `ladder`: the source ladder.json does not exist; correct `source`, or export the "
-    "file again [no-source]": ({}, lambda: Path("ladder.json").unlink()),
-    "urdfsync.toml:5: error: robot `ladder`: the template folder own does not exist; create it, or take `templates` "
-    "out [no-templates]": ({"templates": '"own"'}, Path),
-    "urdfsync.toml:5: error: robot `ladder`: `prefix` names `in`, which is a node; choose another one "
-    "[prefix-is-node]": ({"prefix": '"in"'}, Path),
-    ".urdfsync/robots/ladder.state: error: a newer urdfsync built robot `ladder`": (
-        *({}, lambda: edit(MANIFEST, "revision 1", "revision 2")),
-    ),
-}
-"""What stops a build, by how its message begins: keys of the robot, and what is done to files."""
-
-
-@pytest.mark.parametrize("message", REFUSED)
-def test_what_stops_a_build_is_told_with_its_place_and_changes_nothing(project: Path, message: str) -> None:
-    run()
-    keys, change = REFUSED[message]
-    configure(**keys)
-    change()
-    with unchanged(project):
-        begin, _, end = message.partition("…")
-        found = failure(trusted=True)
-        assert found.startswith(begin)
-        assert end in found
-
-
-def test_a_note_on_an_option_that_is_not_set_has_the_line_of_the_robot(project: Path) -> None:
-    source('"ground"', '"earth"')
-    for _ in range(2):
-        assert said(run()) == ["urdfsync.toml:1: note: robot `ladder`: no node is called `ground` [no-ground]"]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import builtins
 import errno
-import json
 import os
 import shutil
 from pathlib import Path
@@ -19,10 +18,11 @@ from support.networks import (
     LADDER,
     MANIFEST,
     R1,
-    R2,
     RECORD,
     Snapshot,
     configure,
+    conflicts,
+    drop,
     edit,
     failure,
     kinds,
@@ -55,23 +55,12 @@ def merging() -> None:
     configure('on_conflict = "merge"\n')
 
 
-def drop(*names: str) -> None:
-    """Take elements out of the source."""
-    network = json.loads(Path("ladder.json").read_text())
-    network["elements"] = [element for element in network["elements"] if element["name"] not in names]
-    Path("ladder.json").write_text(json.dumps(network))
-
-
 def assert_rejected_again_and_again(name: str) -> None:
     """A build finds one conflict, whose merge mentions a name that is gone, and so does the next one."""
     for _ in range(2):
         (found,) = run().conflict_texts
         assert found.rejected.startswith("in the merge, ")
         assert f"{name}`" in found.rejected
-
-
-def conflicts(**request: Any) -> list[str]:
-    return [action.path for action in run(**request).conflicts]
 
 
 @pytest.fixture
@@ -660,34 +649,6 @@ def test_an_edited_file_stays_if_something_of_the_users_is_at_its_new_place(proj
     assert (Path(R1).read_bytes(), place.read_text()) == (mine, "mine")
 
 
-def test_the_record_of_an_element_that_is_renamed_and_then_goes_is_kept_where_it_is_mentioned(project: Path) -> None:
-    run()
-    record = Path(RECORD)
-    Path("modelica/Bench.mo").write_text("model Bench\n  Ladder.Elements.R1Parameters numbers;\nend Bench;\n")
-    other = R2.replace(".mo", "Parameters.mo")
-    edit(other, "220.5", "220.5 + 1")
-    source('"ohm": 220.5', '"ohm": 300')
-    rename("R1", "Shunt")
-    assert conflicts() == [other]
-    drop("Shunt")
-    run()
-    run(choices={other: Choice.TAKE})
-    assert record.exists()
-
-
-def test_a_record_that_is_needed_stays_when_its_element_gets_another_name_later(project: Path) -> None:
-    run()
-    bench, record = Path("modelica/Bench.mo"), Path(C1.replace(".mo", "Parameters.mo"))
-    bench.write_text("model Bench\n  parameter Ladder.Elements.C1Parameters numbers;\nend Bench;\n")
-    network = Path("ladder.json").read_text()
-    drop("C1")
-    run()
-    Path("ladder.json").write_text(network)
-    rename("C1", "Tank")
-    run()
-    assert record.exists()
-
-
 def test_a_conflict_holds_back_structure_but_not_numbers_until_it_is_resolved(
     project: Path, snapshot_of: Snapshot
 ) -> None:
@@ -716,24 +677,3 @@ def test_a_conflict_holds_back_structure_but_not_numbers_until_it_is_resolved(
     assert kinds(resolved, BELOW)["Elements/R3.mo"] is Reason.CREATE
     assert not (project / LADDER / "Elements/R2.mo").exists()
     assert run().in_step
-
-
-def test_an_edited_model_that_is_no_longer_generated_keeps_its_record(project: Path) -> None:
-    run()
-    elements = project / LADDER / "Elements"
-    edit(elements / "R2.mo", "end R2;", "// mine\nend R2;")
-    source('"R2"', '"R3"')
-    source("220.5", "330")
-    orphans = {"Elements/R2.mo": Reason.ORPHAN, "Elements/R2Parameters.mo": Reason.NEEDED}
-    assert kinds(run(), BELOW).items() >= orphans.items()
-    assert "R2Parameters" in (elements / "R2.mo").read_text()
-    assert (elements / "R2Parameters.mo").exists()
-    lines = (elements / "package.order").read_text().split()
-    assert {"R2", "R2Parameters", "R3", "R3Parameters"} <= set(lines), "a class that stays keeps its line"
-    for request in ({}, {"full": True}):
-        assert kinds(run(**request), BELOW) == orphans
-        assert run(**request).in_step
-    (elements / "R2.mo").unlink()
-    gone = {"Elements/R2.mo": Reason.FORGET, "Elements/R2Parameters.mo": Reason.DELETE}
-    assert kinds(run(), BELOW) == {**gone, "Elements/package.order": Reason.UPDATE}
-    assert kinds(run(), BELOW) == {}

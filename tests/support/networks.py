@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Callable
 from pathlib import Path
@@ -60,6 +61,28 @@ def configure(text: str) -> None:
         file.write(text)
 
 
+def drop(*names: str) -> None:
+    """Take elements out of the source."""
+    network = json.loads(Path("ladder.json").read_text())
+    network["elements"] = [element for element in network["elements"] if element["name"] not in names]
+    Path("ladder.json").write_text(json.dumps(network))
+
+
+def set_keys(**keys: str) -> None:
+    """Write a configuration with these keys of the robot; the values are TOML."""
+    lines = {"source": '"ladder.json"', "package": '"Ladder"', "domain": '"rcnetwork"'} | keys
+    text = "\n".join(f"{key} = {value}" for key, value in lines.items())
+    Path("urdfsync.toml").write_text(f"[robots.ladder]\n{text}\n")
+
+
+def make_parent(name: str) -> Path:
+    """Make a package around; its folder."""
+    folder = Path("modelica", name)
+    folder.mkdir(parents=True)
+    (folder / "package.mo").write_text(f"package {name}\nend {name};\n")
+    return folder
+
+
 def own_model(declarations: str) -> None:
     """Let the models of all elements declare something."""
     template = Path("own/element/model.mo.jinja")
@@ -109,3 +132,12 @@ def stored(folder: Path = BASES) -> dict[str, str]:
 def mentioned() -> set[str]:
     """The hashes of texts that the recorded state mentions."""
     return set(re.findall(r"(?m)^file (\w{64})  (?!Resources/)", Path(MANIFEST).read_text()))
+
+
+def inner_kinds(result: Result) -> dict[str, Reason]:
+    """What `kinds` says, by the path below the package."""
+    return kinds(result, f"{LADDER}/")
+
+
+def conflicts(**request: Any) -> list[str]:
+    return [action.path for action in run(**request).conflicts]

@@ -1,0 +1,69 @@
+"""A package is generated anew where its model, options, templates or the program changed, and nowhere else."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+from support.networks import (
+    edit,
+    resistor,
+    run,
+)
+from support.networks import inner_kinds as kinds
+from support.networks import set_keys as configure
+
+from urdfsync import registry
+from urdfsync.engine.actions import Reason
+
+
+def test_a_changed_option_or_template_renders_again(project: Path) -> None:
+    run()
+    configure(prefix='"pin"')
+    assert kinds(run()) == {"Ladder.mo": Reason.UPDATE}
+    template = project / "own/element/parameters.mo.jinja"
+    template.parent.mkdir(parents=True)
+    template.write_text(
+        "within << package >>.Elements;\nrecord << element.name >>Parameters\nend << element.name >>Parameters;\n"
+    )
+    configure(prefix='"pin"', templates='"own"')
+    assert set(kinds(run())) == {f"Elements/{name}Parameters.mo" for name in ("C1", "C2", "R1", "R2")}
+    template.with_name(".parameters.mo.jinja.swp").write_text("of an editor")
+    assert run().in_step
+    edit(template, "record", "record  ")
+    assert set(kinds(run()).values()) == {Reason.UPDATE}
+    assert run().in_step
+
+
+def test_a_full_build_generates_what_is_recorded_as_generated(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """As after a change of the program that nobody has raised the revision for."""
+    run()
+    domain = type(registry.domain("rcnetwork"))
+    real = domain.artifacts
+
+    def artifacts(self: Any, model: Any, *others: Any) -> Any:
+        elements = {name: {**element, "ohm": 7} for name, element in model["elements"].items()}
+        return real(self, {**model, "elements": elements}, *others)
+
+    monkeypatch.setattr(domain, "artifacts", artifacts)
+    assert run().in_step
+    assert kinds(run(full=True))["Elements/R1Parameters.mo"] is Reason.UPDATE
+
+
+def test_a_recorded_model_that_this_version_can_not_generate_stops_nothing(
+    project: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    run()
+    domain = type(registry.domain("rcnetwork"))
+    real = domain.artifacts
+
+    def artifacts(self: Any, model: Any, *others: Any) -> Any:
+        if model["elements"]["R1"]["ohm"] == 100:
+            raise KeyError("siemens")
+        return real(self, model, *others)
+
+    monkeypatch.setattr(domain, "artifacts", artifacts)
+    resistor(120)
+    assert kinds(run()) == {"Elements/R1Parameters.mo": Reason.UPDATE}
+    assert run().in_step
