@@ -24,7 +24,7 @@ from hypothesis import HealthCheck, Phase, settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, precondition, rule, run_state_machine_as_test
 from lxml import etree
-from support import edits, replay, tree_changes
+from support import edits, hand_edits, replay, tree_changes
 from support.commands import Execute, Printed
 from support.edits import Line
 from support.git import NEEDS_GIT, Repository
@@ -137,7 +137,19 @@ def mention(path: Path, random: Random, number: str) -> None:
         path.write_text(text.replace("\nequation\n", f"\n{line}\nequation\n", 1))
 
 
-EDITS: Mapping[str, edits.Edit] = {kind: edit for kind, (_, edit) in edits.EDITS.items()} | {
+def by_hand(edit: hand_edits.Edit) -> edits.Edit:
+    """An edit as people make them: another type, another name, another style."""
+
+    def change(path: Path, random: Random, number: str) -> None:
+        if (edited := edit(path.read_text(), random)) is not None:
+            path.write_text(edited)
+
+    return change
+
+
+EDITS: Mapping[str, edits.Edit] = {
+    **{kind: edit for kind, (_, edit) in edits.EDITS.items()},
+    **{kind: by_hand(edit) for kind, edit in hand_edits.EDITS.items()},
     "sensor": add_sensor,
     "mention": mention,
 }

@@ -44,11 +44,6 @@ def tagged(files: Mapping[str, bytes]) -> dict[str, Line]:
     return found
 
 
-def without_own(order: bytes) -> bytes:
-    """A `package.order` without the user's names."""
-    return b"".join(line for line in order.splitlines(keepends=True) if not _TAG.search(line.decode()))
-
-
 class Hand:
     """Somebody who edits a package; `made` counts what was tried, by kind."""
 
