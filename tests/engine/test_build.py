@@ -10,7 +10,6 @@ from support.networks import (
     LADDER,
     Snapshot,
     edit,
-    make_parent,
     resistor,
     run,
     said,
@@ -113,34 +112,3 @@ def test_a_package_for_an_older_library_is_told_while_it_waits(project: Path, mo
     assert (found.code, found.severity) == ("outdated-package", Severity.WARNING)
     assert f"{LADDER}/Elements/R1Parameters.mo is resolved" in found.hint
     assert run(choices={f"{LADDER}/Elements/R1Parameters.mo": Choice.KEEP}).diagnostics == ()
-
-
-# The packages around
-
-
-def test_parents_list_the_package_and_are_made_if_the_configuration_says_so(project: Path) -> None:
-    plant = make_parent("Plant")
-    (plant / "package.order").write_text("Other\n")
-    configure(package='"Plant.Ladder"')
-    assert said(run()) == [
-        "modelica/Plant/package.mo: warning: package `Plant` does not say that it needs Modelica; "
-        'add `uses(Modelica(version="4.0.0"))` to its annotation [no-uses]'
-    ]
-    assert (plant / "package.order").read_text() == "Other\nLadder\n"
-    assert "within Plant;" in (plant / "Ladder/package.mo").read_text()
-    configure(package='"Factory.Filters.Ladder"', create_parents="true")
-    run()
-    assert (plant / "package.order").read_text() == "Other\n"
-    assert not (plant / "Ladder").exists()
-    factory = Path("modelica/Factory")
-    orders = [(factory / folder / "package.order").read_text() for folder in ("", "Filters")]
-    assert orders == ["Filters\n", "Ladder\n"]
-    uses = '  annotation (uses(Modelica(version="4.0.0")));'
-    assert (factory / "package.mo").read_text() == f'within;\npackage Factory "Factory"\n{uses}\nend Factory;\n'
-    text = 'within Factory;\npackage Filters "Filters"\nend Filters;\n'
-    assert (factory / "Filters/package.mo").read_text() == text
-    edit(factory / "Filters/package.mo", '"Filters"', '"All filters"')
-    assert run().in_step
-
-
-# What is refused

@@ -8,14 +8,9 @@ from pathlib import Path
 import pytest
 from support.files import unchanged
 from support.networks import LADDER, edit, resistor, run, said, source
-from support.networks import kinds as all_kinds
+from support.networks import inner_kinds as kinds
 
 from urdfsync.engine.actions import Reason
-from urdfsync.engine.result import Result
-
-
-def kinds(result: Result) -> dict[str, Reason]:
-    return all_kinds(result, f"{LADDER}/")
 
 
 def test_a_dependency_that_was_never_found_is_left_out(project: Path) -> None:

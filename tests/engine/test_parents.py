@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from support.networks import edit, failure, kinds, run
+from support.networks import edit, failure, kinds, make_parent, run, said, set_keys
 
 from urdfsync import cli
 from urdfsync.engine.actions import Reason
@@ -110,3 +110,28 @@ def test_invariants(before: list[str], now: list[str], lines: list[str], seed: o
     ] or not names_in(merged), "lines of the user keep their order"
     assert sorted(name for name in names_in(merged) if name in "ABCDEF") == sorted(now), "ours are there once"
     assert merge_order(merged, now, now) == merged, "a second merge changes nothing"
+
+
+def test_parents_list_the_package_and_are_made_if_the_configuration_says_so(project: Path) -> None:
+    plant = make_parent("Plant")
+    (plant / "package.order").write_text("Other\n")
+    set_keys(package='"Plant.Ladder"')
+    assert said(run()) == [
+        "modelica/Plant/package.mo: warning: package `Plant` does not say that it needs Modelica; "
+        'add `uses(Modelica(version="4.0.0"))` to its annotation [no-uses]'
+    ]
+    assert (plant / "package.order").read_text() == "Other\nLadder\n"
+    assert "within Plant;" in (plant / "Ladder/package.mo").read_text()
+    set_keys(package='"Factory.Filters.Ladder"', create_parents="true")
+    run()
+    assert (plant / "package.order").read_text() == "Other\n"
+    assert not (plant / "Ladder").exists()
+    factory = Path("modelica/Factory")
+    orders = [(factory / folder / "package.order").read_text() for folder in ("", "Filters")]
+    assert orders == ["Filters\n", "Ladder\n"]
+    uses = '  annotation (uses(Modelica(version="4.0.0")));'
+    assert (factory / "package.mo").read_text() == f'within;\npackage Factory "Factory"\n{uses}\nend Factory;\n'
+    text = 'within Factory;\npackage Filters "Filters"\nend Filters;\n'
+    assert (factory / "Filters/package.mo").read_text() == text
+    edit(factory / "Filters/package.mo", '"Filters"', '"All filters"')
+    assert run().in_step

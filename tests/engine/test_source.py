@@ -21,6 +21,8 @@ from support.meshes import stl
 from support.xacros import EXPANDED, RECORD
 
 from urdfsync import dependencies
+from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.engine.source import Source
 from urdfsync.state.expansion import dumps, loads
 
 CHANGED = "inputs changed since the last build"
@@ -658,3 +660,12 @@ def test_a_command_runs_when_its_inputs_change(commanded: Path, execute: Execute
 def test_a_command_that_writes_no_source_has_failed(commanded: Path, execute: Execute) -> None:
     (commanded / "make.py").write_text("")
     assert "failed: it did not write arm.urdf; correct it" in execute("build", "--trust", code=2).words
+
+
+@pytest.mark.parametrize(("line", "place"), [(1, ("root.xacro", 1)), (4, ("root.xacro", 1)), (5, ("part.xacro", 9))])
+def test_a_line_of_an_expansion_is_located_where_its_element_begins(line: int, place: tuple[str, int]) -> None:
+    expanded = Source(b"", "arm.urdf", places=[(3, "root.xacro", 1), (5, "part.xacro", 9)])
+    located = expanded.locate(Diagnostic(Severity.ERROR, "code", f"see line {line}", "arm.urdf", line))
+    assert (located.file, located.line) == place
+    other = Diagnostic(Severity.ERROR, "code", "words", "urdfsync.toml", line)
+    assert expanded.locate(other) is other

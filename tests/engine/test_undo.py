@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from support.commands import Execute
 from support.files import unchanged
-from support.networks import LADDER, add_resistor, edit, resistor
+from support.networks import LADDER, add_resistor, edit, resistor, run
 
 from urdfsync import config
 from urdfsync.engine.build import build
@@ -136,6 +136,15 @@ def test_what_nobody_edited_is_not_given_back(execute: Execute, project: Path) -
     add_resistor("R3")
     execute("build")
     assert "nothing to undo" in execute("resolve", MODEL, "--undo", code=2).err
+
+
+def test_nothing_is_undone_where_no_build_wrote_over_the_file(project: Path) -> None:
+    """The command refuses that before; a choice may be older than the files."""
+    run()
+    edit(MODEL, "end Ladder;", "// mine\nend Ladder;")
+    mine = Path(MODEL).read_text()
+    assert run(choices={MODEL: Choice.UNDO}).conflicts == []
+    assert Path(MODEL).read_text() == mine
 
 
 def test_what_a_stranger_put_beside_the_state_is_no_bug(merged: Path, execute: Execute) -> None:
