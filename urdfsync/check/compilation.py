@@ -115,7 +115,9 @@ class Compilation:
         if self.generated:
             generation, robot = package.generation, package.robot
             snapshot, domain = generation.now.snapshot, generation.inputs.domain
-            wiring = domain.wiring(package.generated, snapshot, robot.target, robot.options)
+            # templates of the user's may connect benches in another way
+            own = robot.templates is not None
+            wiring = () if own else domain.wiring(package.generated, snapshot, robot.target, robot.options)
             self.result.deviations = (*compare_all(trials, self.generated), *wiring)
         if not package.edits:
             return
@@ -129,9 +131,15 @@ class Compilation:
         if not self.edited or not without_edits:
             return
         alone = {file: self._motions(done[file], trials)[0] for file in package.edits if file in done}
-        single = {file: compare_all(trials, motions, without_edits) for file, motions in alone.items() if motions}
-        whole = compare_all(trials, self.edited, without_edits)
-        self.result.effects = tuple(edit_effects(package.edits, package.files.owners, whole, single))
+        single = {file: compare_all(trials[:1], motions, without_edits) for file, motions in alone.items() if motions}
+        whole = compare_all(trials[:1], self.edited, without_edits)
+        # what else changes follows from that, but for files that change nothing there
+        others = compare_all(trials[1:], self.edited, without_edits)
+        changes = tuple(deviation for deviation in others if not agrees(deviation))
+        self.result.effects = tuple(
+            effect if effect.deviations else msgspec.structs.replace(effect, deviations=changes)
+            for effect in edit_effects(package.edits, package.files.owners, whole, single)
+        )
 
     def _model_jobs(self, count: int) -> dict[str, _Job]:
         """Return jobs that compile all models: those of the package in `count` parts, then the user's."""

@@ -31,6 +31,9 @@ _Pair: TypeAlias = tuple[Compared, Sequence[Iterable[float]]]
 _CLEAR = 1e-5
 """Relative distance from a limit from which on it is clear whether it is passed: warnings have some slack."""
 
+_MOST_AXES = 20
+"""The most axes that a robot of a package moves freely with: rumoca takes 6 GB for 30."""
+
 
 def experiment(content: bytes, file: str, target: Target, options: Options) -> Experiment | str:
     """Return the comparison, see `urdfsync.domain.Domain.experiment`. Links that move without any mass get inertias.
@@ -60,7 +63,7 @@ def experiment(content: bytes, file: str, target: Target, options: Options) -> E
         content=completed,
         trials=tuple(trials),
         notes=(*notes, *made_up),
-        unchecked=tuple(_not_compared(options)),
+        unchecked=tuple(_not_compared(options, len(subject.axes))),
     )
 
 
@@ -75,14 +78,14 @@ class _Subject:
         self.reference = Reference(read(content, file, sensed), [joint.name for joint in self.axes])
         self._base = motion.base_courses()
         self.starts = start_positions(tree)
-        limits = [joint.limit.effort if joint.limit else None for joint in self.axes]
+        limits = [joint.limit.effort if joint.limit and joint.limit.effort else math.inf for joint in self.axes]
         courses = [motion.axis_courses(joint, self.starts[joint.name]) for joint in self.axes]
         strains = dict[Instant, Array]()
         for instant, share in LOADS.items():
             state = self._state(instant, courses)
             holding = self.reference.solve(state).efforts
             pairs = zip(limits, holding, strict=True)
-            efforts = np.array([hold if limit is None else share * limit for limit, hold in pairs])
+            efforts = np.array([share * limit if math.isfinite(limit) else hold for limit, hold in pairs])
             strains[instant] = self.reference.effort_gains(state, efforts)
         self.courses = [
             motion.axis_courses(joint, self.starts[joint.name], {k: float(gains[n]) for k, gains in strains.items()})
@@ -113,7 +116,10 @@ class _Subject:
             geared, needed, optional,
         )  # fmt: skip
         trial = Trial(f"motion{label}", moving, *_table(pairs, [float(instant) for instant in Instant]))
-        for each in (trial, self._free(names, f"free motion{label}")):
+        every = [trial]
+        if approach == "record" or len(self.axes) <= _MOST_AXES:
+            every.append(self._free(names, f"free motion{label}"))
+        for each in every:
             compared = tuple(msgspec.structs.replace(c, detail=c.detail or label) for c in each.compared)
             yield msgspec.structs.replace(each, compared=compared)
 
@@ -247,9 +253,11 @@ def _table(pairs: Iterable[_Pair], times: Sequence[float]) -> tuple[tuple[Compar
     return tuple(every), {"time": tuple(times), **series}
 
 
-def _not_compared(options: Options) -> Iterator[str]:
+def _not_compared(options: Options, axes: int) -> Iterator[str]:
     """Yield what is not compared."""
     yield "shapes (they change no motion), the motion of benches, and models around the robot (they are only compiled)"
+    if axes > _MOST_AXES:
+        yield f"free motion of more than {_MOST_AXES} axes, which takes a compiler too much memory"
     if options.base == "floating":
         yield "contacts with the ground, and the height at which the robot begins"
     if "record" in options.approach:

@@ -135,7 +135,8 @@ def axis_courses(joint: Joint, start: float, strains: Mapping[Instant, float] = 
     middle, reach = (lower + upper) / 2, (upper - lower) / 2
     if not math.isfinite(reach):
         middle, reach = start, 0.5
-    speed = joint.limit.velocity if joint.limit and joint.limit.velocity is not None else abs(course.speed)
+    speed = joint.limit.velocity if joint.limit and joint.limit.velocity is not None else math.inf
+    speed = speed if math.isfinite(speed) else abs(course.speed)
     courses = _swinging(start, course.speed, course.acceleration / 2)
     for side, just in ((-1, JUST), (-1, -JUST), (1, -JUST), (1, JUST)):
         courses.append(Course(middle + side * reach * (1 + just), side * speed * (1 + just), 0.0))

@@ -91,12 +91,12 @@ def read(content: bytes, file: str, loose: Collection[str] = ()) -> PinocchioRob
 def read_gears(root: Element) -> dict[str, Gear]:
     """Return the gears of a URDF by their joints: of a transmission with one joint, by the ends of its tags."""
     gears = dict[str, Gear]()
-    for element in root.iter("transmission"):
+    for element in (*root.findall("transmission"), *root.findall("ros2_control/transmission")):
         numbers = dict[str, float]()
-        for part in element.iter():
+        for part in (part for where in ("joint/*", "actuator/*", "*") for part in element.findall(where)):
             tag = part.tag.rpartition(":")[2].replace("_", "").lower()
             with contextlib.suppress(ValueError):
-                numbers[tag] = float(part.get("value", part.text or ""))
+                numbers.setdefault(tag, float(part.get("value", part.text or "")))
         names = ("gearratio", "mechanicalreduction"), ("offset",), ("rotorinertia",)
         values = [next((numbers[name] for name in some if name in numbers), None) for some in names]
         if len(joints := element.findall("joint")) == 1 and any(value is not None for value in values):
@@ -221,9 +221,10 @@ class Reference:
 
     @staticmethod
     def _solved(mass: Array, ways: Array, efforts: Array) -> Array:
-        if not len(efforts):
-            return np.zeros(0)
-        return np.asarray(np.linalg.lstsq(ways.T @ mass @ ways, efforts)[0])
+        matrix = ways.T @ mass @ ways
+        if not len(efforts) or not np.isfinite(matrix).all() or not np.isfinite(efforts).all():
+            return np.zeros(len(efforts))  # numbers without end in the source, which no simulation takes
+        return np.asarray(np.linalg.lstsq(matrix, efforts)[0])
 
     def acceleration(self, state: Configuration, sensor: Sensor, root: Element) -> tuple[Array, Array]:
         """Return acceleration minus gravity and angular velocity at a place on a link, in the axes of the sensor."""

@@ -29,7 +29,7 @@ def wiring(texts: Mapping[str, bytes], tree: KinematicTree, target: Target, opti
     used = defaultdict[str, set[str]](set)
     for joint, drive in names.drives.items():
         component = tree.joint(joint).component
-        record = texts.get(f"Joints/{tree.joint(joint).type}Parameters.mo", b"").decode()
+        record = texts.get(f"Joints/{tree.joint(joint).record}.mo", b"").decode()
         is_named = f"name = {string(joint)}" in record
         yield Deviation(
             Quantity.WARNING, f"joint {joint}", float(not is_named), 1.0, 1.0, "", Part.LIMITS, "names the joint"
