@@ -1,0 +1,52 @@
+"""What is read of a source once more, since the reader is under test."""
+
+from __future__ import annotations
+
+import pytest
+
+from urdfsync.urdf.parse import xml
+from urdfsync.urdf.parse.source import read_robot
+from urdfsync.urdf.physics.reference import Gear, read_gears, read_place
+
+SOURCE = """\
+<robot name="bot">
+  <link name="base"/><link name="arm"><inertial><mass value="1"/></inertial></link>
+  <joint name="elbow" type="continuous"><parent link="base"/><child link="arm"/></joint>
+  {}
+</robot>
+"""
+
+
+@pytest.mark.parametrize(
+    ("inside", "gear"),
+    [
+        ("<actuator name='m'><mechanicalReduction>50</mechanicalReduction></actuator>", Gear(50)),
+        ("<mechanicalReduction>-2</mechanicalReduction>", Gear(-2)),
+        (
+            "<actuator name='m'><drake:gear_ratio value='9'/><drake:rotor_inertia value='1e-4'/></actuator>",
+            Gear(9, 0, 1e-4),
+        ),
+        ("<joint name='elbow'><hardwareInterface>x</hardwareInterface></joint>", None),
+    ],
+)
+def test_both_readers_find_the_same_gear(inside: str, gear: Gear | None) -> None:
+    joint = "" if "<joint" in inside else "<joint name='elbow'><offset>0</offset></joint>"
+    text = SOURCE.format(f"<transmission name='t'>{joint}{inside}</transmission>").encode()
+    robot = read_robot(text, "bot.urdf").robot
+    assert robot
+    assert read_gears(xml.parse(text).root) == ({"elbow": gear} if gear else {})
+    own = robot.joints[0].transmission
+    assert (own and (own.reduction, own.offset, own.rotor_inertia or 0)) == (gear and tuple(gear))
+
+
+def test_both_readers_find_the_same_place_of_a_sensor() -> None:
+    poses = ("<pose>1 2 3 0.4 0.5 0.6</pose>", "<pose degrees='true'>1 2 3 30 40 50</pose>", "")
+    sensors = "".join(f'<sensor name="s{k}" type="imu">{pose}</sensor>' for k, pose in enumerate(poses))
+    own = '<sensor name="s3"><parent link="arm"/><origin xyz="1 2 3" rpy="0.4 0.5 0.6"/><imu/></sensor>'
+    text = SOURCE.format(f'<gazebo reference="arm">{sensors}</gazebo>{own}').encode()
+    robot = read_robot(text, "bot.urdf").robot
+    assert robot
+    assert len(robot.sensors) == 4
+    for sensor in robot.sensors:
+        place, angles = read_place(xml.parse(text).root, sensor)
+        assert [*place, *angles] == pytest.approx([*sensor.origin.xyz, *sensor.origin.rpy], abs=1e-15)
