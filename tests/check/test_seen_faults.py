@@ -57,9 +57,6 @@ PACKAGE: Mapping[str, Fault] = {
     "rotor without its reduction": Fault(B, ELBOW, "rotorInertia*parameters.transmission.reduction^2", "rotorInertia"),
     "no friction": Fault(L, "Joints/ShoulderParameters.mo", "friction = 0.4", "friction = 0"),
     "damping of another number": Fault(L, "Joints/ShoulderParameters.mo", "damping = 0.5", "damping = 0.4"),
-    "friction in vain": Fault(
-        L, SHOULDER, "connect(revolute.axis, friction.flange_b)", "// connect(revolute.axis, friction.flange_b)"
-    ),
     "reduction": Fault(L, "Joints/ElbowParameters.mo", "reduction = 50", "reduction = 5"),
     "offset of a gear": Fault(L, "Joints/ElbowParameters.mo", "offset = 0.2", "offset = -0.2"),
     "multiplier of a mimic": Fault(B, "Joints/GripParameters.mo", "multiplier = 0.1", "multiplier = -0.1"),
@@ -99,7 +96,9 @@ PACKAGE: Mapping[str, Fault] = {
 }
 """In the text that a template gives, as a fault of the template, of the reader or of a number of the user's would."""
 LIBRARY: Mapping[str, Fault] = {
-    "sign of friction": Fault(L, "Friction/Rotational.mo", "parameters.friction*tanh(", "-parameters.friction*tanh("),
+    "sign of friction": Fault(
+        L, "Friction/Rotational.mo", "+ parameters.friction*tanh(", "- parameters.friction*tanh("
+    ),
     "steepness of friction": Fault(L, "Friction/Rotational.mo", "tanh(0.5*parameters", "tanh(parameters"),
     "sign of damping": Fault(L, "Friction/Rotational.mo", "parameters.damping*w", "parameters.damping*abs(w)"),
     "effort of a mimic": Fault(B, "Couplings/RotationalToTranslational.mo", "leader.tau + ", "leader.tau - "),
