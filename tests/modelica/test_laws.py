@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from collections.abc import Sequence
 from pathlib import Path
@@ -9,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pinocchio as pin
 import pytest
-from support.modelica import Run, Series, Task, simulate
+from support.modelica import Run, Series, Task, simulate, simulate_all
 from support.packages import Package, generate
 from support.urdfs import dynamics, joint, limit, links, robot
 
@@ -132,6 +133,17 @@ def test_an_arm_under_gravity_holds_still_or_creeps(modelica_library: Path, tmp_
     ]  # behind its free root
     predicted = 7.5 * gravity / ((0.5, 0.2) + np.array((90, 60)) * 100 / 2)  # s * N·m / (N·m·s/rad)
     assert [span(found[0], value) for value in values] == pytest.approx(predicted, rel=0.05)
+
+
+def test_what_rumoca_can_not_begin_is_named_with_the_alternative(modelica_library: Path, tmp_path: Path) -> None:
+    package = generate(ARM.encode(), Target("Slide", "Slide"), friction="stiction", driven=())
+    task = in_world(package, [Run(1.0, 0.5)], [])
+    task = dataclasses.replace(
+        task, source=task.source.replace(" robot;", " robot(elbow(w_start = 1), shoulder(w_start = 1));")
+    )
+    (series,) = simulate_all(modelica_library, [package.write(tmp_path)], [task])
+    assert "joints with the friction law stiction that slide together, at t=" in series.error
+    assert 'choose `friction = "lugre"`, or OpenModelica' in series.error
 
 
 def span(series: Series, value: str, begin: float = 2.5) -> float:

@@ -39,9 +39,9 @@ HAS_STANDARD_LIBRARY = False
 
 _FILE = "Task.mo"  # always the same, so that a text takes the place of the one before in the compiler's memory
 _UNKNOWN = frozenset(("state", "algebraic", "output", "discrete_real", "discrete_value"))
-_SEARCH = "mode search limit"
+_SEARCH = re.compile(r"event iteration (at t=\S+) cycles .* which the mode search ")
 _STUCK = (
-    "rumoca finds no beginning for joints with the friction law stiction that slide at the start: "
+    "rumoca finds no state of joints with the friction law stiction that slide together, {}: "
     'choose `friction = "lugre"`, or OpenModelica with `--tool`'
 )
 """In place of what rumoca 0.10.2 says of two such joints."""
@@ -215,4 +215,4 @@ def _simulate(model: rumoca.Model, run: Simulation, task: CompileTask) -> Simula
 def _words(error: Exception) -> str:
     """Return the compiler's message without places in its own notation."""
     words = _SPAN.sub("", str(error.args[0] if error.args else error))
-    return _STUCK if _SEARCH in words else words
+    return _STUCK.format(search[1]) if (search := _SEARCH.search(words)) else words
