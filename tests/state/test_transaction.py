@@ -137,6 +137,19 @@ def test_a_power_failure_at_any_moment_loses_nothing(
     assert at_risk == set()
 
 
+def test_a_file_of_the_users_is_saved_to_the_disk_before_it_takes_its_place(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "a.mo").write_text("old")
+    operations = mock.Mock()
+    for name in ("write", "sync", "exchange"):
+        monkeypatch.setattr(file_operations, name, mock.Mock(wraps=getattr(file_operations, name)))
+        operations.attach_mock(getattr(file_operations, name), name)
+    transaction.save(tmp_path / "a.mo", b"old", b"new")
+    assert [call[0] for call in operations.mock_calls][:3] == ["write", "sync", "exchange"]
+    assert (tmp_path / "a.mo").read_text() == "new"
+
+
 @pytest.mark.parametrize("name", [transaction.PLANNED, transaction.DRAFT])
 def test_planned_hashes_are_no_link(tmp_path: Path, transactions: Transactions, name: str) -> None:
     (tmp_path / "state").mkdir()
