@@ -127,12 +127,13 @@ CAN_NOT = "can't be the name of a class; rename the file, or move it elsewhere [
         ({"Joints/Elbow (copy).mo": arm.text()}, f"Joints/Elbow (copy).mo: error: `Elbow (copy)` {CAN_NOT}"),
         (
             {"Joints.mo": f"within {arm.NAME};\npackage Joints\nend Joints;\n"},
-            "Joints.mo: error: `Joints` is both a file and a folder; keep one of them [class-twice]",
+            "Joints.mo: error: `Joints` has two files, this one and Joints/package.mo; put all of it into one of them, "
+            "and take the other away [class-twice]",
         ),
         (
             {"Joints/package.mo": INSIDE},
-            "Joints/package.mo:3: error: `Elbow` is declared here, and is a file as well; keep one of them "
-            "[class-twice]",
+            "Joints/package.mo:3: error: `Elbow` is declared here, and has the file Joints/Elbow.mo as well; "
+            "put all of it into one of them, and take the other away [class-twice]",
         ),
         (
             {"Joints/elbow.mo": SMALL_ELBOW, ORDER: arm.text(ORDER) + "elbow\n"},

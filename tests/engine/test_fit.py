@@ -43,6 +43,12 @@ def undone_merge(execute: Execute) -> None:
     execute("resolve", str(MODEL), "--undo", code=None)
 
 
+def make_folder(_: Execute) -> None:
+    """Make a folder of a class, beside the file that it has."""
+    ELBOW.with_suffix("").mkdir()
+    (ELBOW.with_suffix("") / "package.mo").write_text(ELBOW.read_text())
+
+
 BROKEN: dict[str, tuple[Callable[[Execute], object], str]] = {
     "a joint that has another name now": (
         lambda _: edit(MODEL, "connect(elbow.frame_b", "connect(wrist.frame_b"),
@@ -70,6 +76,9 @@ BROKEN: dict[str, tuple[Callable[[Execute], object], str]] = {
         lambda _: edit(MODEL, "elbowAxis", "elbowShaft"),
         "it has no `elbowAxis`, which modelica/Arm/ArmRun.mo:",
     ),
+    "another kind of class": (lambda _: edit(ELBOW, "model Elbow", "function Elbow"), "but used as `model`"),
+    "a class with two files": (make_folder, "`Elbow` has two files, this one and Joints/Elbow/package.mo"),
+    "package.order": (lambda _: edit(ARM / "package.order", "Arm\n", "Arm\nNosuch\n"), "`Nosuch` is named, but is no"),
 }
 
 
@@ -165,3 +174,76 @@ def test_an_edit_with_a_fault_moves_with_its_element_and_stays_broken(arm: Path,
     assert "Wrist has no `nowhere`" in printed.err
     assert "conflict" not in printed.out
     assert "nowhere" in (ARM / "Joints/Wrist.mo").read_text()
+
+
+FUNCTION = """
+  record Pair
+    Real first;
+  end Pair;
+  function f
+    extends Modelica.Icons.Function;
+    input Real u;
+    output Real y = u;
+  end f;
+  function open
+    extends Modelica.Math.Interfaces.partialFunction;
+  end open;
+  operator record Number
+    Real x;
+    operator 'constructor'
+      function fromReal
+        input Real value;
+        output Number number = Number(x = value);
+      end fromReal;
+    end 'constructor';
+  end Number;
+  Number number = Number(value = 2);
+  Complex z = Complex(re = 1, im = ModelicaServices.Machine.eps);
+  Pair pair = Pair(first = f(u = 1) + open(other = 1));
+
+equation"""
+
+
+def test_arguments_have_names_that_a_function_or_record_has(arm: Path, execute: Execute) -> None:
+    edit(MODEL, "\nequation", FUNCTION)
+    assert execute("build").err == ""
+    edit(MODEL, "f(u", "f(v")
+    edit(MODEL, "Pair(first", "Pair(frist")
+    printed = execute("build", code=3).err
+    assert "f has no `v`" in printed
+    assert "Pair has no `frist`; did you mean `first`?" in printed
+
+
+def test_the_kind_of_a_class_may_be_another_legal_one(arm: Path, execute: Execute) -> None:
+    edit(ELBOW, "model Elbow", "block Elbow")
+    edit(ARM / "Links/Base.mo", "model Base", "class Base")
+    edit(ARM / "Links/BaseParameters.mo", "record Base", "operator record Base")
+    assert execute("build").err == ""
+
+
+def test_a_class_may_be_partial_where_the_package_instantiates_another(arm: Path, execute: Execute) -> None:
+    edit(ELBOW, "model Elbow", "partial model Elbow")
+    assert "`Elbow` is partial, but used by modelica/Arm/Arm.mo:" in execute("build", code=3).err
+    (ARM / "Joints/Soft.mo").write_text("within Arm.Joints;\nmodel Soft\n  extends Elbow;\nend Soft;\n")
+    edit(MODEL, "replaceable Joints.Elbow elbow", "replaceable Joints.Soft elbow")
+    assert execute("build").err == ""
+
+
+def test_package_order_may_name_what_is_there(arm: Path, execute: Execute) -> None:
+    edit(ARM / "package.mo", "  annotation", "  constant Real pi = 3;\n  annotation")
+    (ARM / "Own.mo").write_text("within Arm;\nmodel Own\nend Own;\n")
+    edit(ARM / "package.order", "Arm\n", "pi\nArm\nOwn\n")
+    assert execute("build").err == ""
+    (ARM / "Own.mo").unlink()
+    assert "`Own` is named" in execute("status", code=1).err
+    write_source("wrist")
+    edit(ARM / "package.order", "Own\n", "")
+    assert "order-unknown" not in execute("build").err
+
+
+def test_a_class_that_became_a_folder_is_listed_by_its_path(arm: Path, execute: Execute) -> None:
+    make_folder(execute)
+    ELBOW.unlink()
+    edit(ELBOW.with_suffix("") / "package.mo", "\nequation", "\n  Real mine = 1;\n\nequation")
+    execute("build")
+    assert f"edited     {ELBOW.with_suffix('')}/package.mo" in execute("status").out

@@ -7,21 +7,19 @@ first. A compiler gives up the whole package for one file that does not parse, o
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from pathlib import Path, PurePosixPath
 
 from urdfsync.check.package import PackageTexts, RobotPackage
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.files import normalised
 from urdfsync.modelica.files import class_path
-from urdfsync.modelica.layout import PACKAGE_FILE, check_class_file
+from urdfsync.modelica.layout import PACKAGE_FILE, check_class_file, check_order, check_places
 from urdfsync.modelica.names import is_identifier
 from urdfsync.modelica.syntax import StoredText, declared
-from urdfsync.spelling import nearest
 
 _ORDER = "package.order"
 _QUOTED_NAME = re.compile("'[^'.]+'")
-_BYTE_ORDER_MARK = "\ufeff"
 _ERROR, _WARNING = Severity.ERROR, Severity.WARNING
 _URI = re.compile(r'"modelica://([^/"\\]+)/([^"\\]+)"')
 
@@ -55,42 +53,28 @@ def check_layout(package: PackageTexts) -> list[Diagnostic]:
             inside = [declaration for declaration in declared(text.classes) if len(declaration.path) == 2]
             declarations[place] = {declaration.path[1]: declaration.line for declaration in reversed(inside)}
     for folder in sorted(stored):
-        findings += _check_folder(package, folder, stored, declarations.get(folder, {}))
+        findings += _check_folder(package, folder, stored[folder])
         if str(folder / _ORDER) in package.texts:
             present = stored[folder] | declarations.get(folder, {}).keys()
             others = misnamed.get(folder, set()) if folder in declarations else None
             findings += _check_order(package, folder, present, others)
+    twice = check_places(package.texts, {str(folder / PACKAGE_FILE): lines for folder, lines in declarations.items()})
+    findings += [_placed(package, path, finding) for path, finding in twice]
     return sorted(dict.fromkeys(findings), key=lambda finding: (finding.file, finding.line))
 
 
-def _check_folder(
-    package: PackageTexts,
-    folder: PurePosixPath,
-    stored: Mapping[PurePosixPath, set[str]],
-    declared_lines: Mapping[str, int],
-) -> Iterator[Diagnostic]:
-    """Check that a folder is a package whose classes have one place and one spelling each.
-
-    `stored` are the classes in each folder; `declared_lines` tells where this folder's `package.mo` declares what.
-    """
-    package_file, hint = str(folder / PACKAGE_FILE), "keep one of them"
-    if package_file not in package.texts:
+def _check_folder(package: PackageTexts, folder: PurePosixPath, stored: Collection[str]) -> Iterator[Diagnostic]:
+    """Check that a folder is a package, and that its classes have one spelling each; `stored` are their names."""
+    if str(folder / PACKAGE_FILE) not in package.texts:
         message, where = f"the folder holds classes, but no {PACKAGE_FILE}", str(folder) if folder.parts else ""
         advice = "add one, or move the files elsewhere"
         yield package.diagnostic(_ERROR, "no-package-file", message, where, hint=advice)
     spellings: dict[str, str] = {}
-    for name in sorted(stored[folder]):
-        file, is_folder = f"{folder / name}.mo", folder / name in stored
-        if is_folder and file in package.texts:
-            message = f"`{name}` is both a file and a folder"
-            yield package.diagnostic(_ERROR, "class-twice", message, file, hint=hint)
-        if line := declared_lines.get(name):
-            message = f"`{name}` is declared here, and is a {'folder' if is_folder else 'file'} as well"
-            yield package.diagnostic(_ERROR, "class-twice", message, package_file, line, hint=hint)
+    for name in sorted(stored):
         if (first := spellings.setdefault(name.casefold(), name)) != name:
             message = f"`{name}` and `{first}` differ only by case"
             advice = "rename one: file systems that ignore case do not hold both"
-            yield package.diagnostic(_WARNING, "same-but-for-case", message, file, hint=advice)
+            yield package.diagnostic(_WARNING, "same-but-for-case", message, f"{folder / name}.mo", hint=advice)
 
 
 def check_around(output: Path, files: Mapping[str, bytes]) -> list[Diagnostic]:
@@ -113,40 +97,23 @@ def _check_file(package: PackageTexts, path: str, name: str) -> tuple[StoredText
     if isinstance(text, Diagnostic):
         return None, [text]
     stored, faults = check_class_file(text, PurePosixPath(path), name)
-    return stored, [
-        package.diagnostic(fault.severity, fault.code, fault.message, path, fault.line, hint=fault.hint)
-        for fault in faults
-    ]
+    return stored, [_placed(package, path, fault) for fault in faults]
 
 
 def _check_order(
     package: PackageTexts, folder: PurePosixPath, present: set[str], others: set[str] | None
 ) -> Iterator[Diagnostic]:
-    """Check whether a `package.order` names what is `present` in the folder, each once.
-
-    It may name `others`, too; anything if that is None, since `package.mo` can't be read.
-    """
+    """Check the `package.order` of a folder, as `check_order` does."""
     path = str(folder / _ORDER)
     text = _decoded(package, path)
     if isinstance(text, Diagnostic):
         yield text
         return
-    names = [line.strip() for line in text.removeprefix(_BYTE_ORDER_MARK).split("\n")]
-    lacking = sorted(present.difference(names))
-    for name in lacking:
-        hint = "add a line for it: without one, tools put it last, or warn"
-        yield package.diagnostic(_WARNING, "order-lacks", f"`{name}` is not named", path, hint=hint)
-    lines: dict[str, int] = {}
-    for number, name in enumerate(names, start=1):
-        first = lines.setdefault(name, number)
-        if name and first != number:
-            message, hint = f"`{name}` is named twice, first in line {first}", "take one of the lines out"
-            yield package.diagnostic(_WARNING, "order-twice", message, path, number, hint=hint)
-        elif name and others is not None and name not in present | others:
-            near = nearest(name, lacking)
-            message = f"`{name}` is named, but is no class and no constant of the package"
-            hint = f"did you mean `{near}`?" if near else "take the line out, or bring the class back"
-            yield package.diagnostic(_ERROR, "order-unknown", message, path, number, hint=hint)
+    yield from (_placed(package, path, finding) for finding in check_order(text, present, others))
+
+
+def _placed(package: PackageTexts, path: str, finding: Diagnostic) -> Diagnostic:
+    return package.diagnostic(finding.severity, finding.code, finding.message, path, finding.line, hint=finding.hint)
 
 
 def _misnamed_part(path: PurePosixPath) -> PurePosixPath | None:

@@ -80,6 +80,8 @@ def lines(result: Result, verbose: bool) -> Iterator[StyledLine]:
 
 def _path(action: Action) -> str:
     """Return where the user's file is: that of a conflict may wait for its new name."""
+    if action.reason is Reason.KEEP and not action.is_on_disk:  # he made a folder of the class
+        return f"{action.path.removesuffix('.mo')}/package.mo"
     return action.origin or action.path if action.kind is Kind.CONFLICT else action.path
 
 

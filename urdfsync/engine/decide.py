@@ -83,7 +83,7 @@ def decide_package(generation: Generation) -> Decision:
     held = Actions(hold((*actions, *order_actions), numbers, set(generation.moves.values()), inputs.has_moved))
     waiting = {action.path for action in held if action.held}
     shared = [file for file in shared if files.key(file.path) not in waiting]
-    misfits = find_misfits(generation, held, merged)
+    misfits = find_misfits(generation, held, {**orders, **merged})
     return Decision(held, {**orders, **merged}, conflicts, tuple(shared), tuple(misfits))
 
 

@@ -19,7 +19,7 @@ from urdfsync.engine.package_names import begins_with, new_name, new_names, rena
 from urdfsync.files import shown
 from urdfsync.modelica.files import files_that_use
 from urdfsync.modelica.names import LIBRARY
-from urdfsync.modelica.unresolved import Unresolved, UnresolvedKind
+from urdfsync.modelica.unresolved import Unresolved
 from urdfsync.state.store import Store
 
 CONNECTORS = "connector-changed"
@@ -108,7 +108,7 @@ def _hint(generation: Generation, renamed: Mapping[str, str], use: Unresolved) -
             return brings_back(option, name if name != use.part else "")
     if use.near:
         return f"did you mean `{use.meant}`?"
-    if use.kind is UnresolvedKind.CLASS and use.is_library:
+    if use.is_library:
         return f'name the library in `uses` if `{use.part}` is one: annotation (uses({use.part}(version="…")))'
     return "change or remove this use"
 

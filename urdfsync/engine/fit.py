@@ -10,7 +10,7 @@ those that mention a name which an edit adds, changes or takes away; of generate
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 from pathlib import Path, PurePosixPath
 from typing import NamedTuple
@@ -36,10 +36,11 @@ from urdfsync.modelica.files import (
     place_of,
     text_of,
 )
-from urdfsync.modelica.layout import check_class_file
-from urdfsync.modelica.scopes import Scopes
+from urdfsync.modelica.layout import PACKAGE_FILE, check_class_file, check_order, check_places
+from urdfsync.modelica.scopes import Element, Scopes
 from urdfsync.modelica.statements import (
     TOO_LONG,
+    Difference,
     Reading,
     compare,
     component_of,
@@ -47,10 +48,12 @@ from urdfsync.modelica.statements import (
     parse_without,
     plain_statements,
 )
-from urdfsync.modelica.syntax import StoredText
+from urdfsync.modelica.syntax import StoredText, declared
 from urdfsync.modelica.unresolved import Unresolved, UnresolvedKind, unresolved
 
 _LEGAL = (UnresolvedKind.NESTED_REDECLARE, UnresolvedKind.DOTTED_MODIFIER)
+_KINDS = {"model": ("model", "block", "class"), "record": ("record", "operator record")}
+"""The kinds of class that can take the place of one of this kind."""
 _ON_DISK = frozenset(one for one in Reason if one.kind in (Kind.LEAVE, Kind.CONFLICT)) - {
     Reason.UNCHANGED,
     Reason.ADOPT,
@@ -124,8 +127,14 @@ class Package(Mapping[str, bytes]):
         """
         self._generation, self._inputs, self._actions = generation, generation.inputs, actions
         self._contents, self._read_contents = contents or {}, dict[str, bytes]()
-        self._generated, self._readings = set[bytes](), dict[bytes, Reading]()
+        self._generated, self._readings, self._differences = (
+            set[bytes](),
+            dict[bytes, Reading](),
+            dict[str, Difference](),
+        )
         self._files = self._files_after(merged, is_open=is_open)
+        orders = (one.path for one in actions if one.role is Role.ORDER and not one.held and one.path in merged)
+        self._orders = {self._inputs.folder.path(key): merged[key] for key in orders}
         self.around = self._files_around(former_names)
 
     def _files_after(self, merged: Mapping[str, str], *, is_open: bool) -> dict[str, _File]:
@@ -244,14 +253,15 @@ class Package(Mapping[str, bytes]):
         that is not read.
         """
         if not self.users:
-            return []
-        misfits, passed = list[Misfit](), self._passed_statements()
+            return [*self._look_at_orders()] if only is None else []
+        passed = self._passed_statements()
         for path, statements in passed.items():
             self._readings[self[path]] = parse_without(text_of(self[path]), statements)
+        misfits = [*self._look_at_places(), *self._look_at_orders()] if only is None else []
         scopes, lost = Scopes(self.classes()), self._is_lost if only is not None else None
         for path in passed:
             if only is None or self._files[path].key in only:
-                misfits += self._look(path, scopes, lost)
+                misfits += self._look(path, scopes, lost, passed)
         for file in sorted(self.around) if only is None else ():
             misfits += self._look_around(file, scopes)
         return misfits
@@ -262,7 +272,7 @@ class Package(Mapping[str, bytes]):
         names, classes = self._missing_classes(), set[str]()
         edited = [path for path, file in self._files.items() if file.is_edited]
         for path in edited:
-            difference = compare(text_of(self[path]), self._generated_text(path))
+            difference = self._differences[path] = compare(text_of(self[path]), self._generated_text(path))
             classes.update(self.class_name(path)[-1:] if difference.is_whole else ())
             statements[path], names = difference.same, names | difference.names
         owners = {artifacts[path].owner for path in edited if path in artifacts}
@@ -307,12 +317,84 @@ class Package(Mapping[str, bytes]):
                 return True
         return False
 
-    def _look(self, path: str, scopes: Scopes, lost: Callable[[str], bool] | None) -> Iterator[Misfit]:
-        """Look at a file of the package; at a generated one for what others lack."""
+    def _look_at_places(self) -> Iterator[Misfit]:
+        """Look for classes that have two places."""
+        packages = [path for path, file in self._files.items() if file.is_edited and f"/{path}".endswith("/package.mo")]
+        for path, finding in check_places(self, {package: self._declared(package) or {} for package in packages}):
+            file, other = self._files[path], self._files.get(f"{path.removesuffix('.mo')}/{PACKAGE_FILE}")
+            is_broken = file.is_expected or (other is not None and other.is_expected)
+            yield Misfit(self._inputs.files.path(file.key), finding, file.key, is_broken)
+
+    def _declared(self, path: str) -> dict[str, int] | None:
+        """Return the lines of what a `package.mo` declares, by name; None if it is missing or no Modelica."""
+        stored = self._reading(self[path]).stored if path in self else None
+        if stored is None or stored.is_broken:
+            return None
+        return {inside.path[1]: inside.line for inside in declared(stored.classes) if len(inside.path) == 2}
+
+    def _look_at_orders(self) -> Iterator[Misfit]:
+        """Look for lines of the user's in a `package.order` that name nothing."""
+        inputs, files, orders = self._inputs, self._inputs.files, self._generation.package.orders
+        users = [f"{path.removesuffix('.mo')}.order" for path, file in self._files.items() if file.is_users]
+        texts = {path: files.any_text(inputs.folder.key(path)) for path in users if path.endswith("package.order")}
+        for path, text in (texts | self._orders).items():
+            names, folder, package = (
+                orders.get(path, ()),
+                path.removesuffix("package.order"),
+                f"{path.removesuffix('order')}mo",
+            )
+            lines = {line.strip() for line in text.split("\n")} - {"", *names}
+            if not lines:
+                continue
+            below = (other.removeprefix(folder) for other in self if other.startswith(folder))
+            inside, key = self._declared(package), inputs.folder.key(path)
+            present = {other.partition("/")[0].removesuffix(".mo") for other in below} | {*(inside or ())}
+            place = files.path(key).parent
+            # such as links
+            others = {line for line in lines - present if is_file(place / f"{line}.mo") or (place / line).is_dir()}
+            for finding in check_order(text, present, None if inside is None else others | {*names}):
+                if finding.severity is Severity.ERROR:
+                    yield Misfit(files.path(key), finding, key, is_broken=self._files[package].is_expected)
+
+    def _instance(self, node: Node, scopes: Scopes, paths: Iterable[str]) -> str:
+        """Return the place where one of these files instantiates a class; empty if none does."""
+        for path in paths:
+            other = scopes.node(self.class_name(path))
+            if other is None or "partial" in other.definition.prefixes:
+                continue
+            types = [component.type for component in other.definition.components]
+            redeclared = (one.type for base in other.definition.extends for one in base.arguments)
+            types += [one.type for one in redeclared if one]
+            for name in types:
+                meaning = scopes.lookup(name, other)
+                if isinstance(meaning, Element) and meaning.types[0].node is node:
+                    return f"{shown(self._inputs.files.path(self._files[path].key))}:{name.line}"
+        return ""
+
+    def _look_at_head(self, path: str, node: Node, scopes: Scopes, paths: Iterable[str]) -> Iterator[Diagnostic]:
+        """Look at the kind of a class that the user edited, and whether it is partial."""
+        generated = self._differences[path].generated if path in self._differences else None
+        if generated is None:
+            return
+        name, kind, line = node.definition.name, generated.kind, node.definition.name.line
+        if node.definition.kind not in _KINDS.get(kind, (kind,)):
+            message = f"`{name}` is declared as `{node.definition.kind}`, but used as `{kind}`"
+            yield Diagnostic(Severity.ERROR, "wrong-kind", message, line=line, hint=f"write `{kind} {name}`")
+        is_partial = "partial" in node.definition.prefixes - generated.prefixes
+        place = "other classes" if kind == "package" or not is_partial else self._instance(node, scopes, paths)
+        if is_partial and place:
+            message, hint = f"`{name}` is partial, but used by {place}", "take `partial` out, or extend the class"
+            yield Diagnostic(Severity.ERROR, "wrong-kind", message, line=line, hint=hint)
+
+    def _look(
+        self, path: str, scopes: Scopes, lost: Callable[[str], bool] | None, paths: Iterable[str]
+    ) -> Iterator[Misfit]:
+        """Look at a file of the package; at a generated one for what others lack. `paths` are all of these files."""
         file, name, reading = self._files[path], self.class_name(path), self._readings[self[path]]
         place = self._inputs.files.path(file.key)
         findings = check_class_file(reading.text, PurePosixPath(path), ".".join(name), reading.stored)[1]
         node = scopes.node(name)
+        findings += self._look_at_head(path, node, scopes, paths) if node else ()
         for use, finding in _faults(reading, findings, [node] if node else [], scopes, lost):
             if not file.is_generated:
                 is_broken = file.is_expected and finding.severity is Severity.ERROR

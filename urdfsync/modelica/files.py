@@ -15,6 +15,7 @@ from typing import TypeAlias
 
 from urdfsync.dependencies import is_file, read_file, scan_modelica
 from urdfsync.modelica.classes import OPAQUE, Node
+from urdfsync.modelica.names import STANDARD_LIBRARIES
 from urdfsync.modelica.parser import parse
 from urdfsync.modelica.syntax import StoredText
 
@@ -66,7 +67,7 @@ class StoredClasses:
         """The classes of the user's files, in the order of the files."""
         self.unread: list[Path] = []
         """Files of the user that are no Modelica, or not where their class belongs: its classes are unknown."""
-        self.libraries = {"Modelica"}
+        self.libraries = {*STANDARD_LIBRARIES}
         """Libraries that need not be installed: their classes are not looked for."""
         self.seen: dict[ClassName, str | None] = {}
         """The classes that were asked for, and their files; None where there is none."""

@@ -1,16 +1,20 @@
-"""The faults of a text as the file of one class, by the language specification 3.6, section 13.4."""
+"""The faults of a text as the file of one class, and of files as a package, by the specification 3.6, section 13.4."""
 
 from __future__ import annotations
 
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from pathlib import PurePosixPath
 
 from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.modelica.files import class_parts
 from urdfsync.modelica.lexer import find_markers, lex
 from urdfsync.modelica.names import within
 from urdfsync.modelica.parser import parse
 from urdfsync.modelica.syntax import StoredText
+from urdfsync.spelling import nearest
 
 PACKAGE_FILE = "package.mo"
+_BYTE_ORDER_MARK = "\ufeff"
 _ALLOWED_TWICE = ("has the equation", "connects", "extends")  # the language has nothing against these
 
 
@@ -35,7 +39,7 @@ def check_class_file(
     def say(severity: Severity, code: str, message: str, line: int = 0, hint: str = "") -> None:
         findings.append(Diagnostic(severity, code, message, line=line, hint=hint))
 
-    if text.startswith("\ufeff"):
+    if text.startswith(_BYTE_ORDER_MARK):
         hint = "save it without: some compilers refuse it"
         say(Severity.WARNING, "byte-order-mark", "the file begins with a byte order mark", 1, hint)
     declared = stored or parse(text)
@@ -74,3 +78,46 @@ def check_class_file(
             hint = "move it to a file of its own: a file in a package holds one class"
             say(Severity.ERROR, "second-class", message, other.name.line, hint)
     return declared, findings
+
+
+def check_places(
+    paths: Iterable[str], declarations: Mapping[str, Mapping[str, int]]
+) -> Iterator[tuple[str, Diagnostic]]:
+    """Yield a finding for each class of a package that has two places, with one of them.
+
+    `paths` are its files, and `declarations` the lines of what a `package.mo` declares.
+    """
+    places, hint = dict[tuple[str, ...], str](), "put all of it into one of them, and take the other away"
+    for path in sorted(path for path in paths if path.endswith(".mo")):
+        parts = class_parts(path)
+        if (first := places.setdefault(parts, path)) != path:
+            message = f"`{parts[-1]}` has two files, this one and {path}"
+            yield first, Diagnostic(Severity.ERROR, "class-twice", message, hint=hint)
+    for path, lines in declarations.items():
+        for name, line in lines.items():
+            if other := places.get((*class_parts(path), name)):
+                message = f"`{name}` is declared here, and has the file {other} as well"
+                yield path, Diagnostic(Severity.ERROR, "class-twice", message, line=line, hint=hint)
+
+
+def check_order(text: str, present: Collection[str], others: Collection[str] | None) -> Iterator[Diagnostic]:
+    """Check whether a `package.order` names what is `present` in its folder, each once.
+
+    It may name `others`, too; anything if that is None, since `package.mo` can't be read.
+    """
+    names = [line.strip() for line in text.removeprefix(_BYTE_ORDER_MARK).split("\n")]
+    lacking = sorted({*present}.difference(names))
+    for name in lacking:
+        hint = "add a line for it: without one, tools put it last, or warn"
+        yield Diagnostic(Severity.WARNING, "order-lacks", f"`{name}` is not named", hint=hint)
+    lines: dict[str, int] = {}
+    for number, name in enumerate(names, start=1):
+        first = lines.setdefault(name, number)
+        if name and first != number:
+            message, hint = f"`{name}` is named twice, first in line {first}", "take one of the lines out"
+            yield Diagnostic(Severity.WARNING, "order-twice", message, line=number, hint=hint)
+        elif name and others is not None and name not in present and name not in others:
+            near = nearest(name, lacking)
+            message = f"`{name}` is named, but is no class and no constant of the package"
+            hint = f"did you mean `{near}`?" if near else "take the line out, or bring the class back"
+            yield Diagnostic(Severity.ERROR, "order-unknown", message, line=number, hint=hint)

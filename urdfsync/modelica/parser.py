@@ -307,25 +307,33 @@ class Parser(Lexer):
         elif is_name(word) or word == ".":
             self._reference()
             if self.word == "(":
-                self._call()
+                self._call_named()
         else:
             raise self._lack("an expression")
 
-    def _call(self) -> None:
-        """Read the arguments of a function."""
-        names: set[str] = set()
+    def _call_named(self) -> None:
+        """Read the arguments of the function whose name was read last."""
+        place = len(self._names) - 1
+        if arguments := self._call():
+            self._names[place] = self._names[place]._replace(arguments=arguments)
+
+    def _call(self) -> tuple[Name, ...]:
+        """Read the arguments of a function. Returns their names, as far as they have some."""
+        names, arguments = set[str](), list[Name]()
         for _ in self._list():
             if is_name(self.word) and self.following == "=":
-                name = self._identifier()
+                name, start = self._identifier(), self.starts[self.at - 1]
                 self._once(names, name, f"sets `{name}` twice")
+                arguments.append(Name((name,), self.line_at(start), starts=(start,)))
                 self._step()
             elif names:
                 raise self._lack("the name of an argument")
             if self._accept("function"):
                 self._names.append(self._name()._replace(is_called=True))
-                self._call()
+                self._call_named()
             else:
                 self._item()
+        return tuple(arguments)
 
     def _item(self) -> None:
         """Read an expression, possibly with the indices of a reduction."""

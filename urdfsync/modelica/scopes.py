@@ -106,7 +106,7 @@ class Scopes:
         if name not in node.classes:
             definition = next((inner for inner in node.definition.classes if inner.name.parts[0] == name), None)
             child = Node(definition, (*node.name, name), node.file) if definition else None
-            if child is None and node.definition.kind == "package":
+            if child is None and (node.definition.kind == "package" or node.file.endswith("package.mo")):
                 child = self._sources.stored((*node.name, name))
             if child is not None and child is not OPAQUE:
                 child.parent = node

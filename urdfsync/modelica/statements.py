@@ -39,6 +39,8 @@ class Difference(NamedTuple):
     """The names that other statements declare, in either text."""
     is_whole: bool
     """Whether all names may have another meaning, such as where one extends or imports what the other does not."""
+    generated: Class | None
+    """The generated class, as far as its text differs; None if there is none."""
 
 
 class Reading(NamedTuple):
@@ -69,7 +71,7 @@ def compare(mine: str, generated: str) -> Difference:
     same = frozenset(statement for statement, count in own.items() if other[statement] == count and is_plain(statement))
     texts = [_END.join(statement for statement in statements if statement not in same) for statements in (own, other)]
     if max(map(len, texts)) > _LONGEST:
-        return Difference(same, frozenset(), is_whole=False)
+        return Difference(same, frozenset(), is_whole=False, generated=None)
     rests = [*map(parse, texts)]
     paths = (declaration.path for rest in rests for declaration in declared(rest.classes))
     names = frozenset(path[-1] for path in paths if path[1:])  # a class of another name is a fault of its file alone
@@ -78,15 +80,16 @@ def compare(mine: str, generated: str) -> Difference:
     # a comment or a string around it may hide a component
     is_hidden = not read.passed <= {declaration.line for declaration in declared(read.stored.classes)}
     is_whole = visible[0] != visible[1] or is_hidden
-    return Difference(frozenset() if is_whole else same, names, is_whole)
+    return Difference(frozenset() if is_whole else same, names, is_whole, next(iter(rests[1].classes), None))
 
 
 def _visible(classes: Iterable[Class]) -> Iterator[tuple[str, object]]:
-    """Yield the rest that gives names a meaning in each class: its base classes, redeclarations there, and imports."""
+    """Yield the rest that gives names a meaning in each class: kind, base classes, redeclarations there, imports."""
     for definition in classes:
         redeclared = [str(inner.type and inner.type.type) for base in definition.extends for inner in base.arguments]
         imported = [(str(clause.name), [*clause.names]) for clause in definition.imports]
-        yield str(definition.name), ([str(base.type) for base in definition.extends], redeclared, imported)
+        head = definition.kind, definition.prefixes
+        yield str(definition.name), (head, [str(base.type) for base in definition.extends], redeclared, imported)
         yield from _visible(definition.classes)
 
 

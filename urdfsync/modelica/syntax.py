@@ -25,6 +25,8 @@ class Name(NamedTuple):
     """Whether it is called as a function or record constructor."""
     starts: tuple[int, ...] = ()
     """Where its parts begin in the text, from 0."""
+    arguments: tuple[Name, ...] = ()
+    """The names of the arguments that it is called with."""
 
     def __str__(self) -> str:
         return ".".join(self.parts)

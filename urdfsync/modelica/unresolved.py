@@ -14,6 +14,9 @@ from urdfsync.spelling import nearest
 _RATHER_ALIKE, _ALIKE = 0.6, 0.75
 """Likeness (see `difflib`) of a misspelled name; what may be the name of a library has to be more alike."""
 
+_CALLED = frozenset({"function", "operator function", "record"})
+"""Kinds of classes whose elements are what they are called with."""
+
 
 class UnresolvedKind(enum.Enum):
     """The kind of fault that a name has."""
@@ -140,7 +143,14 @@ class _Walk(NamedTuple):
 
     def _uses(self, names: Iterable[Name], scope: Node | None) -> Iterator[Unresolved]:
         for name in names:
-            yield from self._missing(name, self.scopes.lookup(name, scope), scope, UnresolvedKind.ELEMENT)
+            meaning = self.scopes.lookup(name, scope)
+            yield from self._missing(name, meaning, scope, UnresolvedKind.ELEMENT)
+            if name.arguments and isinstance(meaning, Element) and not meaning.is_component:
+                # constructors of operator records and of external objects have arguments of their own
+                is_plain = all(type_.node.definition.kind in _CALLED for type_ in meaning.types)
+                for argument in name.arguments if is_plain else ():
+                    part = self.scopes.part(meaning.types, argument.parts[0])
+                    yield from self._missing(argument, part, scope, UnresolvedKind.ELEMENT)
 
     def _component(self, component: Component, node: Node) -> Iterator[Unresolved]:
         yield from self._used(Extends(component.type), node)
@@ -191,7 +201,8 @@ class _Walk(NamedTuple):
         owner = str(meaning.types[0] if meaning.types else scope or "")
         names = self.scopes.names_in(meaning.types) if meaning.types else self.scopes.names_around(scope)
         candidates = {key for key, is_class in names.items() if is_class or kind is not UnresolvedKind.CLASS}
-        is_library = not meaning.types and len(name.parts) > 1 and meaning.part[:1].isupper()
+        is_dotted = len(name.parts) > 1 or name.is_global  # so are imported names
+        is_library = not meaning.types and is_dotted and meaning.part[:1].isupper()
         least = _ALIKE if is_library else _RATHER_ALIKE
         near = nearest(meaning.part, sorted(candidates - {meaning.part}), least)
         if near or not is_library or self.all_libraries:  # else a compiler tells whether there is a library
