@@ -10,6 +10,7 @@ from support.networks import (
     edit,
     resistor,
     run,
+    source,
 )
 from support.networks import inner_kinds as kinds
 from support.networks import set_keys as configure
@@ -34,6 +35,21 @@ def test_a_changed_option_or_template_renders_again(project: Path) -> None:
     edit(template, "record", "record  ")
     assert set(kinds(run()).values()) == {Reason.UPDATE}
     assert run().in_step
+
+
+def test_changes_are_those_since_the_last_build(project: Path) -> None:
+    assert run().changes is None
+    resistor(120)
+    source('"C2"', '"C8"')
+    changes = run().changes
+    assert changes is not None
+    assert dict(changes.renames) == {("element", "C2"): "C8"}
+    assert ("R1", "ohm") in [change.path for change in changes.changes]
+    assert (changes.generator, changes.options) == (False, ())
+    configure(prefix='"pin"')
+    changes = run().changes
+    assert changes is not None
+    assert (list(changes.changes), changes.generator, changes.options) == ([], True, ("prefix",))
 
 
 def test_a_full_build_generates_what_is_recorded_as_generated(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
