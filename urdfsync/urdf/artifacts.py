@@ -12,8 +12,9 @@ from urdfsync.modelica.literals import html
 from urdfsync.urdf.connectors import connector_names
 from urdfsync.urdf.drives import driven_joints
 from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.model.record import NO_LIMITS, record_data
-from urdfsync.urdf.model.robot import bench_data, joint_model, joint_title, robot_data
+from urdfsync.urdf.model.joint import joint_model, joint_record, joint_title
+from urdfsync.urdf.model.record import record_data
+from urdfsync.urdf.model.robot import bench_data, robot_data
 from urdfsync.urdf.model.sensors import sensor_records
 from urdfsync.urdf.model.shapes import link_model, link_shapes, standing_height
 from urdfsync.urdf.model.tables import obstacles
@@ -179,12 +180,17 @@ def _joint(
         "record": name.record,
         "title": joint_title(joint),
     }
-    record = {"joint": joint, "limits": joint.limit or NO_LIMITS}
     ends = f"<code>{html(joint.child)}</code> relative to link <code>{html(joint.parent)}</code>"
     note = f"The URDF joint <code>{html(joint.name)}</code>: link {ends} {JOINT_KINDS[joint.type].does}. {_EDIT}"
     model = joint_model(joint, options, is_driven) | {"note": note}
     template = f"joint/{joint.type}"
     return (
-        Artifact(f"Joints/{name.record}.mo", Role.RECORD, f"{template}_parameters.mo.jinja", named | record, owner),
+        Artifact(
+            f"Joints/{name.record}.mo",
+            Role.RECORD,
+            f"{template}_parameters.mo.jinja",
+            named | joint_record(joint),
+            owner,
+        ),
         Artifact(f"Joints/{name.type}.mo", Role.MODEL, f"{template}.mo.jinja", named | model, owner),
     )

@@ -283,7 +283,7 @@ def effective(joint: Joint) -> Joint:
 
 
 def structure(joint: Joint) -> Joint:
-    """Return what the model of the robot says of a joint; `model.robot.joint_model` has what its own model says."""
+    """Return what the model of the robot says of a joint; `model.joint` has what its own model says."""
     mimic = None if joint.mimic is None else Mimic(joint.mimic.joint)
     start = None if joint.start is None else 0.0
     return Joint(joint.name, joint.type, joint.parent, joint.child, mimic=mimic, start=start)

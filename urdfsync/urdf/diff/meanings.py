@@ -15,7 +15,7 @@ from urdfsync.domain import ChangeClass, ChangeKind, Difference, Import, Meaning
 from urdfsync.urdf import robot
 from urdfsync.urdf.drives import can_be_driven, driven_joints
 from urdfsync.urdf.meshes import lookup
-from urdfsync.urdf.model.robot import joint_model
+from urdfsync.urdf.model.joint import joint_model
 from urdfsync.urdf.model.shapes import link_model, link_shapes, touching
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import MOTION_KINDS, Collision, Joint, Link, Mesh, Unit, Visual, effective, structure

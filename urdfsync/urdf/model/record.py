@@ -8,13 +8,11 @@ from typing import Any
 from urdfsync.domain import Import
 from urdfsync.urdf.connectors import Connectors, free_name, taken_names
 from urdfsync.urdf.kinematics.tree import KinematicTree
+from urdfsync.urdf.model.joint import joint_record
 from urdfsync.urdf.model.shapes import link_shapes, standing_height
 from urdfsync.urdf.model.tables import obstacles, tables
 from urdfsync.urdf.options import USES, Options
-from urdfsync.urdf.robot import MOTION_KINDS, MOTIONS, Joint, Limit, limits_acceleration, reflected_inertia
-
-NO_LIMITS: Mapping[str, None] = dict.fromkeys(Limit.__struct_fields__)
-"""Limits of a joint that has none, for the template of its record."""
+from urdfsync.urdf.robot import MOTION_KINDS, MOTIONS, Joint, limits_acceleration, reflected_inertia
 
 
 def record_data(
@@ -48,7 +46,7 @@ def record_data(
             ]
     for number, joint in enumerate(tree.joints, 1):
         data = {"number": number, "component": tree.joint(joint.name).component}
-        joints.append({**data, "joint": joint, "limits": joint.limit or NO_LIMITS})
+        joints.append(data | joint_record(joint))
     numbers = {link.name: number for number, link in enumerate(tree.links, 1)}
     moving = [joint for joint in tree.joints if joint.type in MOTION_KINDS]
 

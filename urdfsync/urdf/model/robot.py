@@ -14,38 +14,16 @@ import msgspec
 
 from urdfsync.urdf.connectors import Connectors, input_vector
 from urdfsync.urdf.diagram.layout import layout
-from urdfsync.urdf.drives import friction_law, has_motor, is_chosen
+from urdfsync.urdf.drives import is_chosen
 from urdfsync.urdf.kinematics.tree import KinematicTree
+from urdfsync.urdf.model.joint import joint_title
 from urdfsync.urdf.model.sensors import sensor_models, sensor_outputs
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import MOTION_KINDS, Joint, limits_acceleration, reflected_inertia
+from urdfsync.urdf.robot import MOTION_KINDS
 
 _ROW = 20  # height of a row of connectors on the icon: an axis, and its support 10 below
 _PICTURE = 100  # where the picture on the icon ends, and the rows begin
 _FRAME_Y = -50  # where the benches of the library have the frame that the robot is connected to
-
-
-def joint_title(joint: Joint) -> str:
-    """Return a description of a joint: its type, its name and its links."""
-    return f'{joint.type} joint "{joint.name}" from link "{joint.parent}" to link "{joint.child}"'
-
-
-def joint_model(joint: Joint, options: Options, is_driven: bool) -> dict[str, Any]:
-    """Return which parts the model of a joint has; its rotor is a part of its own if the motor has a flange.
-
-    The spring of an elastic drive keeps the limits of effort and velocity, if Run does not.
-    """
-    armature, with_motor = joint.dynamics and joint.dynamics.armature, has_motor(joint, options)
-    inertia = armature if with_motor else reflected_inertia(joint)
-    return {
-        "dynamics": joint.dynamics is not None,
-        "accelerations": limits_acceleration(joint),
-        "inertia": inertia is not None,
-        "motor": with_motor,
-        "friction": friction_law(joint, options),
-        "elastic": is_driven and is_chosen(joint, options.elastic),
-        "saturated": is_driven and is_chosen(joint, options.saturated) and joint.command != "effort",
-    }
 
 
 @functools.lru_cache(maxsize=1)

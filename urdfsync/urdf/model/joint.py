@@ -1,0 +1,37 @@
+"""Template data of a joint: of its model, which depends on no number of the URDF, and of its record."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from urdfsync.urdf.drives import friction_law, has_motor, is_chosen
+from urdfsync.urdf.options import Options
+from urdfsync.urdf.robot import Joint, Limit, limits_acceleration, reflected_inertia
+
+
+def joint_title(joint: Joint) -> str:
+    """Return a description of a joint: its type, its name and its links."""
+    return f'{joint.type} joint "{joint.name}" from link "{joint.parent}" to link "{joint.child}"'
+
+
+def joint_model(joint: Joint, options: Options, is_driven: bool) -> dict[str, Any]:
+    """Return which parts the model of a joint has; its rotor is a part of its own if the motor has a flange.
+
+    The spring of an elastic drive keeps the limits of effort and velocity, if Run does not.
+    """
+    armature, with_motor = joint.dynamics and joint.dynamics.armature, has_motor(joint, options)
+    inertia = armature if with_motor else reflected_inertia(joint)
+    return {
+        "dynamics": joint.dynamics is not None,
+        "accelerations": limits_acceleration(joint),
+        "inertia": inertia is not None,
+        "motor": with_motor,
+        "friction": friction_law(joint, options),
+        "elastic": is_driven and is_chosen(joint, options.elastic),
+        "saturated": is_driven and is_chosen(joint, options.saturated) and joint.command != "effort",
+    }
+
+
+def joint_record(joint: Joint) -> dict[str, Any]:
+    """Return the numbers of a joint; limits of a joint that has none are None."""
+    return {"joint": joint, "limits": joint.limit or dict.fromkeys(Limit.__struct_fields__)}
