@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 import pytest
-from support.modelica import GRAVITY, Run, Task, simulate
-from support.packages import generate
+from support.modelica import GRAVITY, Array, Run, Task, simulate
+from support.packages import Package, generate
 from support.urdfs import joint, limit, link, links, robot
 
 from urdfsync.domain import Target
@@ -40,21 +41,30 @@ ROBOT = robot(
 )
 
 
-def test_joints_move_as_the_source_says(modelica_library: Path, tmp_path: Path) -> None:
-    """A caster that is only measured swings as a pendulum does, a wheel has the speed that is given."""
-    package = generate(ROBOT.encode(), Target("Bot", "Bot"), start={"lift": 0.25})
+def simulate_run(
+    package: Package, signals: Sequence[str], equations: str, stop: float, library: Path, folder: Path
+) -> list[Array]:
+    """The series of `signals` of the robot in its Run, whose inputs are as the equations say."""
     # as `simulate` does: rumoca refuses an extension that binds inputs
     texts = {path: text.replace("Blocks.Interfaces.RealInput", "Blocks.Interfaces.RealOutput")
              for path, text in package.texts.items()}  # fmt: skip
     imports = "import Modelica; import UrdfSync; import Bot;"
-    equations = "wheel_w = 2; elbow_tau = 1; lift_s = 0.25;"
     source = f"model Probe\n  {imports}\n  extends Bot.BotRun;\nequation\n  {equations}\nend Probe;\n"
-    names = ("caster.revolute.phi", "caster.revolute.w", "casterAxis.tau", "wheel.revolute.w", "elbow.revolute.phi",
+    values = [f"robot.{signal}" for signal in signals]
+    task = Task(source, "Probe", [Run(stop, 0.01, tolerance=1e-8)], values)
+    (series,) = simulate(library, [dataclasses.replace(package, texts=texts).write(folder)], [task])
+    return [series.values[value] for value in values]
+
+
+def test_joints_move_as_the_source_says(modelica_library: Path, tmp_path: Path) -> None:
+    """A caster that is only measured swings as a pendulum does, a wheel has the speed that is given."""
+    package = generate(ROBOT.encode(), Target("Bot", "Bot"), start={"lift": 0.25})
+    signals = ("caster.revolute.phi", "caster.revolute.w", "casterAxis.tau", "wheel.revolute.w", "elbow.revolute.phi",
              "elbow.revolute.a", "lift.prismatic.s", "grip.prismatic.s")  # fmt: skip
-    task = Task(source, "Probe", [Run(1.0, 0.01, tolerance=1e-8)], [f"robot.{name}" for name in names])
-    folder = dataclasses.replace(package, texts=texts).write(tmp_path)
-    (series,) = simulate(modelica_library, [folder], [task])
-    phi, w, tau, speed, elbow, gain, lift, grip = (series.values[f"robot.{name}"] for name in names)
+    series = simulate_run(
+        package, signals, "wheel_w = 2; elbow_tau = 1; lift_s = 0.25;", 1.0, modelica_library, tmp_path
+    )
+    phi, w, tau, speed, elbow, gain, lift, grip = series
     inertia = {"caster": 2.0 * (0.018 + 0.1**2), "elbow": 1.5 * (0.021 + 0.2**2)}
     # nobody pushes the caster, and nothing brakes it
     assert max(phi) > 0.99 * math.pi
@@ -65,3 +75,36 @@ def test_joints_move_as_the_source_says(modelica_library: Path, tmp_path: Path) 
     assert gain[0] == pytest.approx((1 - 1.5 * GRAVITY * 0.2 * math.cos(0.5)) / inertia["elbow"])
     assert lift == pytest.approx(0.25)
     assert grip == pytest.approx(-0.5)
+
+
+def rolling(name: str, radius: float) -> str:
+    """A wheel about its own y."""
+    shape = f'<geometry><cylinder radius="{radius}" length="0.04"/></geometry>'
+    collision = f'<collision><origin rpy="1.5707963267948966 0 0"/>{shape}</collision>'
+    return link(name, 1.0, center="0 0 0", rpy="0 0 0").replace("</link>", f"{collision}</link>")
+
+
+BALL = '<collision><origin xyz="-0.2 0 -0.05"/><geometry><sphere radius="0.05"/></geometry></collision>'
+CART = robot(
+    link("base", 5.0, center="-0.05 0 0", rpy="0 0 0").replace("</link>", f"{BALL}</link>"),
+    rolling("tyre_left", 0.1),
+    rolling("tyre_right", 0.1),
+    joint("left", "continuous", "base", "tyre_left", axis="0 1 0", xyz="0 0.2 0", rpy="0 0 0"),
+    joint("right", "continuous", "base", "tyre_right", axis="0 1 0", xyz="0 -0.2 0", rpy="0 0 0"),
+    interface("left", "VelocityJointInterface"),
+    interface("right", "VelocityJointInterface"),
+    '<gazebo reference="base"><mu1>0</mu1></gazebo>',
+)
+"""Two wheels, and a ball that slides."""
+
+
+def test_wheels_drive_at_the_speed_that_is_given(modelica_library: Path, tmp_path: Path) -> None:
+    """Both turn forward by 3 rad/s after a second: the cart goes straight on, by radius times speed."""
+    package = generate(CART.encode(), Target("Bot", "Bot"), base="floating")
+    inputs = "left_w = min(3, 3*time); right_w = left_w;"
+    signals = ("left.revolute.w", "right.revolute.w", "frame_a.r_0[1]", "frame_a.r_0[2]")
+    left, right, x, y = simulate_run(package, signals, inputs, 2.0, modelica_library, tmp_path)
+    assert left[-1] == pytest.approx(3.0, abs=1e-3)
+    assert right[-1] == pytest.approx(3.0, abs=1e-3)
+    assert (x[-1] - x[-21]) / 0.2 == pytest.approx(0.1 * 3.0, rel=0.02)
+    assert y[-1] == pytest.approx(0, abs=1e-3)

@@ -311,6 +311,8 @@ FOLLOWING = urdfs.joint("elbow", "continuous", "base", "arm", inside=[urdfs.mimi
 @pytest.mark.parametrize(("joint", "elements", "words"), [
     (LIMITED, [begins("2.5")], "10: warning: joint 'elbow' begins at 2.5, outside of its limits -1 to 2, and is not "
      "put there"),
+    (LIMITED, [begins("-1.5")], "10: warning: joint 'elbow' begins at -1.5, outside of its limits -1 to 2, and is not "
+     "put there"),
     (LIMITED, [begins("half")], "10: warning: ros2_control c / joint elbow: <param> 'half' is not a decimal number"),
     (LIMITED, [begins("2", "velocity")], "10: warning: ros2_control c / joint elbow begins with velocity 2; in Run and "
      "Test it begins at rest"),

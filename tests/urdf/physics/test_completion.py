@@ -95,7 +95,7 @@ def test_made_up_inertias_are_possible_skew_and_always_the_same() -> None:
 def test_a_coupling_that_stands_elsewhere_becomes_a_mimic() -> None:
     plugin = "<plugin><joint>a</joint><mimicJoint>b</mimicJoint><multiplier>-2</multiplier></plugin>"
     urdf = robot(
-        *map(link, ("base", "arm", "tip")),
+        *links(base=1.0, arm=1.0, tip=1.0),
         joint("a", "continuous", "base", "arm"),
         joint("b", "continuous", "base", "tip"),
         f"<gazebo>{plugin}</gazebo>",
