@@ -50,7 +50,7 @@ class Instant(enum.IntEnum):
     HIGH = 7
     ABOVE = 8
     STRAINED = 9
-    """The effort is just above its limit."""
+    """The effort is just above its limit, backward, so that a lost sign shows."""
     LOADED = 10
     """The effort is just below, in the other direction."""
 
@@ -59,7 +59,7 @@ COMPARED = tuple(map(float, list(Instant)[: Instant.TURNED + 1]))
 """The instants at which all is compared."""
 JUST = 1e-3
 """Part of a limit by which it is passed, or kept."""
-LOADS = {Instant.STRAINED: 1 + JUST, Instant.LOADED: -1 + JUST}
+LOADS = {Instant.STRAINED: -1 - JUST, Instant.LOADED: 1 - JUST}
 """The part of the limit of its effort that each axis is driven by."""
 _SWINGS = {
     Instant.START: (0.0, 0.0, 0.0),
