@@ -123,7 +123,7 @@ def _call(args: argparse.Namespace, console: Console) -> int:
 
 def _for_git(given: Sequence[str], error: int) -> int:
     """Return the exit code of an error as git's merge driver tells it: smaller ones are numbers of conflicts."""
-    return arguments.DRIVER_ERROR if _command(given) == "merge-driver" else error
+    return arguments.DRIVER_ERROR if _command(given) == "merge-driver" and "--install" not in given else error
 
 
 def _command(given: Sequence[str]) -> str:

@@ -38,7 +38,7 @@ RENAMED = {
     "../plant/Bench.mo": BENCH.replace("elbow", "wrist"),
     "modelica/Arm/Links/Mine.mo": MINE.replace("elbow", "wrist").replace("Elbow", "Wrist"),
 }
-NONE = "none of your models uses a name that the last build renamed"
+NONE = "none of your models uses a name that is known to have another one now"
 COMMAND = ("resolve", "--rename-uses")
 NAMES = (*COMMAND, "elbow=wrist")
 
@@ -112,7 +112,12 @@ def test_what_the_next_build_renames_is_renamed_in_models_and_built(user: Path, 
 def test_what_an_earlier_build_renamed_is_renamed_by_its_names(user: Path, execute: Execute) -> None:
     hint = "`urdfsync resolve --rename-uses elbow=wrist` shows the lines, and writes them if you agree [rename-uses]"
     assert f"note: your files can get the new names; {hint}" in execute("build").words
-    note = f"{NONE}; for a rename before the last build, give both names: --rename-uses OLD=NEW"
+    assert "Write 7 lines" not in execute(*COMMAND, code=2).out, "they are known until the next build that writes"
+    assert "Arm has no `elbowAxis`; use `wristAxis` instead" in execute("status").err
+    write_source("wrist", "push")
+    execute("build")
+    Path("modelica/Arm/Arm.mo").touch()
+    note = f"{NONE}; give names that an earlier build renamed: --rename-uses OLD=NEW"
     assert f"note: {note} [no-old-names]" in execute(*COMMAND).errors
     with unchanged(user / "modelica/Arm/Joints"):
         assert execute(*NAMES, "--yes").lines[-1] == "7 lines in 3 files written"

@@ -114,6 +114,8 @@ def test_a_preferred_side_that_mentions_what_is_gone_is_refused(contradictory: P
         in execute("resolve", MODEL, "--merge", "--prefer", "mine", code=3).words
     )
     assert Path(MODEL).read_text() == text
+    for words in (("status",), ("build",)):
+        assert "--prefer mine" not in execute(*words, code=3).out, "it is not proposed"
     execute("resolve", MODEL, "--merge", "--prefer", "generated")
     assert MINE not in Path(MODEL).read_text()
 
@@ -180,7 +182,7 @@ def test_a_merge_that_is_not_offered_changes_nothing(execute: Execute, contradic
         proposal = Path(".urdfsync/conflicts/ladder/Ladder.merge.txt")
         printed = execute("resolve", MODEL, "--merge", code=3)
         assert "Component `elementR2`: you changed it, the export removes it." in printed.words
-        assert f"    urdfsync resolve {Path(MODEL)} --merge --prefer generated" not in printed.lines
+        assert f"    urdfsync resolve {Path(MODEL)} --merge --prefer generated" in printed.lines
         assert not any(line.startswith(("  keep ", "  merge ", "  update ")) for line in printed.lines)
         assert MINE in proposal.read_text()
 
@@ -488,6 +490,16 @@ def test_an_editor_makes_one_text_of_both(
     assert not list(tmp_path.glob("urdfsync-edit-*"))
 
 
+@pytest.mark.parametrize("left", ["", "os.mkfifo(file)"])
+def test_an_editor_that_leaves_no_file_is_told(
+    contradictory: Path, execute: Execute, editor: Editor, left: str
+) -> None:
+    editor(f"import os\nfile.unlink()\n{left}")
+    error = execute("resolve", MODEL, "--edit", code=2).err
+    assert "the editor left no file that can be read" in error
+    assert "nothing was changed" in error
+
+
 def test_the_editor_sees_all_versions_in_one_file_outside_of_the_project(
     contradictory: Path, execute: Execute, editor: Editor, tmp_path: Path
 ) -> None:
@@ -629,6 +641,7 @@ def test_no_folder_of_the_project_chooses_what_is_started(
     (contradictory / "editor-of-nobody").write_text("#!/bin/sh\ntouch pwned\n")
     (contradictory / "editor-of-nobody").chmod(0o755)
     assert "`editor-of-nobody` can't be started" in execute("resolve", MODEL, "--edit", code=2).err
+    assert not list(Path(tempfile.gettempdir()).glob("urdfsync-edit-*")), "nothing was edited"
     assert not list(tmp_path.rglob("pwned"))
 
 
@@ -680,6 +693,15 @@ def test_a_broken_robot_hinders_no_other(clean: Path, execute: Execute) -> None:
     execute("resolve", MODEL, "--merge")
     execute("resolve", "--all", "--keep", code=2)
     execute("resolve", "--all", "--keep", "--robot", "ladder")
+
+
+@pytest.mark.parametrize("choice", ["--merge", "--keep"])
+def test_a_broken_package_without_a_conflict_is_told(project: Path, execute: Execute, choice: str) -> None:
+    execute("build")
+    edit(MODEL, "Elements.C1 elementC1", "Elements.C9 elementC1")
+    printed = execute("resolve", "--all", choice, code=3)
+    assert "there is no class `Elements.C9`" in printed.err
+    assert "nothing is in conflict" in printed.err
 
 
 def test_another_build_is_waited_for(clean: Path, execute: Execute) -> None:

@@ -107,6 +107,19 @@ def test_what_is_given_back_and_does_not_fit_is_told(execute: Execute, project: 
         assert "broken" in execute(*words, code=1).lines[0]
 
 
+def test_a_merge_with_a_rename_that_was_undone_can_be_made_again(execute: Execute, project: Path) -> None:
+    execute("build")
+    edit(MODEL, "Elements.C1 elementC1", "Elements.C1 mine;\n\n  Elements.C1 elementC1")
+    edit("ladder.json", '"C1"', '"C3"')
+    execute("build", "--merge")
+    both = Path(MODEL).read_text()
+    assert "Elements.C3 mine;" in both
+    for _ in range(2):
+        assert "there is no class `Elements.C1`; use `C3` instead" in execute("resolve", MODEL, "--undo", code=3).err
+        execute("resolve", MODEL, "--merge")
+        assert Path(MODEL).read_text() == both
+
+
 def test_a_file_that_was_saved_since_is_not_given_back(merged: Path, execute: Execute) -> None:
     edit(MODEL, "Real mine = 1", "Real mine = 2")
     with unchanged(merged, but=".urdfsync/lock"):

@@ -55,6 +55,13 @@ def test_words(path: tuple[str, ...]) -> None:
     assert describe(Contradiction(path, base, mine, generated)) == expected
 
 
+def test_of_long_texts_the_first_difference_is_shown() -> None:
+    start = "{base.mass, upper.mass, fore.mass, hand.mass, finger.mass, "
+    texts = (f"{start}{end}}}" for end in ("a", "2*a", "b"))
+    told = describe(Contradiction(("body", "component m", "value", "expression"), *texts))
+    assert told.endswith("2*a}`, the export changes …, finger.mass, a} to …, finger.mass, b}")
+
+
 def test_long_texts_are_cut() -> None:
     found = describe(Contradiction(("body", f"equation {'a + ' * 40}", "equation"), "a", "b" * 99, "c"))
     assert len(found) < 200

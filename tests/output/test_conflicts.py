@@ -27,7 +27,7 @@ CHANGED = "You edited it, and its generated text changed too."
 OPPOSED = BASE.replace("a = 1;", "a = 7;"), BASE.replace("a = 1;", "a = 9;")
 
 
-def texts_of(mine: str, generated: str, base: str | None = BASE, path: str = ELBOW, **more: str) -> Conflict:
+def texts_of(mine: str, generated: str, base: str | None = BASE, path: str = ELBOW, **more: Any) -> Conflict:
     merged = None if base is None else merge(base, mine, generated)
     return Conflict(path, "link elbow", base, mine, generated, merged, **more)
 

@@ -145,3 +145,5 @@ def test_a_full_build_passes_over_what_can_not_be_read(line: str) -> None:
 def test_a_state_without_its_heading_is_none() -> None:
     with pytest.raises(StateError, match="it has no folder"):
         loads(TEXT.replace("\nfolder ", "\n# "), "arm.state")
+    with pytest.raises(StateError, match="the recorded state is empty"):
+        loads("", "arm.state")

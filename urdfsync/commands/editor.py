@@ -8,11 +8,13 @@ from __future__ import annotations
 import difflib
 import os
 import shlex
+import shutil
 import subprocess
 import tempfile
 from collections.abc import Sequence
 from pathlib import Path, PurePosixPath
 
+from urdfsync.dependencies import read_unrecorded
 from urdfsync.diagnostics import UrdfsyncError
 from urdfsync.engine.conflicts import Conflict
 from urdfsync.engine.package_files import encode
@@ -45,12 +47,18 @@ def edit(conflicts: Sequence[Conflict]) -> tuple[Path, dict[str, str]]:
         try:  # not in the project's folder, where an editor may look for settings
             code = subprocess.run([*words, str(file)], cwd=file.parent, check=False).returncode  # noqa: S603
         except OSError as error:
+            if not texts:  # nothing was edited
+                shutil.rmtree(folder)
             message = f"`{words[0]}` can't be started: {error.strerror}"
             raise UrdfsyncError.of("no-editor", message, hint=_HINT) from None
         if code:
             message = f"the editor ended with exit code {code}; nothing was changed"
             raise UrdfsyncError.of("editor-failed", message, hint=hint)
-        content = file.read_bytes()
+        try:
+            content = read_unrecorded(file)
+        except OSError as error:
+            message = f"the editor left no file that can be read ({error.strerror}); nothing was changed"
+            raise UrdfsyncError.of("no-edit", message, conflict.path, hint=hint) from None
         if flaw := _flaw(content, conflict):
             raise UrdfsyncError.of("no-edit", f"the edited text {flaw}; nothing was changed", conflict.path, hint=hint)
         texts[conflict.path] = content.decode()

@@ -29,7 +29,8 @@ def add(commands: arguments.Commands) -> None:
         description="Let git merge Modelica files by the elements of their classes, in merges, rebases and "
         "cherry-picks. With --install, tell git in this clone. Without, git calls it: what changed from BASE to OTHER "
         "is brought into MINE, and what both changed is put between markers.",
-        epilog="example: urdfsync merge-driver --install\n\nexit codes: 0 merged or installed, 1 conflicts, 255 error",
+        epilog="example: urdfsync merge-driver --install\n\nexit codes: 0 merged or installed, "
+        "1 conflicts, 255 error (2 by --install)",
     )
     parser.add_argument("--install", action="store_true", help="enter it into the settings of the clone around")
     for name, words in (

@@ -31,12 +31,9 @@ def run(args: argparse.Namespace, console: Console) -> int:
         raise arguments.UsageError(args.parser, f"no package has a name that begins with {names}")
     told, code = [*_conflicting(renamed), *_uncertain(renamed)], Exit.CONFLICT if renamed.conflicting else Exit.IN_STEP
     if not (renamed.texts or renamed.conflicting or renamed.uncertain):
-        hint = "" if given else "for a rename before the last build, give both names: --rename-uses OLD=NEW"
-        told.append(
-            Diagnostic(
-                Severity.NOTE, "no-old-names", "none of your models uses a name that the last build renamed", hint=hint
-            )
-        )
+        message = "none of your models uses a name that is known to have another one now"
+        hint = "" if given else "give names that an earlier build renamed: --rename-uses OLD=NEW"
+        told.append(Diagnostic(Severity.NOTE, "no-old-names", message, hint=hint))
     console.warnings([*told, *(_notes(renamed) if console.json else ())])
     console.tell(_lines(renamed))
     if not renamed.texts or args.dry_run:

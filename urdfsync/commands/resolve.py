@@ -76,8 +76,8 @@ def run(args: argparse.Namespace, console: Console) -> int:
         named = {"": [(result, action) for result in planned for action in result.conflicts]}
     targets = {action.path: (result, action) for pairs in named.values() for result, action in pairs}
     concerned = {result.robot for result, _ in targets.values()}
-    concerned |= {result.robot for result in planned if args.all and result.failed}
-    if not concerned:
+    concerned |= {result.robot for result in planned if args.all and not result.in_step}
+    if not targets:
         console.warnings([Diagnostic(Severity.NOTE, "no-conflict", "nothing is in conflict")])
     robots = [robot for robot in configuration.robots if robot.name in concerned]
     # a choice belongs to the texts that this plan has seen: a file that is saved from now on stays as it is
@@ -112,7 +112,10 @@ def _choice(args: argparse.Namespace) -> Choice:
     wrong = "--undo goes with paths, not with --all" if args.all and args.choice is Choice.UNDO else wrong
     wrong = "--prefer goes with --merge" if args.prefer and args.choice is not Choice.MERGE else wrong
     if wrong:
-        raise arguments.UsageError(args.parser, wrong, "see `urdfsync status` for the conflicts")
+        hint = "see `urdfsync status` for the conflicts"
+        if args.choice is Choice.UNDO:
+            hint = "name each file as the last build or `resolve` listed it: urdfsync resolve FILE --undo"
+        raise arguments.UsageError(args.parser, wrong, hint)
     return Choice(f"{args.choice}-{args.prefer}") if args.prefer else args.choice
 
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 import functools
 import json
 import os
+import stat
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from pathlib import Path
 from types import NoneType, UnionType
@@ -49,7 +50,8 @@ _fields = functools.cache(msgspec.structs.fields)
 def find(start: Path) -> Path:
     """Find the configuration file in `start` or the nearest folder above it. Raises ConfigError if there is none."""
     for folder in (start, *start.parents):
-        if dependencies.is_file(folder / FILE_NAME):
+        # a pipe in its place is no reason to look elsewhere: `load` says that it can't be read
+        if dependencies.file_type(folder / FILE_NAME) not in (0, stat.S_IFDIR):
             return folder / FILE_NAME
     message = f"no {FILE_NAME} in {start} or a folder above it"
     hint = "write one with `urdfsync init SOURCE`, or name one with --config"

@@ -43,6 +43,8 @@ class Conflict(msgspec.Struct, frozen=True):
     """The user's text as it stays if he keeps it: at its new path, what was renamed has its new name in it."""
     rejected: str = ""
     """Why there is no merge although the sides do not contradict each other, as a clause; empty if there is one."""
+    refused: frozenset[Choice] = frozenset()
+    """Preferences of a side that would bring in a name that means nothing."""
 
     def merged(self, choice: Choice | None, edited: str | None = None) -> str | None:
         """Return the merged text that a choice asks for; None if there is none. `edited` is the user's own."""
@@ -50,6 +52,8 @@ class Conflict(msgspec.Struct, frozen=True):
             return edited
         if self.merge is None or self.merge.text is not None or choice not in PREFERENCES:
             return self.merge.text if self.merge else None
+        if choice in self.refused:
+            return None
         return self.merge.with_mine if choice is Choice.MERGE_MINE else self.merge.with_generated
 
 

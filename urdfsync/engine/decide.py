@@ -10,14 +10,14 @@ import msgspec
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.domain import ChangeClass, Role
 from urdfsync.engine.actions import DISPUTED, Action, Actions, Kind, Reason
-from urdfsync.engine.conflicts import Conflict, find_conflict, resolve
+from urdfsync.engine.conflicts import MERGES, PREFERENCES, Conflict, find_conflict, resolve
 from urdfsync.engine.fit import Misfit, Package, find_misfits
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import Inputs
 from urdfsync.engine.package_files import PackageFiles
 from urdfsync.engine.parents import SharedFile, merge_order
 from urdfsync.engine.rules import File, decide, hold, keep_needed, valid_choices
-from urdfsync.engine.undo import apply_undo
+from urdfsync.engine.undo import apply_undo, former_names
 from urdfsync.files import shown
 from urdfsync.modelica.files import class_parts
 from urdfsync.modelica.layout import with_within
@@ -143,7 +143,7 @@ def _conflict(generation: Generation, action: Action, names: Mapping[str, str]) 
         texts = bases[0] if bases else None, package, generated, None
         reason = "you made a folder of the class"
         return Conflict(action.path, action.owner, *texts, origin=action.origin, rejected=reason)
-    conflict = find_conflict(action, bases, mine, generated, names)
+    conflict = find_conflict(action, bases, mine, generated, {**former_names(generation, action), **names})
     if action.origin and action.path.endswith(".mo"):
         package = ".".join((generation.inputs.robot.target.package, *class_parts(path)))
         conflict = msgspec.structs.replace(conflict, kept=with_within(conflict.kept, package))
@@ -158,30 +158,52 @@ def _without_misfits(
 ) -> tuple[dict[str, Conflict], dict[str, UsersChoice]]:
     """Return the conflicts without the merges that would bring in what means nothing, and choices without such texts.
 
-    All merges that are possible are taken for that.
+    Of contradictions each side is tried in turn: no preference is proposed in vain.
     """
+    sound, valid = dict(conflicts), dict(choices)
+    for key, reason in _bad_merges(generation, actions, conflicts, choices).items():
+        conflict, choice = conflicts[key], choices.get(key)
+        if choice and choice.choice in PREFERENCES:
+            sound[key] = msgspec.structs.replace(conflict, refused=frozenset({choice.choice}), rejected=reason)
+        else:
+            merge = conflict.merge.rejected if conflict.merge else None
+            sound[key] = msgspec.structs.replace(conflict, merge=merge, rejected=reason)
+        if choice and choice.text is not None:
+            del valid[key]
+    settled = {key for key, choice in choices.items() if choice.choice not in MERGES}
+    for side in PREFERENCES:
+        open_ = [key for key, one in sound.items() if key not in settled and one.merged(None) is None]
+        tried = {key: UsersChoice(side, "") for key in open_ if sound[key].merged(side) is not None}
+        bad = _bad_merges(generation, actions, sound, choices | tried) if tried else {}
+        for key in bad.keys() & tried.keys():
+            sound[key] = msgspec.structs.replace(sound[key], refused=sound[key].refused | {side})
+    return sound, valid
+
+
+def _bad_merges(
+    generation: Generation,
+    actions: Sequence[Action],
+    conflicts: Mapping[str, Conflict],
+    choices: Mapping[str, UsersChoice],
+) -> dict[str, str]:
+    """Return why merges would not be right, by key. All that are possible are taken for that."""
     planned, merged = resolve(actions, conflicts, choices, merging=True)
     if not merged:
-        return conflicts, choices
+        return {}
     package = Package(generation, _keep_needed(generation, planned, merged), merged, is_open=True)
     new = package.misfits(merged.keys())
     if not new:
-        return conflicts, choices
+        return {}
     now = Package(generation, [msgspec.structs.replace(one, held=True) for one in actions], {})
     old = {(one.key, one.fault) for one in now.misfits({one.origin or one.path for one in conflicts.values()})}
-    sound, valid = dict(conflicts), dict(choices)
+    reasons = dict[str, str]()
     for key, conflict in conflicts.items():
         misfits = [one for one in new if one.key == key and (conflict.origin or key, one.fault) not in old]
         choice = choices.get(key)
         text = conflict.merged(choice.choice, choice.text) if choice else conflict.merged(None)
         if misfits and text == merged.get(key) != conflict.mine:
-            finding = misfits[0].finding
-            merge = conflict.merge.rejected if conflict.merge else None
-            reason = f"in the merge, {finding.message} (line {finding.line})"
-            sound[key] = msgspec.structs.replace(conflict, merge=merge, rejected=reason)
-            if choice and choice.text is not None:
-                del valid[key]
-    return sound, valid
+            reasons[key] = f"in the merge, {misfits[0].finding.message} (line {misfits[0].finding.line})"
+    return reasons
 
 
 def _keep_needed(generation: Generation, actions: Sequence[Action], merged: Mapping[str, str]) -> tuple[Action, ...]:

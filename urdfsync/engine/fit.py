@@ -79,6 +79,8 @@ class Misfit(msgspec.Struct, frozen=True):
     """Whether it keeps the package from being compiled: the file is one of those that are generated."""
     use: Unresolved | None = None
     """The name that means nothing."""
+    lacking: str = ""
+    """A name that a generated text mentions, and that this file does not declare."""
 
     @property
     def fault(self) -> str:
@@ -402,7 +404,8 @@ class Package(Mapping[str, bytes]):
             elif use and (owner := scopes.node(use.owner.split("."))) and Path(owner.file) in self.users:
                 message = f"it has no `{use.part}`, which {shown(place)}:{use.line} mentions"
                 finding = msgspec.structs.replace(finding, message=message, line=owner.definition.name.line)
-                yield Misfit(Path(owner.file), finding, self._inputs.files.key(Path(owner.file)), is_broken=True)
+                key = self._inputs.files.key(Path(owner.file))
+                yield Misfit(Path(owner.file), finding, key, is_broken=True, lacking=use.part)
 
     def _look_around(self, file: Path, scopes: Scopes) -> Iterator[Misfit]:
         """Look at a file of the user's outside of the package; it may hold several classes, if it is in no package."""

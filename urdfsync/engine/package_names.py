@@ -26,6 +26,13 @@ def renamed_identifiers(generation: Generation) -> dict[str, str]:
     return {name: renamed[name] for name in sorted(renamed, key=len, reverse=True) if name != renamed[name]}
 
 
+def recently_renamed(generation: Generation) -> dict[str, str]:
+    """Return the renamed identifiers, and before them those of the build whose texts are put aside on this machine."""
+    former = {old: new for text in generation.inputs.last.replaced.values() for old, new in text.renamed.items()}
+    both = former | renamed_identifiers(generation)
+    return {name: both[name] for name in sorted(both, key=len, reverse=True)}
+
+
 def renamed_names(generation: Generation) -> dict[str, str]:
     """Return new names by the old ones: of classes, and of what those at the top of the package declare.
 
@@ -37,8 +44,13 @@ def renamed_names(generation: Generation) -> dict[str, str]:
     recorded = {inputs.last.folder.path(key): one for key, one in inputs.last.files.items() if one.hashes}
     files = {path: one for path, one in recorded.items() if path.endswith(".mo")}
     before = declared_names(inputs.last.base(one.generated) or "" for path, one in files.items() if "/" not in path)
-    now, names = known_names(generation), dict[str, str]()
-    for name in sorted((before | {*map(class_of, files)}) - now):
+    return names_of(generation, renamed, before | {*map(class_of, files)})
+
+
+def names_of(generation: Generation, renamed: Mapping[str, str], before: frozenset[str]) -> dict[str, str]:
+    """Return the new names of those in `before` that have one by the renamed identifiers, by the old ones."""
+    inputs, now, names = generation.inputs, known_names(generation), dict[str, str]()
+    for name in sorted(before - now):
         if new := new_name(name, renamed, now):
             names[name] = new
     for name, new in renamed.items():  # of classes it may be that of a link and of a joint: only parts are of one alone

@@ -13,7 +13,7 @@ from urdfsync.engine.fit import Package
 from urdfsync.engine.generation import Generation, generate_robot
 from urdfsync.engine.inputs import inspect
 from urdfsync.engine.options import BuildOptions
-from urdfsync.engine.package_names import known_names, new_name, new_names, renamed_identifiers
+from urdfsync.engine.package_names import known_names, new_name, new_names, recently_renamed
 from urdfsync.modelica.classes import Node
 from urdfsync.modelica.files import replace_words
 from urdfsync.modelica.scopes import Scopes
@@ -72,7 +72,7 @@ def _follow(
     `contents` are those of files that change for other robots. What a class redeclares by its old name is missed in
     others only once that is renamed: so all is looked through again until nothing is missed.
     """
-    old, new, renamed = dict[Path, bytes](), {**contents}, renamed_identifiers(generation)
+    old, new, renamed = dict[Path, bytes](), {**contents}, recently_renamed(generation)
     while True:
         package = Package(generation, decision.actions, decision.texts, new, given)
         scopes, uncertain = Scopes(package.classes()), list[tuple[Path, Unresolved, str]]()

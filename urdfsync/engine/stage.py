@@ -57,7 +57,7 @@ def stage(generation: Generation, decision: Decision, diagnostics: tuple[Diagnos
     """Return the plan with all that is to be written, in a dry run, too: one plan has one verdict."""
     inputs, store, robot = generation.inputs, generation.inputs.store, generation.inputs.robot
     record = None if inputs.options.removes else _record(generation, decision)
-    aside = put_aside(inputs, decision.actions, decision.texts, decision.disputed) if record else {}
+    aside = put_aside(generation, decision.actions, decision.texts, decision.disputed) if record else {}
     changes = _file_changes(generation, decision)
     is_writing = any(action.writes for action in decision.actions)
 

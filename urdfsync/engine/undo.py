@@ -14,8 +14,11 @@ import msgspec
 from urdfsync.domain import Role
 from urdfsync.engine.actions import Action, Reason
 from urdfsync.engine.conflicts import BOTH_SIDES, Conflict
+from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import Inputs
 from urdfsync.engine.package_files import text_hash
+from urdfsync.engine.package_names import names_of, renamed_identifiers
+from urdfsync.modelica.lexer import words_in
 from urdfsync.state.record import Choice, UsersChoice, role_of, sides_hash
 from urdfsync.state.store import Replaced
 
@@ -65,6 +68,14 @@ def _reopen(inputs: Inputs, action: Action) -> Action:
     return msgspec.structs.replace(action, reason=Reason.CONFLICT, base=text_hash(aside.base))
 
 
+def former_names(generation: Generation, action: Action) -> Mapping[str, str]:
+    """Return new names by the old ones for a merge that is made again: those of the build that made it first."""
+    aside = generation.inputs.last.replaced.get(generation.inputs.folder.path(action.path))
+    if aside is None or not (aside.renamed and aside.base) or action.base != text_hash(aside.base):
+        return {}
+    return names_of(generation, aside.renamed, frozenset(words_in(aside.base)))
+
+
 def _find_deleted(inputs: Inputs, actions: Collection[str]) -> Iterator[Action]:
     """Yield the actions that give back files of the user's which a build has deleted: they are his own then.
 
@@ -79,14 +90,15 @@ def _find_deleted(inputs: Inputs, actions: Collection[str]) -> Iterator[Action]:
 
 
 def put_aside(
-    inputs: Inputs, actions: Iterable[Action], texts: Mapping[str, str], disputed: Mapping[str, Conflict]
+    generation: Generation, actions: Iterable[Action], texts: Mapping[str, str], disputed: Mapping[str, Conflict]
 ) -> dict[str, Replaced]:
     """Return what is put aside after a build, by path below the package.
 
     `texts` has merged files, `disputed` those that both sides changed or that move, by key.
     """
+    inputs = generation.inputs
     actions = [action for action in actions if action.role not in (Role.IMPORT, Role.ORDER)]
-    new = dict(_written_over(inputs, actions, texts, disputed))
+    new = dict(_written_over(generation, actions, texts, disputed))
     untouched = [path for path, text in new.items() if not text.is_users]
     for path in untouched if len(untouched) > _MANY else ():
         del new[path]
@@ -106,8 +118,10 @@ def put_aside(
 
 
 def _written_over(
-    inputs: Inputs, actions: Iterable[Action], texts: Mapping[str, str], disputed: Mapping[str, Conflict]
+    generation: Generation, actions: Iterable[Action], texts: Mapping[str, str], disputed: Mapping[str, Conflict]
 ) -> Iterator[tuple[str, Replaced]]:
+    inputs = generation.inputs
+    renamed = renamed_identifiers(generation) if generation.renames else {}
     for action in actions:
         path, after = inputs.folder.path(action.path), texts.get(action.path)
         is_taken = action.reason is Reason.DELETE and action.choice is Choice.TAKE
@@ -117,7 +131,9 @@ def _written_over(
         if action.mine and (is_taken or is_replaced):
             before = inputs.files.text(action.path) or ""
             base = before if action.mine == action.base else inputs.last.base(action.base)
-            base = inputs.last.replaced[path].base if action.reason is Reason.UNDO else base
-            yield path, Replaced(before, base, after)
+            old = inputs.last.replaced.get(path)
+            base = old.base if old and action.reason is Reason.UNDO else base
+            is_again = old is not None and old.base == base  # the same merge, undone or made again
+            yield path, Replaced(before, base, after, old.renamed if old and is_again else renamed)
         elif action.reason is Reason.MOVE and (move := disputed.get(action.path)) and move.kept != after:
-            yield path, Replaced(move.kept, move.base, after)
+            yield path, Replaced(move.kept, move.base, after, renamed)

@@ -51,7 +51,8 @@ def describe(contradiction: Contradiction) -> str:
     element, part = place_of(contradiction.path)
     is_value = part and contradiction.path[-1] not in _ROLES
     what = f"`{part}`" if is_value else f"the {part}" if part else "it"
-    base, mine, generated = map(quoted, (contradiction.base, contradiction.mine, contradiction.generated))
+    mine = _quoted_pair(contradiction.base, contradiction.mine)[1]
+    base, generated = _quoted_pair(contradiction.base, contradiction.generated)
     if not contradiction.mine:
         told = f"you removed {what}, the export changes it"
     elif not contradiction.generated:
@@ -79,7 +80,7 @@ def _change(base: str, side: str, what: str) -> str:
     old, new = ([line.strip() for line in text.splitlines() if line.strip()] for text in (base, side))
     start = _same_count(old, new)
     end = _same_count(old[start:][::-1], new[start:][::-1])
-    before, after = (quoted(" ".join(lines[start : len(lines) - end])) for lines in (old, new))
+    before, after = _quoted_pair(*(" ".join(lines[start : len(lines) - end]) for lines in (old, new)))
     if not start + end or "order" in what:
         return f"changed {what} to `{after}`"
     if before and after:
@@ -90,6 +91,14 @@ def _change(base: str, side: str, what: str) -> str:
 def _same_count(old: Sequence[str], new: Sequence[str]) -> int:
     """Return how many lines at the beginning are the same."""
     return next((index for index, pair in enumerate(zip_longest(old, new)) if pair[0] != pair[1]), len(old))
+
+
+def _quoted_pair(old: str, new: str) -> list[str]:
+    """Return two texts as a sentence can quote them, so that their first difference is seen."""
+    lines = [" ".join(text.split()) for text in (old, new)]
+    shared = _same_count(lines[0], lines[1])
+    start = shared - _LONGEST // 4 if max(map(len, lines)) > _LONGEST and shared > _LONGEST // 2 else 0
+    return [quoted(f"…{text[start:]}" if start else text) for text in lines]
 
 
 def quoted(text: str) -> str:

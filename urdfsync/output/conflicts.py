@@ -171,7 +171,10 @@ def _choices(target: DisputedFile) -> dict[str, str]:
     if target.merges:
         choices["--merge"] = "both sides' changes"
     elif target.offers(Choice.MERGE_MINE):
-        choices["--merge --prefer mine"] = "both sides' changes; yours (or `generated`) where they contradict"
+        either = " (or `generated`)" if target.offers(Choice.MERGE_GENERATED) else ""
+        choices["--merge --prefer mine"] = f"both sides' changes; yours{either} where they contradict"
+    elif target.offers(Choice.MERGE_GENERATED):
+        choices["--merge --prefer generated"] = "both sides' changes; the generated ones where they contradict"
     edit = {"--edit": "both sides in your editor, between markers"} if texts and is_on_disk else {}
     keep = {"--keep": f"your file as it is{', under its new name' if target.action.origin else ''}"}
     choices |= {**edit, **keep} if texts and texts.merge else {**keep, **edit}

@@ -127,7 +127,7 @@ def loads(text: str, file: str, *, strict: bool = True) -> Record:
         values[word].append(value)
     missing = [word for word in ("format", *_HEADINGS) if not values[word]]
     if missing:
-        raise _broken(file, 1, f"it has no {' and no '.join(missing)}")
+        raise _broken(file, 1, f"it has no {', '.join(missing)}" if seen_lines else "the recorded state is empty")
     record = _record(values, is_whole=values["sum"] == [_sum(facts)])
     for path in _strange_paths(record):
         number = next((n for n, line in enumerate(text.split("\n"), 1) if path in line), 1)

@@ -48,6 +48,8 @@ class Replaced(msgspec.Struct, frozen=True, omit_defaults=True):
     """The generated text that this took into account: the same if nobody had edited it, None if it is not known."""
     after: str | None = None
     """Text that was written; None for the generated one."""
+    renamed: Mapping[str, str] = {}
+    """New identifiers by the old ones, of elements that this build gave other names."""
 
     @property
     def is_users(self) -> bool:
