@@ -228,7 +228,8 @@ PLACES: Mapping[str, Mapping[str, str]] = {
         "middle part": r"UrdfSync\.(\w+)\.",
         "library": r"(UrdfSync)\.",
         "redeclared": r"redeclare \w+ (\w+)",
-        "field": r"parameters\.(?:inertial\.)?(?:origin\.|inertia\.)?(\w+)",
+        # no compiler looks into `noBody`, which a link with a mass does not have
+        "field": r"(?<!noBody\(m = )parameters\.(?:inertial\.)?(?:origin\.|inertia\.)?(\w+)",
     },
     "Joints/Elbow.mo": {
         "class": r"UrdfSync\.\w+\.(\w+)",
