@@ -125,7 +125,7 @@ def test_a_build_that_is_writing_is_waited_for(built: Path, execute: Execute) ->
 
 
 def action(reason: Reason, held: bool = False, path: str = "") -> Action:
-    return Action(path or f"Arm/{reason.word}.mo", reason, Role.MODEL, "link tip", base="b", held=held)
+    return Action(path or f"Arm/{reason.word}.mo", reason, Role.MODEL, "link tip", base="b", mine="m", held=held)
 
 
 def result_of(*actions: Action, changes: Changes | None = None) -> Result:
