@@ -36,6 +36,13 @@ STATUE = robot(
     joint("tilt", "revolute", "head", "hat", axis="0 1 0", inside=[mimic("neck", 1, 0.4)]),
 )
 """No axis: a fixed joint, and one that follows it."""
+GEARED = robot(
+    *links(base=1.0, arm=1.0),
+    joint("turn", "revolute", "base", "arm", axis="0 1 0"),
+    '<transmission name="t"><type>transmission_interface/SimpleTransmission</type><joint name="turn"/>'
+    '<actuator name="m"><mechanicalReduction>50</mechanicalReduction></actuator></transmission>',
+)
+"""A joint with a gear, whose numbers stand in the record."""
 MASSLESS = robot(
     *(link(name, mass) for name, mass in {"base": 1.0, "arm": 1.0, "tip": None}.items()),
     joint("lift", "revolute", "base", "arm", axis="0 1 0"),
@@ -91,6 +98,7 @@ def test_poses_and_efforts_of_prescribed_motion_agree_with_pinocchio(modelica_li
         "Loose": (GOLDEN / "twig.urdf", "floating"),
         "Stone": (generic.STONE.encode(), "fixed"),
         "Statue": (STATUE.encode(), "floating"),
+        "Geared": (GEARED.encode(), "fixed"),
     }
     for name, (source, base) in others.items():
         cases.append(physics.prepare(source, name, approach=("record",), base=base))

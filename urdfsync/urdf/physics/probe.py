@@ -46,7 +46,7 @@ class RobotVariables(msgspec.Struct, frozen=True):
     axes: Mapping[str, tuple[str, ...]]
     """Its rotation matrix, as Modelica has it."""
     records: Mapping[str, str]
-    """Record of each joint."""
+    """Record of each joint; a component of the probe has those of the generic robot."""
     joints: Mapping[str, str]
     """Component of each joint; none in the record."""
     sensors: Mapping[str, str]
@@ -84,7 +84,7 @@ def robot_variables(tree: KinematicTree, target: Target, options: Options, appro
             axes[link.name] = tuple(f"robot.R_0[{k},{j},{i}]" for i in three for j in three)
             centre = f"robot.R_0[{k}, :, :]*robot.data.linkCenters[{k}, :]"
             moments.append(f"robot.data.linkMasses[{k}]*(robot.r_0[{k}, :] + {centre})")
-    record = "robot.{}.parameters" if is_package else "robot.data.{}"
+    record = "robot.{}.parameters" if is_package else "numbers.{}"
     records = {joint.name: record.format(tree.joint(joint.name).component) for joint in tree.joints}
     return RobotVariables(declaration, " + ".join(moments), flanges, places, axes, records, joints, sensors)
 
@@ -99,6 +99,8 @@ def moving_probe(
     if options.base == "floating":
         declarations.append(f"inner UrdfSync.Contacts.Ground ground(height = {-_GROUND_DEPTH!r})")
     declarations.append(f"{names.declaration}fixedStart = false)")
+    if not names.joints:  # the class that constrains the generic robot's record knows no joint by its name
+        declarations.append(f"parameter {target.package}.{target.name}Parameters numbers")
     connections = ["base.frame_b, robot.frame_a"]
     for k, joint in enumerate(motion.driven_axes(tree), 1):
         drive = MOTION_KINDS[joint.type].capitalize()
