@@ -77,7 +77,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     targets = {action.path: (result, action) for pairs in named.values() for result, action in pairs}
     concerned = {result.robot for result, _ in targets.values()}
     concerned |= {result.robot for result in planned if args.all and not result.in_step}
-    if not targets:
+    if not targets and not any(result.failed for result in planned):
         console.warnings([Diagnostic(Severity.NOTE, "no-conflict", "nothing is in conflict")])
     robots = [robot for robot in configuration.robots if robot.name in concerned]
     # a choice belongs to the texts that this plan has seen: a file that is saved from now on stays as it is
