@@ -169,6 +169,14 @@ def test_a_package_at_the_top_says_what_it_uses(
     assert text.startswith(f"within {package.rpartition('.')[0]};")
 
 
+def test_a_robot_without_any_mass_has_a_body_in_its_root_link() -> None:
+    """The frames of a Modelica model need a root, and that is a body."""
+    made = package_of(urdfs.link("a"), urdfs.link("b"), urdfs.joint("turn", "revolute", "a", "b"), package="Bot")
+    texts = {path: text for path, text in made.texts.items() if path.startswith("Links/")}
+    assert "hasInertial = false" not in texts["Links/AParameters.mo"]
+    assert "hasInertial = false" in texts["Links/BParameters.mo"]
+
+
 def _write_golden_files() -> None:
     for variant in [*VARIANTS, "record"]:
         for path in kept(variant):

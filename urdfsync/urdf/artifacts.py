@@ -20,7 +20,7 @@ from urdfsync.urdf.model.shapes import link_model, link_shapes, standing_height
 from urdfsync.urdf.model.tables import obstacles
 from urdfsync.urdf.names import Identifier
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS, MOTIONS, Joint, Link, Robot
+from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS, MOTIONS, Inertial, Joint, Link, Robot
 
 _PARAMETERS = "Parameters"
 _EDIT = "This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else."
@@ -39,7 +39,11 @@ def artifacts(robot: Robot, imports: Mapping[str, Import], target: Target, optio
         files.append(_of_robot("", "robot", target, options, robot_data(structure, names)))
         files.append(_of_robot("Run", "run", target, options, benches))
         files.append(_of_robot("Test", "test", target, options, benches))
-        for link in tree.links:
+        root, *others = tree.links
+        if not any(link.inertial for link in tree.links):
+            # Modelica's frames need a root, which is a body: a robot without any keeps one, without mass
+            root = msgspec.structs.replace(root, inertial=Inertial())
+        for link in (root, *others):
             files += _link(link, tree.link(link.name), imports, package, options)
         for joint in tree.joints:
             files += _joint(joint, tree.joint(joint.name), package, options, joint.name in driven)
