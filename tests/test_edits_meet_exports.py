@@ -151,7 +151,7 @@ def test_what_is_kept_and_lacks_what_the_others_use_is_told(arm: Path, execute: 
     export(*LARGER)
     execute("build", code=3)
     for arguments, code in ((["resolve", str(robot), "--keep"], 3), (["build"], 3), (["status"], 1)):
-        said = "it has no `wristSupport`, which modelica/Arm/ArmTest.mo:"
+        said = "it has no `wrist`, which modelica/Arm/ArmTest.mo:"
         assert said in execute(*arguments, code=code).err
     execute("resolve", str(robot), "--take")
     assert execute("build").err == ""
