@@ -128,6 +128,19 @@ def test_the_build_after_a_merge_is_a_fresh_one(
     assert listed == {path.stem for path in PACKAGE.rglob("*.mo")} - {"package"} | {"Joints", "Links"}
 
 
+def test_a_line_for_a_class_that_is_a_link_stays(repository: Repository, execute: Execute, tmp_path: Path) -> None:
+    """Others are of what a branch has renamed, and go."""
+    (tmp_path / "Linked.mo").write_text("within Arm.Joints;\nmodel Linked\nend Linked;\n")
+    (PACKAGE / "Joints/Linked.mo").symlink_to(tmp_path / "Linked.mo")
+    unite(repository, execute, PIVOT, {"wrist": "grip"})
+    order = PACKAGE / "Joints/package.order"
+    order.write_text(f"{order.read_text()}Linked\nNowhere\n")
+    export(elbow="pivot", wrist="grip")
+    execute("build", code=None)
+    assert "Linked" in order.read_text().split()
+    assert "Nowhere" not in order.read_text().split()
+
+
 def test_a_whole_model_serves_for_renames_and_reports(repository: Repository, execute: Execute) -> None:
     elbow = PACKAGE / "Joints/Elbow.mo"
     elbow.write_text(elbow.read_text().replace("end Elbow;", "  // mine\nend Elbow;"))

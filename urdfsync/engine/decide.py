@@ -294,23 +294,20 @@ def _removable_lines(owned: Mapping[str, tuple[str, ...]], actions: Iterable[Act
     return lines
 
 
-def _classes_beside(files: PackageFiles, order: str) -> set[str]:
-    """Return the classes on disk beside a `package.order`."""
-    folder = order.removesuffix("package.order")
-    paths = (key.removeprefix(folder).removesuffix("/package.mo") for key in files.classes(folder))
-    return {path.removesuffix(".mo") for path in paths if "/" not in path} - {"package"}
-
-
 def _users_classes(files: PackageFiles, order: str, names: Collection[str]) -> list[str]:
     """Return the classes beside a new `package.order` that are not generated: it would hide them from tools."""
-    return sorted(name for name in _classes_beside(files, order).difference(names) if is_identifier(name))
+    folder = order.removesuffix("package.order")
+    paths = (key.removeprefix(folder).removesuffix("/package.mo") for key in files.classes(folder))
+    classes = {path.removesuffix(".mo") for path in paths if "/" not in path} - {"package"}
+    return sorted(name for name in classes.difference(names) if is_identifier(name))
 
 
-def _dangling_lines(files: PackageFiles, order: str, text: str) -> set[str]:
+def _dangling_lines(files: PackageFiles, order: str, text: str) -> list[str]:
     """Return the names in a `package.order` that no class has, and that its `package.mo` does not mention."""
-    package = re.findall(r"\w+", files.text(f"{order.removesuffix('package.order')}package.mo") or "")
-    names = {line.strip() for line in text.splitlines()}
-    return {name for name in names.difference(package, _classes_beside(files, order)) if is_identifier(name)}
+    folder = order.removesuffix("package.order")
+    mentioned = re.findall(r"\w+", files.text(f"{folder}package.mo") or "")
+    names = {line.strip() for line in text.splitlines()}.difference(mentioned)
+    return [name for name in names if is_identifier(name) and not files.has_class(folder, name)]
 
 
 def _returning_classes(actions: Iterable[Action], order: str) -> list[str]:

@@ -340,20 +340,15 @@ class Package(Mapping[str, bytes]):
         users = [f"{path.removesuffix('.mo')}.order" for path, file in self._files.items() if file.is_users]
         texts = {path: files.any_text(inputs.folder.key(path)) for path in users if path.endswith("package.order")}
         for path, text in (texts | self._orders).items():
-            names, folder, package = (
-                orders.get(path, ()),
-                path.removesuffix("package.order"),
-                f"{path.removesuffix('order')}mo",
-            )
+            names, folder = orders.get(path, ()), path.removesuffix("package.order")
             lines = {line.strip() for line in text.split("\n")} - {"", *names}
             if not lines:
                 continue
             below = (other.removeprefix(folder) for other in self if other.startswith(folder))
-            inside, key = self._declared(package), inputs.folder.key(path)
+            package, key = f"{folder}{PACKAGE_FILE}", inputs.folder.key(path)
+            inside = self._declared(package)
             present = {other.partition("/")[0].removesuffix(".mo") for other in below} | {*(inside or ())}
-            place = files.path(key).parent
-            # such as links
-            others = {line for line in lines - present if is_file(place / f"{line}.mo") or (place / line).is_dir()}
+            others = {line for line in lines - present if files.has_class(inputs.folder.key(folder), line)}
             for finding in check_order(text, present, None if inside is None else others | {*names}):
                 if finding.severity is Severity.ERROR:
                     yield Misfit(files.path(key), finding, key, is_broken=self._files[package].is_expected)

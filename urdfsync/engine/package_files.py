@@ -168,6 +168,11 @@ class PackageFiles:
         place = str(self.path(folder))  # strings: there are thousands of files
         return {folder + path[len(place) :].replace(os.sep, "/") for path in modelica_files(Path(place))}
 
+    def has_class(self, folder: str, name: str) -> bool:
+        """Whether a folder has a file or a folder for this class. `classes` leaves out links, which count here."""
+        place = self.path(folder)
+        return dependencies.is_file(place / f"{name}.mo") or dependencies.is_folder(place / name)
+
     def _place(self, key: str) -> str:
         return placed(self._prefix, key)
 
