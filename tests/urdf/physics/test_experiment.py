@@ -97,6 +97,12 @@ def test_a_robot_with_a_joint_that_nothing_drives_is_not_compared(kind: str, app
     )
 
 
+def test_a_package_without_joints_is_moved_without_the_record_that_it_does_not_have() -> None:
+    alone = robot(link("base", 1.0))
+    assert not any("BotParameters" in trial.probe.source for trial in experiment(alone).trials)
+    assert any("BotParameters" in trial.probe.source for trial in experiment(alone, approach=("record",)).trials)
+
+
 def test_the_record_alone_is_compared_through_the_generic_robot() -> None:
     one, package = experiment(ELBOW, approach=("record",)), experiment(ELBOW)
     assert (

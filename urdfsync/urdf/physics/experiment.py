@@ -142,9 +142,10 @@ class _Subject:
             number = self.reference.axes.index(joint.name)
             value, efforts = (f"{names.flanges[joint.name]}.{effort}",), [[i.efforts[number]] for i in solved]
             losses = Part.LOSSES if joint.dynamics or joint.transmission else Part.BODIES
-            for some, part in ((COMPARED[:1], Part.BODIES), (COMPARED[1:], losses)):
-                which = efforts[:1] if some == COMPARED[:1] else efforts[1:]
-                yield Compared(Quantity.EFFORT, f"joint {joint.name}", unit, value, some, part), which
+            # at rest no joint has losses
+            for times, part in ((slice(0, 1), Part.BODIES), (slice(1, None), losses)):
+                compared = Compared(Quantity.EFFORT, f"joint {joint.name}", unit, value, COMPARED[times], part)
+                yield compared, efforts[times]
         yield Compared(Quantity.REACTION, root, "N", FORCE, COMPARED), [-instant.force for instant in solved]
         yield Compared(Quantity.REACTION, root, "N·m", TORQUE, COMPARED), [-instant.torque for instant in solved]
         masses = [instant.mass_and_centre() for instant in solved]
@@ -237,7 +238,7 @@ class _Subject:
         table = _table(pairs, [0.0])
         values = [value for compared, _ in pairs for value in compared.values]
         pushed = [float(effort) for effort in efforts]
-        free = probe.free_probe(self.tree, self.target, self.options, names, pushed, values)
+        free = probe.free_probe(self.tree, self.target, self.options, names, courses, pushed, values)
         return Trial(name, free, *table)
 
 

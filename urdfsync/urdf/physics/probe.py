@@ -14,7 +14,6 @@ import msgspec
 from urdfsync.domain import Probe, Target
 from urdfsync.modelica.literals import vector
 from urdfsync.urdf.connectors import connector_names
-from urdfsync.urdf.kinematics.poses import start_positions
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.physics import motion
@@ -37,6 +36,8 @@ class RobotVariables(msgspec.Struct, frozen=True):
 
     declaration: str
     """Declaration of the robot, up to the modifiers that depend on the comparison."""
+    numbers: str
+    """Declaration of the record that `records` are in; empty if the robot itself has them."""
     moment: str
     """An expression: the sum of mass times place over all links, in kg·m."""
     flanges: Mapping[str, str]
@@ -46,7 +47,7 @@ class RobotVariables(msgspec.Struct, frozen=True):
     axes: Mapping[str, tuple[str, ...]]
     """Its rotation matrix, as Modelica has it."""
     records: Mapping[str, str]
-    """Record of each joint; a component of the probe has those of the generic robot."""
+    """Record of each joint."""
     joints: Mapping[str, str]
     """Component of each joint; none in the record."""
     sensors: Mapping[str, str]
@@ -61,11 +62,13 @@ def robot_variables(tree: KinematicTree, target: Target, options: Options, appro
     sensors = {name: f"robot.{component}" for name, component in names.sensors.items() if is_package}
     joints = {joint.name: f"robot.{tree.joint(joint.name).component}" for joint in tree.joints if is_package}
     if is_package:
-        declaration = f"{target.package}.{target.name} robot(animation = false, "
+        declaration, numbers = f"{target.package}.{target.name} robot(animation = false, ", ""
         flanges = {name: f"robot.{drive.axis}" for name, drive in names.drives.items()}
     else:
-        data = f"redeclare parameter {target.package}.{target.name}Parameters data"
-        declaration = f"UrdfSync.Robots.GenericRobot robot({data}, checkLimits = false, "
+        record = f"{target.package}.{target.name}Parameters"
+        declaration = f"UrdfSync.Robots.GenericRobot robot(redeclare parameter {record} data, checkLimits = false, "
+        # the class that constrains the record of the generic robot knows no joint by its name
+        numbers = f"parameter {record} numbers"
         flanges = {
             joint.name: f"robot.{kind}Axis[{number}]"
             for kind in MOTIONS
@@ -76,17 +79,17 @@ def robot_variables(tree: KinematicTree, target: Target, options: Options, appro
             part = f"robot.{tree.link(link.name).component}"
             places[link.name] = tuple(f"{part}.frame_a.r_0[{i}]" for i in three)
             axes[link.name] = tuple(f"{part}.frame_a.R.T[{i},{j}]" for i in three for j in three)
-            numbers = f"{part}.parameters.inertial"
-            centre = f"Modelica.Mechanics.MultiBody.Frames.resolve1({part}.frame_a.R, {numbers}.origin.xyz)"
-            moments.append(f"{numbers}.mass*({part}.frame_a.r_0 + {centre})")
+            inertial = f"{part}.parameters.inertial"
+            centre = f"Modelica.Mechanics.MultiBody.Frames.resolve1({part}.frame_a.R, {inertial}.origin.xyz)"
+            moments.append(f"{inertial}.mass*({part}.frame_a.r_0 + {centre})")
         else:
             places[link.name] = tuple(f"robot.r_0[{k},{i}]" for i in three)
             axes[link.name] = tuple(f"robot.R_0[{k},{j},{i}]" for i in three for j in three)
             centre = f"robot.R_0[{k}, :, :]*robot.data.linkCenters[{k}, :]"
             moments.append(f"robot.data.linkMasses[{k}]*(robot.r_0[{k}, :] + {centre})")
-    record = "robot.{}.parameters" if is_package else "numbers.{}"
-    records = {joint.name: record.format(tree.joint(joint.name).component) for joint in tree.joints}
-    return RobotVariables(declaration, " + ".join(moments), flanges, places, axes, records, joints, sensors)
+    place = "robot.{}.parameters" if is_package else "numbers.{}"
+    records = {joint.name: place.format(tree.joint(joint.name).component) for joint in tree.joints}
+    return RobotVariables(declaration, numbers, " + ".join(moments), flanges, places, axes, records, joints, sensors)
 
 
 def moving_probe(
@@ -99,8 +102,7 @@ def moving_probe(
     if options.base == "floating":
         declarations.append(f"inner UrdfSync.Contacts.Ground ground(height = {-_GROUND_DEPTH!r})")
     declarations.append(f"{names.declaration}fixedStart = false)")
-    if not names.joints:  # the class that constrains the generic robot's record knows no joint by its name
-        declarations.append(f"parameter {target.package}.{target.name}Parameters numbers")
+    declarations += filter(None, [names.numbers])
     connections = ["base.frame_b, robot.frame_a"]
     for k, joint in enumerate(motion.driven_axes(tree), 1):
         drive = MOTION_KINDS[joint.type].capitalize()
@@ -120,17 +122,17 @@ def moving_probe(
 
 
 def free_probe(
-    tree: KinematicTree, target: Target, options: Options, names: RobotVariables, efforts: Sequence[float],
-    values: Iterable[str],
+    tree: KinematicTree, target: Target, options: Options, names: RobotVariables, courses: Sequence[Course],
+    efforts: Sequence[float], values: Iterable[str],
 ) -> Probe:  # fmt: skip
-    """Return a model in which the axes are pushed, from other speeds than zero; every second one from its own place.
+    """Return a model in which the axes are pushed from their `courses`; every second one begins at its own place.
 
     It stands in the bench that Run and Test extend: so gravity is theirs.
     """
     starts, turning, sliding = list[str](), dict[str, tuple[float, float]](), dict[str, tuple[float, float]]()
-    positions = start_positions(tree)
-    for k, joint in enumerate(motion.driven_axes(tree)):
-        course, is_turning = free_course(joint, positions[joint.name], k), MOTION_KINDS[joint.type] == "rotational"
+    axes = motion.driven_axes(tree)
+    for k, (joint, course) in enumerate(zip(axes, courses, strict=True)):
+        is_turning = MOTION_KINDS[joint.type] == "rotational"
         (turning if is_turning else sliding)[joint.name] = course.position, course.speed
         q, v = ("phi", "w") if is_turning else ("s", "v")
         place = f"{q}_start = {course.position!r}, " if k % 2 else ""
@@ -151,7 +153,7 @@ def free_probe(
         start = ", ".join(f"{name} = {vector(value)}" for name, value in motion.FREE_START.items())
         ground = f"ground(height = {-_GROUND_DEPTH!r}, animation = false)"
         bench = f"UrdfSync.Robots.PartialMobileBench({start}, world(enableAnimation = false), {ground})"
-    for k, (joint, effort) in enumerate(zip(motion.driven_axes(tree), efforts, strict=True), 1):
+    for k, (joint, effort) in enumerate(zip(axes, efforts, strict=True), 1):
         declarations.append(f"{MOTION_KINDS[joint.type].capitalize()}Push push{k}(effort = {effort!r})")
         connections.append(f"push{k}.flange, {names.flanges[joint.name]}")
     source = _text(target, options, bench, declarations, connections)
