@@ -89,8 +89,8 @@ def _details(result: CheckResult) -> Iterator[str]:
             yield f"{model.model}: compiles{by}"
         for part, deviation in worst(tool.deviations or ()).items():
             place = f"{deviation.element}, {deviation.quantity}"
-            worst_one = f"relative differences of up to {deviation.relative:.1e} ({place})"
-            yield f"{part}: {worst_one if deviation.relative else 'no difference'}{by}"
+            most = f"relative differences of up to {deviation.relative:.1e} ({place})"
+            yield f"{part}: {most if deviation.relative else 'no difference'}{by}"
         for trial in tool.times:
             yield f"{trial.name}: {trial.seconds:.1f} s{by}"
         for deviation in tool.deviations or ():

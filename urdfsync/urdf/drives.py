@@ -53,8 +53,12 @@ def friction_law(joint: Joint, options: Options) -> FrictionLaw | None:
     """
     if joint.dynamics is None:
         return None
-    law = options.friction if isinstance(options.friction, str) else options.friction.get(joint.name, "smooth")
-    return law if can_be_driven(joint) else "smooth"
+    return chosen_law(joint, options) if can_be_driven(joint) else "smooth"
+
+
+def chosen_law(joint: Joint, options: Options) -> FrictionLaw:
+    """Return the law that the option `friction` means for a joint."""
+    return options.friction if isinstance(options.friction, str) else options.friction.get(joint.name, "smooth")
 
 
 def is_chosen(joint: Joint, names: str | tuple[str, ...]) -> bool:

@@ -13,7 +13,7 @@ from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence, S
 
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.spelling import nearest
-from urdfsync.urdf.drives import can_be_driven, driven_joints, is_chosen, passive_joints
+from urdfsync.urdf.drives import can_be_driven, chosen_law, driven_joints, is_chosen, passive_joints
 from urdfsync.urdf.kinematics.poses import own_range
 from urdfsync.urdf.names import natural_key
 from urdfsync.urdf.options import Options
@@ -97,8 +97,7 @@ def _check_laws(joints: Sequence[Joint], options: Options) -> Iterator[tuple[str
     """Yield an error for each joint whose chosen friction and drive make no model."""
     driven, named = driven_joints(joints, options), _named(options.friction)
     for joint in filter(can_be_driven, joints):
-        law = options.friction if isinstance(options.friction, str) else options.friction.get(joint.name, "smooth")
-        is_dry = joint.dynamics is not None and joint.dynamics.friction > 0
+        law, is_dry = chosen_law(joint, options), joint.dynamics is not None and joint.dynamics.friction > 0
         is_driven, by_effort = joint.name in driven, joint.command == "effort"
         is_elastic = is_driven and is_chosen(joint, options.elastic)
         faults = []
