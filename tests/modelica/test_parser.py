@@ -121,6 +121,10 @@ def test_all_that_is_declared() -> None:
     ]
 
 
+def test_a_number_may_begin_with_its_point() -> None:
+    assert parse("model A\n  Real x = 2*.5e-3;\nend A;\n").faults == []
+
+
 def test_what_is_no_modelica_does_not_hide_the_rest() -> None:
     found = parse(TEXT.replace("  model Joint", "  Real = 3;\n  model Joint"))
     assert [(fault.reason, fault.line) for fault in found.faults] == [("lacks a name before `=`", 5)]
@@ -176,6 +180,7 @@ FAULTS = {
     "crossing": ("(each min = 0)", "(each min = 0]", "lacks `,` or `)` before `]` (line 9)"),
     "braces": ("{1, 1}}", "{1, 1}", "lacks `,` or `}` before `)` (line 32)"),
     "string": ('"Masses"', '"Masses', "has a string without an end (line 57)"),
+    "escape": ('"Masses"', '"Mass\\es"', r"has the escape `\e`, which Modelica does not know (line 9)"),
     "comment": ("m[2]", "/* m[2]", "has a comment without an end (line 9)"),
     "quoted name": ("x, y", "'x, y", "has a quoted name without an end (line 16)"),
     "another name": ("end Arm", "end Leg", "ends `Arm` with `end Leg` (line 58)"),
@@ -186,6 +191,10 @@ FAULTS = {
     "block without end": ("  end if;\n", "", "lacks `end if` before `algorithm` (line 46)"),
     "semicolon": ("Real u;\n", "Real u\n", "lacks `;` before `output` (line 22)"),
     "semicolon of an equation": ("  x = 0;", "  x = 0", "lacks `;` before `equation` (line 31)"),
+    "subscript": ("x[:, 1]", "x[]", "lacks a subscript before `]` (line 33)"),
+    "constraint": ("  Real x, y(", "  Real u constrainedby Real;\n  Real x, y(",
+        "lacks `;` before `constrainedby` (line 16)"),
+    "global package": ("within Plant", "within .Plant", "lacks a name before `.` (line 1)"),
     "comma too many": ("0.8}", "0.8, }", "lacks an expression before `}` (line 9)"),
     "comma": ("m[1], redeclare", "m[1] redeclare", "lacks `,` or `)` before `redeclare` (line 14)"),
     "names": ("  import SI", "  Real Mode;\n  import SI", "declares `Mode` twice (line 19)"),

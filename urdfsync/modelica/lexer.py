@@ -17,7 +17,7 @@ _TOKEN = re.compile(
     (
       {_STRING}|".*+
       | {_QUOTED_NAME}
-      | :=|==|<=|>=|<>|[^\W\d]\w*+|\d++(?:\.\d*+)?(?:[eE][-+]?\d++)?
+      | :=|==|<=|>=|<>|[^\W\d]\w*+|(?:\d++(?:\.\d*+)?|\.\d++)(?:[eE][-+]?\d++)?  # compilers take .5, too
       | \Z
       | .
     )
@@ -31,6 +31,7 @@ STATEMENT = re.compile(
 )
 """All up to the next semicolon, unless something before it has no end."""
 _ENDLESS_STRING = re.compile(r'"(?:[^"\\]++|\\.)*+\\?', re.DOTALL)
+_ESCAPE = re.compile(r"""\\(['"?\\abfnrtv]|(?P<meaningless>.))""", re.DOTALL)
 _MARKER = re.compile(r"(<{7,}|\|{7}|={7}|>{7,})(\s|$)")
 
 
@@ -99,6 +100,18 @@ class Lexer:
         """Return the line of a place in the text, from 1."""
         return bisect_left(self._line_ends, start) + 1
 
+    def strange_escapes(self) -> list[Fault]:
+        """Return the escapes without a meaning in the strings and quoted names that were read."""
+        if "\\" not in self.text:
+            return []
+        return [
+            Fault(f"has the escape `{escape[0]}`, which Modelica does not know", self.line_at(start + escape.start()))
+            for word, start in zip(self.words, self.starts, strict=True)
+            if word[:1] in {'"', "'"}
+            for escape in _ESCAPE.finditer(word)
+            if escape["meaningless"]
+        ]
+
     @cached_property
     def _line_ends(self) -> list[int]:
         return [match.start() for match in re.finditer("\n", self.text)]
@@ -122,6 +135,11 @@ def find_markers(text: str) -> list[Fault]:
         for number, line in enumerate(text.split("\n"), start=1)
         if (marker := _MARKER.match(line))
     ]
+
+
+def is_number(token: str) -> bool:
+    """Whether a token is a number, which has no sign."""
+    return token[:1].isdecimal() or (token[:1] == "." and len(token) > 1)
 
 
 def is_name(token: str) -> bool:

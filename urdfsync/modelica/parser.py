@@ -9,11 +9,11 @@ from __future__ import annotations
 
 import re
 from bisect import bisect_left
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 
 import msgspec
 
-from urdfsync.modelica.lexer import Fault, Lexer, is_name
+from urdfsync.modelica.lexer import Fault, Lexer, is_name, is_number
 from urdfsync.modelica.syntax import Class, Component, Extends, ImportClause, Modifier, Name, StoredText
 
 _DEEPEST = 50
@@ -86,7 +86,7 @@ class Parser(Lexer):
     def read(self) -> StoredText:
         """Read all of the text."""
         self.document()
-        faults = [*self.endless, *self.faults]
+        faults = [*self.endless, *self.strange_escapes(), *self.faults]
         return StoredText(faults, self._within, self._within_line, self.open[0].classes, tuple(self._libraries))
 
     # --- tokens ---------------------------------------------------------------------------------------------------
@@ -248,6 +248,9 @@ class Parser(Lexer):
         """Read subscripts or the sizes of an array, if there are any."""
         if self.word == "[":
             self._subscript_depth += 1
+            if self.following == "]":
+                self._step()
+                raise self._lack("a subscript")
             for _ in self._list("[", "]"):
                 if not (self.word == ":" and self.following in (",", "]") and self._step()):
                     self._expression()
@@ -288,7 +291,7 @@ class Parser(Lexer):
 
     def _operand(self) -> None:
         word = self.word
-        is_literal = word[:1] == '"' or word[:1].isdecimal() or word in ("true", "false")
+        is_literal = word[:1] == '"' or is_number(word) or word in ("true", "false")
         if is_literal or (word == "end" and self._subscript_depth):
             self._step()
         elif word == "(":  # an expression, or the outputs of a function, some of which may be left out
@@ -366,6 +369,8 @@ class Parser(Lexer):
     def _within_clause(self) -> None:
         self._within_line = self.line
         self._expect("within")
+        if self.word == ".":
+            raise self._lack("a name")
         self._within = str(self._name()) if self.word != ";" else ""
 
     def _stored_class(self, names: set[str]) -> None:
@@ -488,7 +493,7 @@ class Parser(Lexer):
             prefixes = self._prefixes(_ELEMENT_PREFIXES)
             if self.word in _CLASS_STARTS:
                 definition = self._class(names, prefixes)
-                definition.constraint = self._constraint()
+                definition.constraint = self._constraint(prefixes)
                 around.classes.append(definition)
             else:
                 around.components += self._components(names, prefixes)
@@ -561,7 +566,7 @@ class Parser(Lexer):
             uses = (*sizes, *self._take_names(names_mark))
             components.append(Component(name, kind, frozenset(prefixes | more), arguments, uses))
             self._comment()
-        constraint = self._constraint()
+        constraint = self._constraint(prefixes)
         if components[1:]:  # in the tree, several components of one declaration stand or fall together
             self._note("components", start, mark)
         return (
@@ -575,9 +580,10 @@ class Parser(Lexer):
         self._subscripts()
         self._note("sizes", start)
 
-    def _constraint(self) -> Extends | None:
+    def _constraint(self, prefixes: Collection[str]) -> Extends | None:
+        """Read the class that constrains an element with these prefixes, if it is replaceable and one is given."""
         start, mark = self.at, self._mark()
-        if not self._accept("constrainedby"):
+        if "replaceable" not in prefixes or not self._accept("constrainedby"):
             return None
         self._note("word", start)
         base = self._base()
@@ -647,7 +653,7 @@ class Parser(Lexer):
             return Modifier(name)
         if declares and self.word in _CLASS_STARTS:
             definition = self._class(names, prefixes)
-            constraint = self._constraint()
+            constraint = self._constraint(prefixes)
             self._note(str(definition.name), start, mark)
             return Modifier(definition.name, (), (), is_redeclared, definition.alias, constraint)
         new_type: Extends | None = None
@@ -665,7 +671,7 @@ class Parser(Lexer):
         self._description()
         if declares:
             self._annotation()
-        constraint = self._constraint()
+        constraint = self._constraint(prefixes)
         self._note(str(name), start, mark)
         return Modifier(name, arguments, uses, is_redeclared, new_type, constraint)
 

@@ -1,7 +1,7 @@
 """Resolve names in Modelica classes: scopes, inheritance, imports, modifiers and redeclarations.
 
 It follows chapters 5 and 7 of the language specification 3.6. A name is an element or missing. A class that is not at
-hand is `OPAQUE`: it has any element. Where a component is redeclared, the elements of its old type, of its constraining
+hand is `OPAQUE`: it has any element. Where an element is redeclared, the parts of its old type, of its constraining
 type and of its new one are all accepted, which is more than the language allows: so what is called missing is missing.
 """
 
@@ -271,9 +271,16 @@ class Scopes:
         if child is None:
             inherited = self._inherited(node, modifiers, name)
             return ANYTHING if isinstance(inherited, Missing) and "expandable" in definition.prefixes else inherited
-        is_open = "replaceable" in child.definition.prefixes
-        types = (Type(child, _nested(modifiers, name)), *(ANYTHING.types if is_open else ()))
-        return Element(types) if child is not OPAQUE else ANYTHING
+        if child is OPAQUE:
+            return ANYTHING
+        nested = _nested(modifiers, name)
+        types = (*self._redeclared(modifiers, name), Type(child, nested))
+        if "replaceable" in child.definition.prefixes and not child.definition.constraint:
+            # packages of media use what only the classes have that replace their empty ones
+            types += ANYTHING.types
+        if child.definition.constraint:
+            types += _modified(self.types_of(child.definition.constraint, node), nested)
+        return Element(self._with_inherited(types, node, modifiers, name, child.definition.prefixes))
 
     def _inherited(self, node: Node, modifiers: tuple[Scoped, ...], name: str) -> Element | Missing:
         is_certain = True
@@ -289,6 +296,13 @@ class Scopes:
 
     def _component(self, node: Node, modifiers: tuple[Scoped, ...], component: Component) -> Element:
         name = component.name.parts[0]
+        types = self._redeclared(modifiers, name)
+        types += _modified(self.types_in(component, node), _nested(modifiers, name))
+        types = self._with_inherited(types, node, modifiers, name, component.prefixes)
+        return Element(types, is_component=True)
+
+    def _redeclared(self, modifiers: tuple[Scoped, ...], name: str) -> Types:
+        """Return what modifiers of a class declare one of its elements anew to be."""
         nested = _nested(modifiers, name)
         types: Types = ()
         for arguments, scope in modifiers:
@@ -296,11 +310,15 @@ class Scopes:
                 if modifier.name.parts == (name,) and modifier.type is not None:
                     types += _modified(self.types_of(modifier.type, scope), nested)
                     types += self.types_of(modifier.constraint, scope) if modifier.constraint else ()
-        types += _modified(self.types_in(component, node), nested)
-        if "redeclare" in component.prefixes:
-            before = self._inherited(node, modifiers, name)
-            types += before.types if isinstance(before, Element) else ()
-        return Element(tuple(dict.fromkeys(types)), is_component=True)
+        return types
+
+    def _with_inherited(
+        self, types: Types, node: Node, modifiers: tuple[Scoped, ...], name: str, prefixes: frozenset[str]
+    ) -> Types:
+        """Add the types of the inherited element that one with the prefix `redeclare` replaces."""
+        before = self._inherited(node, modifiers, name) if "redeclare" in prefixes else None
+        types += before.types if isinstance(before, Element) else ()
+        return tuple(dict.fromkeys(types))
 
     def _bases(self, node: Node) -> Types:
         definition = node.definition

@@ -17,7 +17,7 @@ from typing import NamedTuple, TypeAlias
 
 import msgspec
 
-from urdfsync.modelica.lexer import STATEMENT, Fault, is_name, lex, words_in
+from urdfsync.modelica.lexer import STATEMENT, Fault, is_name, is_number, lex, words_in
 from urdfsync.modelica.parser import SECTIONS, Parser
 
 LAYOUT = frozenset({"Placement", "Line", "Icon", "Diagram"})
@@ -276,7 +276,7 @@ def words_of(text: str) -> Words:
 
 
 def _words(tokens: Sequence[str]) -> Words:
-    return tuple(_number(token) if token[0].isdecimal() else token.replace("\r\n", "\n") for token in tokens)
+    return tuple(_number(token) if is_number(token) else token.replace("\r\n", "\n") for token in tokens)
 
 
 def _number(text: str) -> float:
