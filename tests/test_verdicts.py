@@ -118,6 +118,7 @@ PLAIN: dict[str, tuple[Callable[[], object], Verdict]] = {
     "a comment in the source": (comment, GREEN),
     "a deleted file": (lambda: Path(RECORD).unlink(), LATE),
     "a lost state": (lambda: Path(STATE).unlink(), LATE),
+    "how git unites states": (lambda: Path(".urdfsync/.gitattributes").unlink(), LATE),
 }
 
 

@@ -134,9 +134,9 @@ class _Builder:
 
     def _write(self, robot: RobotConfig, plan: Plan) -> tuple[Path, ...]:
         """Carry out a plan. Returns the files that are not as planned, since somebody saved one in between."""
-        files, store = PackageFiles(self._config, robot), Store(self._config.root)
+        files = PackageFiles(self._config, robot)
         shared = [change for file in plan.shared if (change := file.change(files)) is not None]
-        changes = [*shared, *store.for_git(), *plan.writes]
+        changes = [*shared, *plan.writes]
         applied = self._transactions.apply(robot.name, changes, plan.emptied)
         self.notes += applied.diagnostics
         return applied.not_done

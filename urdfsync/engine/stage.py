@@ -72,6 +72,7 @@ def stage(generation: Generation, decision: Decision, diagnostics: tuple[Diagnos
     names = {inputs.last.name} - {robot.name} if record else {inputs.last.name, robot.name}
     state = [change for name in names for change in store.remove(name)]
     if record:
+        state += store.for_git()
         versions = [conflict_files(conflict, inputs.folder).values() for conflict in decision.conflicts]
         texts = {path: encode(text) for version in versions for path, text in version}
         changes += store.save_conflicts(robot.name, texts)
