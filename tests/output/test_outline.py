@@ -173,7 +173,7 @@ NUMBERS = st.floats(-1e6, 1e6)
 def row(old: Any, new: Any, kind: ChangeKind = ChangeKind.CHANGED, *, everything: bool = False) -> str:
     """The only row of one change, without its place."""
     ((found,),) = outline(Changes((change("a / b", old, new, kind=kind),)), everything=everything).values()
-    return found.removeprefix("b ")
+    return str(found).removeprefix("b ")
 
 
 @pytest.mark.parametrize(

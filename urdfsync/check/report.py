@@ -21,9 +21,10 @@ from urdfsync.check.results import (
     relative,
     worst,
 )
-from urdfsync.diagnostics import Severity
+from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Deviation, Part, Quantity
 from urdfsync.output.console import StyledLine, line
+from urdfsync.output.markdown import Mark, Section, Table
 from urdfsync.output.phrases import counted
 
 _STYLES = {
@@ -46,6 +47,14 @@ def robot_lines(result: CheckResult, *, strict: bool, verbose: bool, marks: bool
     mark, style = _STYLES[verdict(result, strict)]
     sign = f"{mark} " if marks else ""
     yield line((sign, style), (result.robot, "bold"), (f": {summary(result, strict)}", ""))
+    sentences = _sentences(result, strict=strict)
+    if verbose:
+        sentences += [(sentence, "dim") for sentence in _details(result)]
+    yield from (line(("  ", ""), sentence) for sentence in sentences)
+
+
+def _sentences(result: CheckResult, *, strict: bool) -> list[tuple[str, str]]:
+    """Return the sentences below the first line, with their styles."""
     sentences = list(_two_tools(result)) if len(result.tools) > 1 else []
     if result.between is None:
         sentences += _differences(result)
@@ -60,9 +69,7 @@ def robot_lines(result: CheckResult, *, strict: bool, verbose: bool, marks: bool
         sentences.append(("files are in conflict; settle that with `urdfsync resolve`", "yellow"))
     elif not result.in_step:
         sentences.append(("the package is out of step; run `urdfsync build`", "yellow"))
-    if verbose:
-        sentences += [(sentence, "dim") for sentence in _details(result)]
-    yield from (line(("  ", ""), sentence) for sentence in sentences)
+    return sentences
 
 
 def _differences(result: CheckResult) -> Iterator[tuple[str, str]]:
@@ -164,6 +171,26 @@ def closing_lines(results: Sequence[CheckResult], *, strict: bool) -> Iterator[S
         verdicts = [verdict(result, strict) for result in results]
         tally = ", ".join(f"{verdicts.count(word)} {word}" for word in _STYLES if word in verdicts)
         yield line((f"{counted(len(results), 'robot')}: {tally}", "bold"))
+
+
+def to_section(result: CheckResult, strict: bool) -> Section:
+    """Return a result for a comment: its sentences, and how far each part agrees with the reference."""
+    status, sentences = result.status(strict), [sentence.strip() for sentence, _ in _sentences(result, strict=strict)]
+    rows = [
+        (part, f"{_word(each)}, to {each.relative:.1e}", f"{each.element}, {each.quantity}")
+        for part, each in worst(result.deviations).items()
+    ]
+    finding = None
+    if status in (CheckStatus.DIFFERS, CheckStatus.INCOMPLETE):
+        file = f"{result.folder}/package.mo" if result.folder else ""
+        told = next(iter(sentences), summary(result, strict))
+        severity = Severity.NOTE if status is CheckStatus.INCOMPLETE else Severity.WARNING
+        finding = Diagnostic(severity, str(status), f"{result.package}: {told}", file)
+    marks = {CheckStatus.RIGHT: Mark.FINE, CheckStatus.FAILED: Mark.WRONG}
+    points = [*sentences, *(f"not compared: {sentence}" for sentence in dict.fromkeys(result.unchecked))]
+    table = Table(f"Compared with {result.reference}", ("", "", "Worst"), rows)
+    mark = marks.get(status, Mark.OPEN)
+    return Section(result.robot, summary(result, strict), mark, points, [table], result.diagnostics, finding)
 
 
 def to_json(result: CheckResult, strict: bool) -> dict[str, Any]:

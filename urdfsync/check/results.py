@@ -146,6 +146,8 @@ class CheckResult(msgspec.Struct):
     """From beginning to end."""
     megabytes: float = 0.0
     """The most memory that its processes took together, looked at ten times a second."""
+    folder: str = ""
+    """The package's folder, as people see it; empty if the check did not come that far."""
     reference: str = ""
     """The reference of `deviations`, for example `Pinocchio 3.4`; empty if nothing was compared."""
 

@@ -54,6 +54,7 @@ def check_robot(config: Config, robot: RobotConfig, options: CheckOptions, folde
             if key and package.in_step and is_same:
                 cache.save(key, None if result.failed or result.differs else result)
         result = earlier or result
+        result.folder = shown(robot.folder)  # of this project, whichever was checked before
         result.add(texts.missing_resources(package))  # files that no fingerprint knows of
     except (UrdfsyncError, OSError) as error:
         result.add(findings_of(error))

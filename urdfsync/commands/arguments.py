@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import itertools
 import math
 import os
 import sys
@@ -17,7 +18,7 @@ from urdfsync.config import Config, RobotConfig
 from urdfsync.dependencies import read_unrecorded
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, UrdfsyncError
 from urdfsync.engine.options import BuildOptions
-from urdfsync.output.console import Console
+from urdfsync.output.console import Console, Format
 
 CODES = (
     "exit codes: 0 in step or done, 1 out of step, broken or different, 2 error, 3 conflict, "
@@ -106,8 +107,11 @@ _SHARED: Mapping[str, dict[str, Any]] = {
 """Arguments and options that more than one command takes."""
 
 
-def add_command(commands: Commands, name: str, shared: str = "", **texts: Any) -> Parser:
-    """Add the parser of a command, with some of `_SHARED` and with the options that every command has."""
+def add_command(commands: Commands, name: str, shared: str = "", *, formats: bool = False, **texts: Any) -> Parser:
+    """Add the parser of a command, with some of `_SHARED` and with the options that every command has.
+
+    With `formats`, it writes its result in each `Format`.
+    """
     texts["epilog"] += "" if "exit codes" in texts["epilog"] else f"\n\n{CODES}"
     parser = commands.add_parser(name, **texts)
     for option in shared.split():
@@ -115,10 +119,30 @@ def add_command(commands: Commands, name: str, shared: str = "", **texts: Any) -
     parser.set_defaults(parser=parser)
     group = parser.add_argument_group("common options")
     group.add_argument("--config", type=Path, metavar="PATH", help="default: urdfsync.toml, here or in a folder above")
-    group.add_argument("--json", action="store_true", help="one JSON document on the standard output")
+    output = group.add_mutually_exclusive_group()
+    output.add_argument(
+        "--json",
+        dest="format",
+        action="store_const",
+        const=Format.JSON,
+        default=Format.TEXT,
+        help="one JSON document on the standard output",
+    )
+    if formats:
+        output.add_argument(
+            "--format",
+            choices=[each.value for each in Format],
+            default=Format.TEXT,
+            help="text, json as --json, markdown for a comment, or sarif for findings at their lines",
+        )
     group.add_argument("-q", "--quiet", action="store_true", help="only errors and conflicts")
     group.add_argument("-v", "--verbose", action="store_true", help="all warnings and changes, and the files concerned")
     return parser
+
+
+def wants_json(given: Sequence[str]) -> bool:
+    """Return whether arguments ask for JSON, also if they are wrong and no parser takes them."""
+    return "--json" in given or "--format=json" in given or ("--format", "json") in itertools.pairwise(given)
 
 
 def add_tool(parser: Parser, tools: Sequence[str]) -> None:

@@ -32,6 +32,7 @@ def add(commands: arguments.Commands) -> None:
         commands,
         "build",
         "robots --robot --wait --trust --jobs --executor",
+        formats=True,
         help="bring the packages in step with their sources",
         description="Bring Modelica packages in step with their sources. Files that you edited are never overwritten.",
         epilog="example: urdfsync build arm --dry-run --explain",

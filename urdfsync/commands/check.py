@@ -8,11 +8,11 @@ from collections.abc import Iterable
 
 from urdfsync.check import run as run_checks
 from urdfsync.check.compilers import COMPILERS
-from urdfsync.check.report import closing_lines, robot_lines, to_json
+from urdfsync.check.report import closing_lines, robot_lines, to_json, to_section
 from urdfsync.check.results import CheckOptions, CheckResult, CheckStatus, exit_code
 from urdfsync.check.tools import BOTH, chosen_tools
 from urdfsync.commands import arguments
-from urdfsync.output.console import Console, has_marks
+from urdfsync.output.console import Console, Format, has_marks
 
 
 def add(commands: arguments.Commands) -> None:
@@ -21,6 +21,7 @@ def add(commands: arguments.Commands) -> None:
         commands,
         "check",
         "robots --robot --wait --trust --executor --timeout --memory",
+        formats=True,
         help="compile the packages, and compare them with an independent reference",
         description="Check packages as they are on disk: their syntax and layout, and whether their models compile and "
         "are balanced. With --physics poses, torques and masses are compared with an independent reference that reads "
@@ -54,8 +55,10 @@ def show_results(console: Console, checks: Iterable[CheckResult], strict: bool) 
     try:
         for result in checks:
             results.append(result)
-            if console.json:
+            if console.format is Format.JSON:
                 console.add_robot(to_json(result, strict))
+            elif console.json:
+                console.add_section(to_section(result, strict))
             elif not console.quiet or result.status(strict) is not CheckStatus.RIGHT:
                 console.print(robot_lines(result, strict=strict, verbose=console.verbose, marks=marks))
             console.findings(result.diagnostics)

@@ -18,12 +18,14 @@ from urdfsync.diff.comparison import Comparison
 from urdfsync.engine.actions import USERS, Kind, Reason
 from urdfsync.engine.findings import CONNECTORS
 from urdfsync.output.conflicts import settle_hint, shown_path
-from urdfsync.output.console import Console, StyledLine, first_lines, line
+from urdfsync.output.console import Console, Format, StyledLine, first_lines, line
+from urdfsync.output.markdown import Mark, Section, Table
 from urdfsync.output.outline import effect_rows
 from urdfsync.output.phrases import change_counts, change_lines, counted, error_count, generator_change
 from urdfsync.output.phrases import summary as build_summary
 from urdfsync.output.repeated import show_findings
 from urdfsync.output.results import action_word, change_line, file_line, headline, result_values
+from urdfsync.output.sections import build_section, change_parts
 
 _CHANGES, _FILES, _EFFECTS = 60, 12, 8
 """So many lines of changes, files and effects are listed at most, without --verbose."""
@@ -38,6 +40,7 @@ def add(commands: arguments.Commands) -> None:
         commands,
         "diff",
         "--robot --wait",
+        formats=True,
         help="show what changed in the sources since the last build",
         description="Show what changed in a source since the last build, or since another version of it: by element, "
         "with what follows for the whole model and for the files of the package. Nothing is written.",
@@ -106,11 +109,14 @@ def _select_sources(
 
 
 def _show(console: Console, compared: Comparison) -> None:
-    if console.json:
+    if console.format is Format.JSON:
         values = result_values(compared.result)
         values |= {"source": compared.source, "against": compared.against, "summary": _summary(compared)}
         values |= {"in_step": compared.in_step, "effects": msgspec.to_builtins(compared.effects)}
         console.add_robot(values)
+        return
+    if console.json:
+        console.add_section(_section(compared))
         return
     show_findings(
         console,
@@ -120,6 +126,20 @@ def _show(console: Console, compared: Comparison) -> None:
     if not console.quiet or compared.result.conflicts:
         head = headline(compared.result, _summary(compared), is_fine=compared.in_step)
         console.print([head, *_lines(compared, console.verbose)], error=compared.result.failed)
+
+
+def _section(compared: Comparison) -> Section:
+    """Return a comparison for a comment; only one with the last build judges the package."""
+    result, section = compared.result, build_section(compared.result)
+    points, tables = change_parts(result.changes)
+    points = [point for point in points if point not in _summary(compared)]
+    effects = Table("Effects", ("Property", "Change", "By"), effect_rows(compared.effects))
+    tables += [effects, section.tables[-1]]
+    findings = [finding for finding in section.findings if finding.code != CONNECTORS]  # effects tell them
+    texts = {"summary": _summary(compared), "points": points, "tables": tables, "findings": findings}
+    if compared.against is None or result.failed:
+        return msgspec.structs.replace(section, **texts)
+    return msgspec.structs.replace(section, **texts, mark=Mark.NONE, verdict=None)
 
 
 def _summary(compared: Comparison) -> str:

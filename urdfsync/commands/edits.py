@@ -20,7 +20,8 @@ from urdfsync.engine.result import Exit
 from urdfsync.files import shown
 from urdfsync.merge.edits import find_edits, in_words
 from urdfsync.output.conflicts import difference_lines
-from urdfsync.output.console import Console, StyledLine, first_lines, line
+from urdfsync.output.console import Console, Format, StyledLine, first_lines, line
+from urdfsync.output.markdown import Mark, Section, Table
 from urdfsync.output.phrases import counted
 
 _EDITS = 20
@@ -46,6 +47,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
             files = list(find_edited(generate_robot(inspect(configuration, robot, request))))
         except UrdfsyncError as error:
             console.add_robot({"name": robot.name, "failed": True, "files": []})
+            console.add_section(Section(robot.name, "can't be read", Mark.WRONG, findings=error.diagnostics))
             console.findings(error.diagnostics)
             code = Exit.ERROR
             continue
@@ -54,9 +56,13 @@ def run(args: argparse.Namespace, console: Console) -> int:
             files = [
                 file for file in files if any((root / file.path).is_relative_to(place) for place in named.values())
             ]
-        if console.json:
-            console.add_robot({"name": robot.name, "failed": False, "files": list(map(edit_values, files))})
         words = f"{counted(len(files), 'file')} edited" if files else "nothing is edited"
+        if console.format is Format.JSON:
+            console.add_robot({"name": robot.name, "failed": False, "files": list(map(edit_values, files))})
+        elif console.json:
+            rows = [(_shown(file, configuration.root), *edit) for file in files for edit in _told(file)]
+            table = Table("Edits", ("File", "Element", "Edit"), rows)
+            console.add_section(Section(robot.name, words, Mark.NONE, tables=[table]))
         console.tell([line((robot.name, "bold"), (f": {words}", ""))])
         for file in files:
             console.tell(edit_lines(file, configuration.root, console.verbose))
@@ -78,19 +84,28 @@ def edit_lines(file: EditedFile, root: Path, verbose: bool, most: int = _EDITS) 
 
     Without it, so many edits are listed at `most`.
     """
-    yield line(("  ", ""), (shown(Path(os.path.normpath(root / file.path))), "bold"), (f"  {file.owner}", "dim"))
+    yield line(("  ", ""), (_shown(file, root), "bold"), (f"  {file.owner}", "dim"))
+    lines = [
+        line((f"    {element}", ""), (f"{': ' if element else ''}{what}", _style(what)))
+        for element, what in _told(file)
+    ]
+    yield from first_lines(lines, most, "edit", verbose=verbose)
+    if verbose and file.base is not None:
+        yield from difference_lines(file.base, file.mine, "base", "mine")
+
+
+def _shown(file: EditedFile, root: Path) -> str:
+    return shown(Path(os.path.normpath(root / file.path)))
+
+
+def _told(file: EditedFile) -> list[tuple[str, str]]:
+    """Return the elements that are edited, and what of each; the element is empty for the file as a whole."""
     if file.base is None:
-        yield line(("    its base, the text that urdfsync wrote last, is lost: nothing to compare with", "dim"))
-        return
+        return [("", "its base, the text that urdfsync wrote last, is lost: nothing to compare with")]
     edits = find_edits(file.base, file.mine)
     if edits is None:
-        told = [("", "edited; it is no single class, so only its lines can be compared: --verbose shows them")]
-    else:
-        told = in_words(edits) or [("", "only blanks, or the order of things")]
-    lines = [line((f"    {element}", ""), (f"{': ' if element else ''}{what}", _style(what))) for element, what in told]
-    yield from first_lines(lines, most, "edit", verbose=verbose)
-    if verbose:
-        yield from difference_lines(file.base, file.mine, "base", "mine")
+        return [("", "edited; it is no single class, so only its lines can be compared: --verbose shows them")]
+    return in_words(edits) or [("", "only blanks, or the order of things")]
 
 
 def _style(what: str) -> str:

@@ -45,6 +45,11 @@ def templates_folder(domain: Domain) -> Path:
     return domain.templates or _data_folder("templates") / domain.name
 
 
+def findings_page() -> Path:
+    """Return the page that explains the codes of findings."""
+    return _data_folder("docs") / "findings.md"
+
+
 def _data_folder(name: str) -> Path:
     """Return a folder of a wheel, or of the repository around an editable installation."""
     package = Path(urdfsync.__file__).parent

@@ -1,4 +1,4 @@
-"""Where one command writes: lines for people, or one JSON document for programs.
+"""Where one command writes: lines for people, or one document: JSON, Markdown or SARIF.
 
 Findings, progress and errors go to the error stream, everything else to the output stream. Nothing that urdfsync
 quotes from files can command a terminal: `visible` escapes it.
@@ -6,6 +6,7 @@ quotes from files can command a terminal: `visible` escapes it.
 
 from __future__ import annotations
 
+import enum
 import json
 import os
 import sys
@@ -24,6 +25,8 @@ if TYPE_CHECKING:
     from rich.progress import Progress, TaskID
     from rich.text import Text
 
+    from urdfsync.output.markdown import Section
+
 JSON_VERSION = 3
 """Version of the JSON documents and events; raised when a key changes its meaning or goes away."""
 FEW = 5
@@ -31,6 +34,15 @@ FEW = 5
 BAR_AFTER = 0.5
 """Seconds of work before a progress bar appears."""
 _SEVERITIES = {Severity.ERROR: "bold red", Severity.WARNING: "yellow", Severity.NOTE: "cyan"}
+
+
+class Format(enum.StrEnum):
+    """What a command writes on the output stream."""
+
+    TEXT = "text"
+    JSON = "json"
+    MARKDOWN = "markdown"
+    SARIF = "sarif"
 
 
 class StyledLine(msgspec.Struct, frozen=True):
@@ -127,15 +139,27 @@ class Console:
     """The output of one command, as its options want it."""
 
     def __init__(
-        self, command: str = "", *, as_json: bool = False, quiet: bool = False, verbose: bool = False, config: str = ""
+        self,
+        command: str = "",
+        *,
+        format: Format = Format.TEXT,  # noqa: A002 - its option's name
+        quiet: bool = False,
+        verbose: bool = False,
+        config: str = "",
     ) -> None:
         """`config` is the configuration as the user named it, for commands that are proposed."""
         self._command, self.config = command, config
-        self.json, self.quiet, self.verbose = as_json, quiet, verbose
+        self.format, self.quiet, self.verbose = format, quiet, verbose
         self._robots: list[Mapping[str, Any]] = []
+        self._sections: list[Section] = []
         self._warnings: Sequence[Diagnostic] = ()
         self._begin = time.monotonic()
         self._bar: tuple[Progress, TaskID] | None = None
+
+    @property
+    def json(self) -> bool:
+        """Whether programs read the output: a document takes the place of lines."""
+        return self.format is not Format.TEXT
 
     def print(self, lines: Iterable[StyledLine], *, error: bool = False) -> None:
         """Write lines on the output stream; with `error` on the error stream."""
@@ -162,25 +186,42 @@ class Console:
         self.stop_progress()
         self._robots.append(values)
 
-    def end(self, code: int, diagnostics: Sequence[Diagnostic] = (), values: Mapping[str, Any] | None = None) -> int:
-        """End a command: show what stopped it, or write its JSON document (docs/json.md). Returns the exit code.
+    def add_section(self, section: Section) -> None:
+        """Add a robot to the Markdown or SARIF, likewise."""
+        self.stop_progress()
+        self._sections.append(section)
 
-        The document has these values, else the robots.
+    def end(self, code: int, diagnostics: Sequence[Diagnostic] = (), values: Mapping[str, Any] | None = None) -> int:
+        """End a command: show what stopped it, or write its document (docs/json.md). Returns the exit code.
+
+        That in JSON has these values, else the robots.
         """
         self.stop_progress()
         if not self.json:
             self.findings(diagnostics)
             return code
+        sys.stdout.write(self._document(code, (*self._warnings, *diagnostics), values))
+        return code
+
+    def _document(self, code: int, diagnostics: Sequence[Diagnostic], values: Mapping[str, Any] | None) -> str:
+        """Return the document that takes the place of lines; `diagnostics` belong to no robot."""
+        if self.format is Format.MARKDOWN:
+            from urdfsync.output.markdown import comment  # most commands write none
+
+            return comment(self._sections, diagnostics)
+        if self.format is Format.SARIF:
+            from urdfsync.output.sarif import log
+
+            return log(self._sections, diagnostics, code)
         document = {
             "version": JSON_VERSION,
             "command": self._command,
             "exit": int(code),
             **({"robots": self._robots} if values is None else values),
-            "diagnostics": list(map(msgspec.structs.asdict, (*self._warnings, *diagnostics))),
+            "diagnostics": list(map(msgspec.structs.asdict, diagnostics)),
         }
         indent = None if self._command == "watch" else 2  # its output is one object per line
-        sys.stdout.write(json.dumps(document, indent=indent) + "\n")
-        return code
+        return json.dumps(document, indent=indent) + "\n"
 
     def progress(self, what: str, done: int, total: int) -> None:
         """Show a step of the work, once the work takes long enough for anybody to wonder."""

@@ -12,7 +12,7 @@ import math
 import re
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 from urdfsync.changes import Change, Changes, is_number
 from urdfsync.domain import ChangeClass, ChangeKind, Effect
@@ -29,9 +29,23 @@ _CONTEXT = 12
 _HASH = "[0-9a-f]{64}"
 
 
-def outline(changes: Changes, *, everything: bool = False) -> dict[str, tuple[str, ...]]:
+class Row(NamedTuple):
+    """A change in words, in parts that a table can have in columns; empty ones are left out."""
+
+    label: str
+    """The place in the element; empty for the element itself."""
+    value: str
+    relation: str = ""
+    """The same in other words, such as a percentage."""
+
+    def __str__(self) -> str:
+        """Return the row as text: `limit / effort 54 → 60 N·m (+11.1 %)`."""
+        return " ".join(filter(None, (self.label, self.value, f"({self.relation})" if self.relation else "")))
+
+
+def outline(changes: Changes, *, everything: bool = False) -> dict[str, tuple[Row, ...]]:
     """Return the rows of changed elements; with `everything`, each change has a row of its own and all its digits."""
-    elements: dict[tuple[str, ...], list[str]] = defaultdict(list)
+    elements: dict[tuple[Row, ...], list[str]] = defaultdict(list)
     for element, of_element in changes.by_element().items():
         rows = [change_row([change], exact=True) for change in of_element] if everything else _element_rows(of_element)
         elements[tuple(rows)].append(element)
@@ -48,7 +62,7 @@ def _title(elements: Sequence[str]) -> str:
     return f"{begin}{', '.join(names[:few])}{more}"
 
 
-def _element_rows(changes: Sequence[Change]) -> list[str]:
+def _element_rows(changes: Sequence[Change]) -> list[Row]:
     """Return a row for each change or vector, and one that counts what is not modelled, and one for all rounding."""
     counts = {"not modelled": 0, "rounding": 0}
     vectors: dict[object, list[Change]] = defaultdict(list)
@@ -64,11 +78,14 @@ def _element_rows(changes: Sequence[Change]) -> list[str]:
         else:
             vectors[id(change)].append(change)
     rows = [change_row(components) for components in vectors.values()]
-    return rows + [f"{label} {number} change{'s' if number > 1 else ''}" for label, number in counts.items() if number]
+    for label, number in counts.items():
+        if number:
+            rows.append(Row("", f"{label} {number} change{'s' if number > 1 else ''}"))
+    return rows
 
 
-def change_row(components: Sequence[Change], *, exact: bool = False) -> str:
-    """Return a change, or those of the components of a vector, as words: `limit / effort 54 → 60 N·m (+11.1 %)`.
+def change_row(components: Sequence[Change], *, exact: bool = False) -> Row:
+    """Return a change, or those of the components of a vector, in words.
 
     With `exact` these are all digits and the whole text.
     """
@@ -76,10 +93,10 @@ def change_row(components: Sequence[Change], *, exact: bool = False) -> str:
     label = " / ".join(first.path[1:])
     relation = "not modelled" if first.change_class is ChangeClass.UNMODELLED else ""
     if first.kind is ChangeKind.RENAMED:
-        return _row(label, f"renamed to {new}")
+        return Row(label, f"renamed to {new}")
     if first.kind is not ChangeKind.CHANGED:
         details = _details(new if first.kind is ChangeKind.ADDED else old if label else None)
-        return _row(label, f"{first.kind}: {details}" if details else first.kind, relation)
+        return Row(label, f"{first.kind}: {details}" if details else first.kind, relation)
     if len(components) > 1:
         indices = ", ".join(change.path[-1].rpartition("[")[2][:-1] for change in components)
         label = f"{label.rpartition('[')[0]}[{indices}]"
@@ -93,10 +110,10 @@ def change_row(components: Sequence[Change], *, exact: bool = False) -> str:
         relation = _pair(*degrees, mark="°")
     else:
         relation = _percent(old, new) or relation
-    return _row(label, f"{_pair(old, new, exact=exact)} {first.unit}".rstrip(), relation)
+    return Row(label, f"{_pair(old, new, exact=exact)} {first.unit}".rstrip(), relation)
 
 
-def effect_rows(effects: Sequence[Effect]) -> list[str]:
+def effect_rows(effects: Sequence[Effect]) -> list[Row]:
     """Return properties of the whole model as rows, without those that differ by rounding at most."""
     rows = []
     for effect in effects:
@@ -111,13 +128,8 @@ def effect_rows(effects: Sequence[Effect]) -> list[str]:
         elif is_number(old) and is_number(new):
             is_same = math.isclose(old, new, rel_tol=_SAME)
         if not is_same:
-            rows.append(_row(" ".join(effect.path), f"{value} {effect.unit}".rstrip(), relation))
+            rows.append(Row(" ".join(effect.path), f"{value} {effect.unit}".rstrip(), relation))
     return rows
-
-
-def _row(label: str, value: str, relation: str = "") -> str:
-    """Return what happened at one place; the label is empty for the element itself."""
-    return " ".join(filter(None, (label, value, f"({relation})" if relation else "")))
 
 
 # --- values in few characters -------------------------------------------------------------------------------------

@@ -13,9 +13,10 @@ from urdfsync.engine.actions import Action, FileStatus, Kind, Reason
 from urdfsync.engine.result import Checked, Result
 from urdfsync.files import shown
 from urdfsync.output.conflicts import conflict_lines, describe, find_conflicts, saved_texts, shown_path
-from urdfsync.output.console import Console, StyledLine, first_lines, has_marks, line
+from urdfsync.output.console import Console, Format, StyledLine, first_lines, has_marks, line
 from urdfsync.output.phrases import change_lines, counted, reason, summary
 from urdfsync.output.repeated import show_findings
+from urdfsync.output.sections import build_section
 
 if TYPE_CHECKING:
     from urdfsync.changes import Changes
@@ -71,8 +72,11 @@ def show_results(
 
 def show_result(console: Console, result: Result, *, explain: bool = False, named: Container[str] = ()) -> None:
     """Show what was done with one robot."""
-    if console.json:
+    if console.format is Format.JSON:
         console.add_robot(result_values(result))
+        return
+    if console.json:
+        console.add_section(build_section(result))
         return
     show_findings(console, result, result.diagnostics)
     if console.quiet and not (result.conflicts or result.is_broken):

