@@ -240,6 +240,7 @@ class Part(enum.StrEnum):
     BENCHES = "Run and Test"
     SENSORS = "sensors"
     LIMITS = "limits"
+    CONTACTS = "contacts"
 
 
 class Quantity(enum.StrEnum):
@@ -262,6 +263,7 @@ class Quantity(enum.StrEnum):
     """Whether a limit is passed: 1 if so, else 0."""
     CONNECTION = "connection"
     """Whether a bench is connected as it should be: 0 if so, else 1."""
+    GROUND = "force of the ground"
 
 
 class Deviation(msgspec.Struct, frozen=True):
@@ -571,7 +573,9 @@ class Domain(Protocol):
         """
         return None
 
-    def experiment(self, content: bytes, file: str, target: Target, options: Any) -> Experiment | str:
+    def experiment(
+        self, content: bytes, file: str, target: Target, options: Any, imports: Mapping[str, Import]
+    ) -> Experiment | str:
         """Return a comparison of the generated package with an independent reference, or why there is none.
 
         `file` is the source's name in diagnostics. What the source lacks for a telling comparison (inertias, say) is

@@ -139,6 +139,15 @@ def test_one_robot_needs_no_tally(capsys: Capture) -> None:
     ]
 
 
+@pytest.mark.parametrize(("difference", "word"), [(0.5, "contacts plausible"), (2.0, "contacts differ (robot)")])
+def test_contacts_are_plausible_within_a_hundredth(capsys: Capture, difference: float, word: str) -> None:
+    ground = Deviation(Quantity.GROUND, "robot", difference, 100.0, 100.0, "N", Part.CONTACTS)
+    first, *others = shown(capsys, msgspec.structs.replace(RIGHT, tools=tools(deviations=(*AGREEING, ground))))
+    assert f"; {word};" in first
+    told = any("robot: force of the ground differs from its own numbers by 2 N" in line for line in others)
+    assert told is (difference > 1)
+
+
 def test_models_of_the_user_are_counted_apart(capsys: Capture) -> None:
     users = (CompiledModel("Cell", 9000, is_users=True), CompiledModel("Plant.Line", 7, is_users=True))
     result = msgspec.structs.replace(RIGHT, tools=tools(compiled=(*COMPILED, *users), failing=("Part",)))

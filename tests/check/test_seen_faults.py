@@ -43,7 +43,11 @@ class Fault(NamedTuple):
     new: str
 
 
-B, L, F, R, S, W = Part.BODIES, Part.LOSSES, Part.FREE_MOTION, Part.BENCHES, Part.SENSORS, Part.LIMITS
+B, L, F, R, S, W, G = (
+    *(Part.BODIES, Part.LOSSES, Part.FREE_MOTION, Part.BENCHES),
+    *(Part.SENSORS, Part.LIMITS, Part.CONTACTS),
+)
+POINT = "Contacts/Functions/point.mo"
 SHOULDER, ELBOW, GRIP, HAND = (
     f"{place}.mo" for place in ("Joints/Shoulder", "Joints/Elbow", "Joints/Grip", "Links/Hand")
 )
@@ -77,6 +81,8 @@ PACKAGE: Mapping[str, Fault] = {
         W, "Arm.mo", '".shoulder (joint " + shoulder.parameters', '".shoulder (joint " + elbow.parameters'
     ),
     "record with another joint's name": Fault(W, "Joints/ShoulderParameters.mo", 'name = "shoulder"', 'name = "elbow"'),
+    "height of the stance": Fault(G, "CartStance.mo", "height = 0.1", "height = 0.10001"),
+    "friction of a link": Fault(G, "Links/LeftParameters.mo", "mu = 0.5", "mu = 0.6"),
     "limit that is read wrongly": Fault(W, "Joints/ShoulderParameters.mo", "upper = 2", "upper = 2.1"),
     "input at another axis": Fault(
         R, "ArmRun.mo", "connect(elbow_phi, elbowDrive.phi_ref)", "connect(shoulder_phi, elbowDrive.phi_ref)"
@@ -107,18 +113,48 @@ LIBRARY: Mapping[str, Fault] = {
     "where a joint begins": Fault(F, "Functions/closestToZero.mo", "min(max(", "max(max("),
     "turned inertia": Fault(B, "Functions/inertiaInLinkAxes.mo", "I := R*[", "I := transpose(R)*["),
 }
+
+
+def standing(part: str, shape: str, xyz: str = "0 0 0") -> str:
+    """A link with a collision."""
+    collision = f'<collision><origin xyz="{xyz}"/><geometry><{shape}/></geometry></collision>'
+    return part.replace("</link>", f"{collision}</link>")
+
+
+CART = robot(
+    standing(link("base", 8.0), 'sphere radius="0.02"', "0.3 0 -0.081"),
+    *(standing(link(side, 1.0), 'cylinder radius="0.1" length="0.04"') for side in ("left", "right")),
+    *(
+        joint(side, "continuous", "base", f"{side}", xyz=f"-0.1 {y} 0", rpy="-1.5707963267948966 0 0", axis="0 0 1")
+        for side, y in (("left", 0.2), ("right", -0.2))
+    ),
+    '<gazebo reference="base"><minDepth>0.001</minDepth></gazebo>',
+    '<gazebo reference="left"><mu1>0.5</mu1><kp>2e5</kp></gazebo>',
+    '<gazebo reference="right"><mu1>0.5</mu1><kp>3e5</kp><kd>20</kd></gazebo>',
+)
 FLOATING: Mapping[str, Fault] = {
     "order of a free base's angles": Fault(F, "Robots/FreeBase.mo", "{3, 2, 1}", "{1, 2, 3}"),
     "frame of a free base's speed": Fault(
         F, "Robots/FreeBase.mo", "w_rel_a_start = w_start", "w_rel_a_start = -w_start"
     ),
+    "sign of the ground's friction": Fault(G, POINT, "f_n*(n - friction", "f_n*(n + friction"),
+    "ground that pulls": Fault(
+        G, POINT, "max(0, stiffness*p*max(0, 1 - damping*v_n) - viscosity*v_n)", "stiffness*p*(1 - damping*v_n)"
+    ),
+    "ground of ten times its stiffness": Fault(
+        G, "Contacts/Ground.mo", "stiffness = load/penetration", "stiffness = 10*load/penetration"
+    ),
+    "ground that feeds in energy": Fault(G, POINT, "1 - damping*v_n", "1 + damping*v_n"),
+    "height of a rim": Fault(G, "Contacts/Functions/cylinder.mo", "(c*R[:, 3] - n)", "(c*R[:, 3] + n)"),
+    "force of the ground on no link": Fault(G, "Contacts/PartialContact.mo", "frame_a.f = -f", "frame_a.f = zeros(3)"),
 }
 
 
 def prepared(fault: Fault, name: str, **options: str) -> physics.Case:
     """The robot, and the one simulation in which a fault shows."""
     trial = {Part.FREE_MOTION: "free motion", Part.BENCHES: ""}.get(fault.part, "motion")
-    return physics.prepare(SOURCE.encode(), name, **options).only(trial)
+    source = CART if fault.part is Part.CONTACTS else SOURCE
+    return physics.prepare(source.encode(), name, **options).only(trial)
 
 
 def is_seen(fault: Fault, deviations: Sequence[Deviation]) -> bool:
@@ -126,15 +162,17 @@ def is_seen(fault: Fault, deviations: Sequence[Deviation]) -> bool:
 
 
 def test_without_a_fault_all_is_right(modelica_library: Path, tmp_path: Path) -> None:
-    (found,) = physics.compare(modelica_library, tmp_path, [physics.prepare(SOURCE.encode())])
-    assert physics.fault(found) is None
-    assert {each.part for each in found} == {*Part}
+    cases = [physics.prepare(SOURCE.encode(), "Arm"), physics.prepare(CART.encode(), "Cart", base="floating")]
+    arm, cart = physics.compare(modelica_library, tmp_path, cases)
+    assert physics.fault(arm) is physics.fault(cart) is None
+    assert {each.part for each in (*arm, *cart)} == {*Part}
 
 
-@pytest.mark.parametrize("name", PACKAGE)
-def test_a_fault_in_a_package_is_seen(name: str, modelica_library: Path, tmp_path: Path) -> None:
-    fault = PACKAGE[name]
-    case = prepared(fault, "Arm").changed(fault.file, fault.old, fault.new)
+@pytest.mark.parametrize("fault_name", PACKAGE)
+def test_a_fault_in_a_package_is_seen(fault_name: str, modelica_library: Path, tmp_path: Path) -> None:
+    fault = PACKAGE[fault_name]
+    name, options = ("Cart", {"base": "floating"}) if fault.part is Part.CONTACTS else ("Arm", {})
+    case = prepared(fault, name, **options).changed(fault.file, fault.old, fault.new)
     (found,) = physics.compare(modelica_library, tmp_path, [case])
     assert is_seen(fault, found)
 

@@ -37,6 +37,8 @@ class Package:
     roles: Mapping[str, Role]
     imports: Mapping[str, bytes]
     """Imported meshes by path below the package's folder."""
+    facts: Mapping[str, Import]
+    """What is known of them, by their keys."""
 
     @property
     def models(self) -> Mapping[str, str]:
@@ -110,7 +112,7 @@ def _render(
             texts[artifact.path] = RENDERER.render(artifact.template, artifact.data)
             roles[artifact.path] = artifact.role
     robot = from_snapshot(snapshot)
-    return Package(target, options, robot, KinematicTree.of(robot, (target.name,)), texts, roles, contents)
+    return Package(target, options, robot, KinematicTree.of(robot, (target.name,)), texts, roles, contents, imports)
 
 
 def _imports(reading: Reading, path: Path, options: Options) -> tuple[dict[str, Import], dict[str, bytes]]:

@@ -44,11 +44,12 @@ def prepare(source: bytes | Path, name: str = "Bot", **options: Any) -> Case:
     """The experiment with a URDF, and the package that follows from it; meshes are imported beside a file only."""
     content = source if isinstance(source, bytes) else source.read_bytes()
     target = Target(name, name)
-    experiment = DOMAIN.experiment(content, "robot.urdf", target, Options(**options))
+    package = generate(source, target, **options)
+    experiment = DOMAIN.experiment(content, "robot.urdf", target, Options(**options), package.facts)
     assert isinstance(experiment, Experiment)
     if experiment.content != content:
-        source = experiment.content
-    return Case(experiment, generate(source, target, **options))
+        package = generate(experiment.content, target, **options)
+    return Case(experiment, package)
 
 
 def compare(library: Path, folder: Path, cases: Sequence[Case], own: Path = URDFSYNC) -> list[tuple[Deviation, ...]]:

@@ -79,12 +79,13 @@ def _differences(result: CheckResult) -> Iterator[tuple[str, str]]:
     deviations = next((tool.deviations for tool in result.tools if tool.deviations), ())
     for deviation, others in _by_kind([deviation for deviation in deviations if not agrees(deviation)]):
         what, amount = _amount(deviation)
-        fault = f"{what} differs from {reference} by {amount}"
+        by = "its own numbers" if deviation.part is Part.CONTACTS else reference
+        fault = f"{what} differs from {by} by {amount}"
         if stated := _STATED.get(deviation.quantity):
             fault = stated.format(detail=deviation.detail)
         yield f"{deviation.element}: {fault}{others}{advice}", "bold red"
         if deviation.unit in ("N·m", "N", "kg"):
-            yield f"  its largest {what} by {reference} is {_digits(deviation.value)} {deviation.unit}", "dim"
+            yield f"  its largest {what} by {by} is {_digits(deviation.value)} {deviation.unit}", "dim"
         advice = ""
 
 
@@ -139,7 +140,7 @@ def _two_tools(result: CheckResult) -> Iterator[tuple[str, str]]:
             )
             yield f"{sentence} by {amount}{others}", "bold red"
         largest_difference = max(map(relative, result.between), default=0.0)
-        if largest_difference <= TOLERANCE:
+        if all(map(agrees, result.between)):
             agreement = f"to {largest_difference:.1e}" if largest_difference else "exactly"
             yield f"{first.tool} and {second.tool} agree {agreement}", ""
     yield "; ".join(f"{tool.tool}: {tool.seconds:.1f} s, {tool.megabytes:.0f} MB" for tool in result.tools), "dim"
@@ -269,7 +270,9 @@ def summary(result: CheckResult, strict: bool) -> str:
 
 def _word(deviation: Deviation) -> str:
     """Return the verdict on a part of the model by its greatest deviation."""
-    return "right" if agrees(deviation) else f"differ ({deviation.element})"
+    if agrees(deviation):
+        return "plausible" if deviation.part is Part.CONTACTS else "right"
+    return f"differ ({deviation.element})"
 
 
 def verdict(result: CheckResult, strict: bool) -> str:

@@ -16,8 +16,10 @@ from urdfsync.engine.result import Exit
 
 TOLERANCE = 1e-10
 """The greatest difference that counts as agreement, relative to the greatest value of its kind or 1."""
-ACCELERATION_TOLERANCE = 1e-7
-"""The same for accelerations that follow from efforts: equations are solved for them, where digits are lost."""
+_TOLERANCES = {
+    Quantity.ACCELERATION: 1e-7,  # equations are solved for them, where digits are lost
+    Quantity.GROUND: 1e-2,  # without a reference, and stiff: 1 % of the depth makes 1 % of the force
+}
 
 MOST_SINGLE_EDITS = 6
 """The most edited files that are tried one by one; the effects of more are measured together."""
@@ -201,7 +203,7 @@ def agrees(deviation: Deviation) -> bool:
 
 def tolerance(deviation: Deviation) -> float:
     """Return the greatest relative difference that counts as agreement."""
-    return ACCELERATION_TOLERANCE if deviation.quantity is Quantity.ACCELERATION else TOLERANCE
+    return _TOLERANCES.get(deviation.quantity, TOLERANCE)
 
 
 def relative(deviation: Deviation) -> float:

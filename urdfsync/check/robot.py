@@ -123,8 +123,9 @@ def _experiment(package: RobotPackage, options: CheckOptions, result: CheckResul
         return None
     tell(f"{robot.name}: asking the reference")
     try:
-        content = package.generation.inputs.source.content
-        arguments = robot.domain, content, shown(robot.source), robot.target, robot.options
+        generation, file = package.generation, shown(robot.source)
+        content, imports = generation.inputs.source.content, generation.now.imports
+        arguments = robot.domain, content, file, robot.target, robot.options, imports
         (experiment,) = process.run(_experiments, *arguments, limits=limits)
     except UrdfsyncError as error:
         result.add(error.diagnostics)

@@ -185,11 +185,13 @@ class UrdfDomain(Domain):
         findings = out_of_scope(KinematicTree.of(robot), file, reading.lines)
         return package.record(robot, target, options), tuple(findings)
 
-    def experiment(self, content: bytes, file: str, target: Target, options: Options) -> Experiment | str:
+    def experiment(
+        self, content: bytes, file: str, target: Target, options: Options, imports: Mapping[str, Import]
+    ) -> Experiment | str:
         """Return the comparison with Pinocchio, or why a robot has none, such as one with planar or floating joints."""
         from urdfsync.urdf.physics.experiment import experiment  # with numpy, which no build needs
 
-        return experiment(content, file, target, options)
+        return experiment(content, file, target, options, imports)
 
     def wiring(
         self, texts: Mapping[str, bytes], snapshot: Snapshot, target: Target, options: Options

@@ -29,7 +29,7 @@ BARE = robot(link("base"), link("arm"), joint("elbow", "continuous", "base", "ar
 
 
 def experiment(urdf: str, **options: Any) -> Experiment:
-    found = DOMAIN.experiment(urdf.encode(), "robot.urdf", BOT, Options(**options))
+    found = DOMAIN.experiment(urdf.encode(), "robot.urdf", BOT, Options(**options), {})
     assert isinstance(found, Experiment)
     return found
 
@@ -92,7 +92,7 @@ def test_without_pinocchio_there_is_no_experiment(monkeypatch: pytest.MonkeyPatc
 def test_a_robot_with_a_joint_that_nothing_drives_is_not_compared(kind: str, approach: tuple[str, ...]) -> None:
     loose = ELBOW.replace('type="revolute"', f'type="{kind}"').encode()
     options = Options(approach=approach)  # type: ignore[arg-type]
-    assert DOMAIN.experiment(loose, "robot.urdf", BOT, options) == (
+    assert DOMAIN.experiment(loose, "robot.urdf", BOT, options, {}) == (
         f"joint elbow is {kind}, and nothing prescribes how it moves"
     )
 

@@ -11,7 +11,7 @@ import msgspec
 import numpy as np
 
 from urdfsync.diagnostics import SourceError
-from urdfsync.domain import Compared, Experiment, Part, Quantity, Target, Trial
+from urdfsync.domain import Compared, Experiment, Import, Part, Quantity, Target, Trial
 from urdfsync.urdf.drives import can_be_driven
 from urdfsync.urdf.kinematics.poses import own_range, start_positions
 from urdfsync.urdf.kinematics.tree import KinematicTree
@@ -19,7 +19,7 @@ from urdfsync.urdf.model.tables import obstacles
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.parse import xml
 from urdfsync.urdf.parse.source import RobotReading, read_robot
-from urdfsync.urdf.physics import completion, motion, probe
+from urdfsync.urdf.physics import completion, contacts, motion, probe
 from urdfsync.urdf.physics.motion import COMPARED, LOADS, Course, Instant
 from urdfsync.urdf.physics.probe import CENTRE, FORCE, MASS, TORQUE, RobotVariables
 from urdfsync.urdf.physics.reference import Array, Configuration, Gear, Reference, Solution, pinocchio, read, read_gears
@@ -35,7 +35,9 @@ _MOST_AXES = 20
 """The most axes that a robot of a package moves freely with: rumoca takes 6 GB for 30."""
 
 
-def experiment(content: bytes, file: str, target: Target, options: Options) -> Experiment | str:
+def experiment(
+    content: bytes, file: str, target: Target, options: Options, imports: Mapping[str, Import]
+) -> Experiment | str:
     """Return the comparison, see `urdfsync.domain.Domain.experiment`. Links that move without any mass get inertias.
 
     Raises SourceError if the source has errors, or if Pinocchio is not installed or can't read it.
@@ -55,7 +57,7 @@ def experiment(content: bytes, file: str, target: Target, options: Options) -> E
     tree = KinematicTree.of(_robot(read_robot(completed, file, options)), (target.name,))
     trials = list[Trial]()
     with np.errstate(all="ignore"):  # numbers without end in the source
-        subject = _Subject(completed, file, tree, target, options)
+        subject = _Subject(completed, file, tree, target, options, imports)
         for approach in options.approach:
             trials += subject.trials(approach)
     return Experiment(
@@ -63,20 +65,31 @@ def experiment(content: bytes, file: str, target: Target, options: Options) -> E
         content=completed,
         trials=tuple(trials),
         notes=(*notes, *made_up),
-        unchecked=tuple(_not_compared(options, len(subject.axes))),
+        unchecked=tuple(_not_compared(options, len(subject.axes), subject.loose)),
     )
 
 
 class _Subject:
     """A robot in Pinocchio, and the motion that it is put through."""
 
-    def __init__(self, content: bytes, file: str, tree: KinematicTree, target: Target, options: Options) -> None:
+    def __init__(
+        self,
+        content: bytes,
+        file: str,
+        tree: KinematicTree,
+        target: Target,
+        options: Options,
+        imports: Mapping[str, Import],
+    ) -> None:
         self.tree, self.target, self.options = tree, target, options
         self.root: Element = xml.parse(content).root
         self.axes = motion.driven_axes(tree)
         sensed = {sensor.at for sensor in tree.sensors if sensor.kind == "force_torque"}
         self.reference = Reference(read(content, file, sensed), [joint.name for joint in self.axes])
         self._base = motion.base_courses()
+        self.stand: contacts.Stand | None = None
+        self.loose = ""
+        """Why the robot is not put on the ground."""
         self.starts = start_positions(tree)
         limits = [joint.limit.effort if joint.limit and joint.limit.effort else math.inf for joint in self.axes]
         courses = [motion.axis_courses(joint, self.starts[joint.name]) for joint in self.axes]
@@ -91,11 +104,24 @@ class _Subject:
             motion.axis_courses(joint, self.starts[joint.name], {k: float(gains[n]) for k, gains in strains.items()})
             for n, joint in enumerate(self.axes)
         ]
+        if options.base == "floating" and "package" in options.approach:
+            self.loose = self._put_down(imports)
         self.states = {float(instant): self._state(instant, self.courses) for instant in Instant}
         self.solved = {time: self.reference.solve(state) for time, state in self.states.items()}
 
     def _state(self, instant: Instant, courses: Sequence[Sequence[Course]]) -> Configuration:
         return self.reference.state([course[instant] for course in courses], [c[instant] for c in self._base])
+
+    def _put_down(self, imports: Mapping[str, Import]) -> str:
+        """Put the robot on the ground; returns why it can't be."""
+        mass, centre = self.reference.solve(self._state(Instant.STANDING, self.courses)).mass_and_centre()
+        stand = contacts.stand(self.tree, imports, mass * motion.GRAVITY)
+        if stand is None:
+            return "no shape of it touches the ground"
+        if stand.tips(centre):
+            return "it would tip: its centre of mass is not above its feet"
+        self.stand, self._base = stand, motion.base_courses(stand.depth)
+        return ""
 
     def trials(self, approach: str) -> Iterator[Trial]:
         """Yield the simulations for one approach, that of all instants first."""
@@ -110,10 +136,11 @@ class _Subject:
             limits = list(self._limits())
             optional = "|".join(compared.values[0] for compared, _ in limits)
             pairs += limits
+            pairs += self._ground()
         needed = [v for compared, _ in pairs for v in compared.values if compared.quantity is not Quantity.WARNING]
         moving = probe.moving_probe(
             self.tree, self.target, self.options, names, dict(zip(self.reference.axes, self.courses, strict=True)),
-            geared, needed, optional,
+            self._base, self.stand is not None and approach == "package", geared, needed, optional,
         )  # fmt: skip
         trial = Trial(f"motion{label}", moving, *_table(pairs, [float(instant) for instant in Instant]))
         every = [trial]
@@ -213,6 +240,15 @@ class _Subject:
                 )
                 yield compared, [[float(flag)] for flag in flags.values()]
 
+    def _ground(self) -> Iterator[_Pair]:
+        """Yield the force on a base that holds a standing robot level: what the ground does not carry."""
+        if self.stand is not None:
+            forces = [self.stand.force(rise, slide) for *slide, rise in motion.ON_GROUND.values()]
+            weight = np.array([0, 0, self.solved[float(Instant.STANDING)].force[2]])
+            times = tuple(map(float, motion.ON_GROUND))
+            compared = Compared(Quantity.GROUND, "robot", "N", FORCE, times, Part.CONTACTS)
+            yield compared, [force - weight for force in forces]
+
     def _free(self, names: RobotVariables, name: str) -> Trial:
         """Return the trial in which efforts are given, and accelerations follow."""
         is_free, reference, time = self.options.base == "floating", self.reference, (0.0,)
@@ -254,15 +290,15 @@ def _table(pairs: Iterable[_Pair], times: Sequence[float]) -> tuple[tuple[Compar
     return tuple(every), {"time": tuple(times), **series}
 
 
-def _not_compared(options: Options, axes: int) -> Iterator[str]:
+def _not_compared(options: Options, axes: int, loose: str) -> Iterator[str]:
     """Yield what is not compared."""
     yield "shapes (they change no motion), the motion of benches, and models around the robot (they are only compiled)"
     if axes > _MOST_AXES:
         yield f"free motion of more than {_MOST_AXES} axes, which takes a compiler too much memory"
-    if options.base == "floating":
-        yield "contacts with the ground, and the height at which the robot begins"
+    if loose:
+        yield f"contacts with the ground, and the height at which the robot begins: {loose}"
     if "record" in options.approach:
-        yield "limits and sensors of the generic robot"
+        yield "limits, sensors and contacts of the generic robot"
 
 
 def _robot(reading: RobotReading) -> Robot:

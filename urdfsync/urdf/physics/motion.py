@@ -32,7 +32,10 @@ class Course(NamedTuple):
 
 
 class Instant(enum.IntEnum):
-    """What is looked at when, in s. All up to `TURNED` are compared with the reference, at the others limits alone."""
+    """What is looked at when, in s.
+
+    All up to `TURNED` are compared with the reference, limits alone at the others, the ground's force at the last four.
+    """
 
     START = 0
     """At rest under gravity, where Run and Test begin; only accelerations differ."""
@@ -53,6 +56,11 @@ class Instant(enum.IntEnum):
     """The effort is just above its limit, backward, so that a lost sign shows."""
     LOADED = 10
     """The effort is just below, in the other direction."""
+    STANDING = 11
+    """The robot stands where the ground carries it, if it can."""
+    SLIDING = 12
+    SINKING = 13
+    RISING = 14
 
 
 COMPARED = tuple(map(float, list(Instant)[: Instant.TURNED + 1]))
@@ -61,6 +69,15 @@ JUST = 1e-3
 """Part of a limit by which it is passed, or kept."""
 LOADS = {Instant.STRAINED: -1 - JUST, Instant.LOADED: 1 - JUST}
 """The part of the limit of its effort that each axis is driven by."""
+GROUND_DEPTH = 1e3
+"""Depth of the ground in m: farther than any robot reaches, and near enough for digits."""
+ON_GROUND: Mapping[Instant, Vector] = {
+    Instant.STANDING: (0.0, 0.0, 0.0),
+    Instant.SLIDING: (0.3, -0.2, 0.0),
+    Instant.SINKING: (0.0, 0.0, -0.005),
+    Instant.RISING: (0.0, 0.0, 1.0),
+}
+"""Speeds of a robot that stands."""
 _SWINGS = {
     Instant.START: (0.0, 0.0, 0.0),
     Instant.SLOW: (0.5, 2e-3, 0.7),
@@ -140,13 +157,22 @@ def axis_courses(joint: Joint, start: float, strains: Mapping[Instant, float] = 
     courses = _swinging(start, course.speed, course.acceleration / 2)
     for side, just in ((-1, JUST), (-1, -JUST), (1, -JUST), (1, JUST)):
         courses.append(Course(middle + side * reach * (1 + just), side * speed * (1 + just), 0.0))
-    return (*courses, *(Course(middle, 0.0, strains.get(instant, 0.0)) for instant in LOADS))
+    courses += [Course(middle, 0.0, strains.get(instant, 0.0)) for instant in LOADS]
+    return (*courses, *(Course(start, 0.0, 0.0) for _ in ON_GROUND))
 
 
-def base_courses() -> tuple[tuple[Course, ...], ...]:
-    """Return x, y, z and the angle of the base at all instants; it rests where limits are passed."""
-    every = [(course.position, _swinging(*course)) for course in (*PATH, TURN)]
-    return tuple((*courses, *(Course(start, 0.0, 0.0) for _ in range(6))) for start, courses in every)
+def base_courses(depth: float = -GROUND_DEPTH) -> tuple[tuple[Course, ...], ...]:
+    """Return x, y, z and the angle of the base at all instants; it rests where limits are passed.
+
+    `depth` is that of a robot in the ground.
+    """
+    every = list[tuple[Course, ...]]()
+    for k, course in enumerate((*PATH, TURN)):
+        moving, place = _swinging(*course), -GROUND_DEPTH - depth if k == 2 else 0.0
+        resting = [Course(course.position, 0.0, 0.0) for _ in range(len(Instant) - len(moving) - len(ON_GROUND))]
+        standing = [Course(place, (*speeds, 0.0)[k], 0.0) for speeds in ON_GROUND.values()]
+        every.append((*moving, *resting, *standing))
+    return tuple(every)
 
 
 def driven_axes(tree: KinematicTree) -> tuple[Joint, ...]:

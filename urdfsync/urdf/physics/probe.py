@@ -20,7 +20,7 @@ from urdfsync.urdf.physics import motion
 from urdfsync.urdf.physics.motion import Course, table
 from urdfsync.urdf.robot import MOTION_KINDS, MOTIONS, Joint
 
-_GROUND_DEPTH = 1e9  # m: the contacts of a mobile robot are that far down, and nothing touches
+_FAR_GROUND = -1e9  # m: the ground is that far down, and nothing touches
 _PARTS = (Path(__file__).parent / "parts.mo").read_text("utf-8")
 
 FORCE = tuple(f"base.frame_b.f[{i}]" for i in (1, 2, 3))
@@ -94,13 +94,19 @@ def robot_variables(tree: KinematicTree, target: Target, options: Options, appro
 
 def moving_probe(
     tree: KinematicTree, target: Target, options: Options, names: RobotVariables,
-    courses: Mapping[str, Sequence[Course]], gears: Iterable[str], values: Iterable[str], optional: str,
+    courses: Mapping[str, Sequence[Course]], base: Sequence[Sequence[Course]], stands: bool, gears: Iterable[str],
+    values: Iterable[str], optional: str,
 ) -> Probe:  # fmt: skip
-    """Return a model in which every axis of the robot moves along `courses`, through all instants."""
+    """Return a model in which every axis of the robot moves along `courses`, through all instants, and so does `base`.
+
+    If it `stands`, the ground is where the robot touches it at last.
+    """
     world = f"n = {{0, 0, -1}}, g = {motion.GRAVITY!r}, enableAnimation = false"
     declarations = [f"inner Modelica.Mechanics.MultiBody.World world({world})"]
     if options.base == "floating":
-        declarations.append(f"inner UrdfSync.Contacts.Ground ground(height = {-_GROUND_DEPTH!r})")
+        height = f"{-motion.GROUND_DEPTH!r} - stance.height, load = robot.m*world.g" if stands else repr(_FAR_GROUND)
+        declarations.append(f"inner UrdfSync.Contacts.Ground ground(height = {height})")
+        declarations += [f"parameter {target.package}.{target.name}Stance stance"] * stands
     declarations.append(f"{names.declaration}fixedStart = false)")
     declarations += filter(None, [names.numbers])
     connections = ["base.frame_b, robot.frame_a"]
@@ -113,9 +119,9 @@ def moving_probe(
         declarations.append(f"Real gear{k}[3] = {{{gear}.reduction, {gear}.offset, {gear}.rotorInertia}}")
     centre = f"({names.moment})/(if mass > 0 then mass else 1)"
     declarations += ["Real mass = robot.m", f"Real centre[3] = {centre}"]
-    ways = zip(("x", "y", "z", "turn"), motion.base_courses(), strict=True)
-    base = ", ".join(f"{name} = {table(courses_)}" for name, courses_ in ways)
-    declarations.append(f"MovingBase base({base}, axis = {vector(motion.TURN_AXIS)})")
+    ways = zip(("x", "y", "z", "turn"), base, strict=True)
+    tables = ", ".join(f"{name} = {table(courses_)}" for name, courses_ in ways)
+    declarations.append(f"MovingBase base({tables}, axis = {vector(motion.TURN_AXIS)})")
     source = _text(target, options, "", declarations, connections)
     last = float(max(motion.Instant))
     return Probe(source, "Probe_.Probe", last, 1.0, tuple(values), optional)
@@ -151,7 +157,7 @@ def free_probe(
     if options.base == "floating":
         connections = ["base.frame_b, robot.frame_a"]
         start = ", ".join(f"{name} = {vector(value)}" for name, value in motion.FREE_START.items())
-        ground = f"ground(height = {-_GROUND_DEPTH!r}, animation = false)"
+        ground = f"ground(height = {_FAR_GROUND!r}, animation = false)"
         bench = f"UrdfSync.Robots.PartialMobileBench({start}, world(enableAnimation = false), {ground})"
     for k, (joint, effort) in enumerate(zip(axes, efforts, strict=True), 1):
         declarations.append(f"{MOTION_KINDS[joint.type].capitalize()}Push push{k}(effort = {effort!r})")

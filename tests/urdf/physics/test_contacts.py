@@ -1,0 +1,69 @@
+"""How a robot stands, against figures that follow by hand."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from support.urdfs import parsed, robot
+
+from urdfsync.urdf.kinematics.tree import KinematicTree
+from urdfsync.urdf.physics.contacts import Stand, stand
+
+WEIGHT = 300.0
+DEPTH = 3e-4
+"""Of one point that carries the weight alone, on the library's ground."""
+
+
+def standing(*shapes: str, contact: str = "") -> Stand | None:
+    """A link with these collisions, each a shape and its place."""
+    collisions = "".join(
+        f'<collision><origin xyz="{xyz}"/><geometry><{shape}/></geometry></collision>'
+        for shape, _, xyz in (each.partition(" at ") for each in shapes)
+    )
+    words = f'<gazebo reference="base">{contact}</gazebo>' if contact else ""
+    tree = KinematicTree.of(parsed(robot(f'<link name="base">{collisions}</link>', words)))
+    return stand(tree, {}, WEIGHT)
+
+
+@pytest.mark.parametrize(
+    ("shape", "lowest", "points"),
+    [
+        ('box size="0.6 0.4 0.2"', -0.1, 4),
+        ('sphere radius="0.1"', -0.1, 1),
+        ('cylinder radius="0.1" length="0.4"', -0.2, 5),
+        ('capsule radius="0.1" length="0.4"', -0.3, 1),
+    ],
+)
+def test_points_share_the_weight(shape: str, lowest: float, points: int) -> None:
+    feet = standing(f"{shape} at 0 0 0")
+    assert feet is not None
+    assert (feet.lowest, feet.depth) == pytest.approx((lowest, DEPTH / points))
+    assert feet.force() == pytest.approx([0, 0, WEIGHT])
+
+
+def test_a_higher_point_carries_less() -> None:
+    """Depths p and p - 0.1 mm on springs of 1 N/µm: p is 0.2 mm."""
+    feet = standing('sphere radius="0.1" at 0 0 0', 'sphere radius="0.1" at 1 0 0.0001', contact="<kp>1e6</kp>")
+    assert feet is not None
+    assert feet.depth == pytest.approx(2e-4)
+
+
+def test_the_ground_brakes_resists_and_never_pulls() -> None:
+    feet = standing('sphere radius="0.1" at 0 0 0', contact="<mu1>0.5</mu1>")
+    assert feet is not None
+    assert feet.force(slide=(30, 40)) == pytest.approx([-90, -120, WEIGHT])
+    assert feet.force(rise=-0.01)[2] > 1.3 * WEIGHT
+    assert feet.force(rise=1) == pytest.approx([0, 0, 0])
+
+
+def test_a_robot_tips_unless_its_centre_is_above_its_feet() -> None:
+    table, wheel = (standing(f"{shape} at 0 0 0") for shape in ('box size="2 2 1"', 'sphere radius="0.5"'))
+    assert table is not None
+    assert wheel is not None
+    assert not table.tips(np.array([0.9, 0.9, 3]))
+    assert table.tips(np.array([1.1, 0, 0]))
+    assert wheel.tips(np.zeros(3))
+
+
+def test_a_robot_that_touches_nothing_does_not_stand() -> None:
+    assert standing() is None

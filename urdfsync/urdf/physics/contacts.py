@@ -1,0 +1,122 @@
+"""The force of the ground on a robot that stands, from the robot's own numbers: no reference has contacts.
+
+The base is held level, and the joints where the robot begins. The force on each point follows the law of the library's
+`Contacts.Functions.point`, written once more.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from urdfsync.domain import Import
+from urdfsync.urdf.kinematics.poses import compose, link_poses, pose, start_positions
+from urdfsync.urdf.kinematics.tree import KinematicTree
+from urdfsync.urdf.model.shapes import touching
+from urdfsync.urdf.physics.reference import Array
+from urdfsync.urdf.robot import Box, Capsule, Contact, Cylinder, Sphere
+
+GRAVITY = 9.80665
+PENETRATION, DAMPING_RATIO, FRICTION, SLIP_SPEED = 3e-4, 2.0, 0.8, 1e-3
+"""Numbers of the ground for links without numbers of their own."""
+_UPRIGHT, _TILTED = 1e-3, 0.15
+"""Sines of the tilt between which a cylinder goes over from its end to its rim."""
+
+
+class Point(NamedTuple):
+    """A point of a link that may touch the ground."""
+
+    place: Array
+    """In the root link's frame, raised by the depth that the link has without a force."""
+    share: float
+    """Weight among the points of its shape."""
+    stiffness: float
+    damping: float
+    """As part of the spring force, in s/m."""
+    contact: Contact
+
+    def force(self, depth: float, rise: float = 0.0) -> float:
+        """Return the normal force at a depth and a speed upward."""
+        spring = self.stiffness * depth * max(0.0, 1 - self.damping * rise)
+        return self.share * max(0.0, spring - (self.contact.kd or 0.0) * rise) if depth > 0 else 0.0
+
+
+class Stand(NamedTuple):
+    """A robot of a given weight on the points that carry it."""
+
+    points: Sequence[Point]
+    lowest: float
+    depth: float
+    """Depth of the lowest point at which the ground carries the weight."""
+
+    def force(self, rise: float = 0.0, slide: Sequence[float] = (0.0, 0.0)) -> Array:
+        """Return the force on the robot while it moves upward and sideways."""
+        total, speed = np.zeros(3), math.hypot(*slide)
+        for point in self.points:
+            normal = point.force(self.depth + self.lowest - point.place[2], rise)
+            mu = FRICTION if point.contact.mu is None else point.contact.mu
+            slip = SLIP_SPEED * max(1.0, mu / FRICTION)
+            total[:2] -= mu * normal / math.hypot(speed, slip) * np.array(slide)
+            total[2] += normal
+        return total
+
+    def tips(self, centre: Array) -> bool:
+        """Return whether a robot with its centre of mass there would tip: there is a side without a support."""
+        feet = [p.place - centre for p in self.points if p.place[2] < self.lowest + self.depth]
+        angles = np.sort([math.atan2(y, x) for x, y, _ in feet])
+        return bool(np.diff(angles, append=angles[0] + 2 * math.pi).max() > math.pi - 1e-6)
+
+
+def stand(tree: KinematicTree, imports: Mapping[str, Import], weight: float) -> Stand | None:
+    """Return how a robot stands; None if nothing of it touches the ground, or it weighs nothing."""
+    points = list(_points(tree, imports, weight)) if 0 < weight < math.inf else []
+    if not points:
+        return None
+    lowest = min(float(point.place[2]) for point in points)
+    stiffness = moment = 0.0
+    for point in sorted(points, key=lambda point: float(point.place[2])):
+        height = float(point.place[2]) - lowest
+        if stiffness and weight + moment <= stiffness * height:
+            break
+        stiffness += point.share * point.stiffness
+        moment += point.share * point.stiffness * height
+    depth = (weight + moment) / stiffness if stiffness else math.inf
+    return Stand(points, lowest, depth) if math.isfinite(lowest) and math.isfinite(depth) else None
+
+
+def _points(tree: KinematicTree, imports: Mapping[str, Import], weight: float) -> Iterator[Point]:
+    poses = link_poses(tree, start_positions(tree))
+    for link in tree.links:
+        contact = link.contact or Contact()
+        stiffness = weight / PENETRATION if contact.kp is None else contact.kp
+        damping = 2 * DAMPING_RATIO / math.sqrt(GRAVITY * weight / stiffness) if stiffness > 0 else 0.0
+        for origin, shape in touching(link, imports):
+            axes, place = map(np.array, compose(poses[link.name], pose(origin)))
+            for offset, share in _lowest(axes, shape):
+                raised = place + offset + [0, 0, contact.min_depth or 0.0]
+                yield Point(raised, share, stiffness, damping, contact)
+
+
+def _lowest(axes: Array, shape: Any) -> Iterable[tuple[Array, float]]:
+    """Yield the points of a shape that may touch, from its origin, in the axes of the root link; and their weights."""
+    match shape:
+        case Box(size=size):
+            corners = np.array(np.meshgrid(*[(-edge / 2, edge / 2) for edge in size])).reshape(3, -1).T
+            yield from ((axes @ corner, 1.0) for corner in corners)
+        case Sphere(radius=radius):
+            yield np.array([0, 0, -radius]), 1.0
+        case Capsule(radius=radius, length=length):
+            yield from ((side * length / 2 * axes[:, 2] - [0, 0, radius], 1.0) for side in (-1, 1))
+        case Cylinder(radius=radius, length=length):
+            cosine = axes[2, 2]
+            sine = 1 - cosine**2
+            down = radius / math.sqrt(sine + _UPRIGHT**2) * (cosine * axes[:, 2] - [0, 0, 1])
+            end = -math.copysign(length / 2, cosine) * axes[:, 2]
+            yield from ((side * end + down, 1.0) for side in (-1, 1))
+            for side in (-radius, radius):
+                yield from ((end + side * axes[:, k], max(0.0, 1 - sine / _TILTED**2)) for k in (0, 1))
+        case points:
+            yield from ((axes @ point, 1.0) for point in points)
