@@ -18,7 +18,7 @@ from support.cases import CASES
 from support.commands import Execute, Printed
 from support.networks import RC_FOLDER
 
-from urdfsync.check.libraries import LibraryError, find_standard_library
+from urdfsync.checks.libraries import LibraryError, find_standard_library
 
 if TYPE_CHECKING:
     from support.daemon import Start, Watch

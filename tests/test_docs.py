@@ -13,15 +13,15 @@ import pytest
 from support.commands import Execute
 
 from urdfsync import cli
-from urdfsync.check.cache import LIMIT
-from urdfsync.check.contents import MOST_BYTES
-from urdfsync.check.libraries import NEXT, OLDEST
-from urdfsync.check.results import MOST_SINGLE_EDITS, TOLERANCE, CheckOptions
+from urdfsync.checks.cache import LIMIT
+from urdfsync.checks.contents import MOST_BYTES
+from urdfsync.checks.libraries import NEXT, OLDEST
+from urdfsync.checks.results import MOST_SINGLE_EDITS, TOLERANCE, CheckOptions
 from urdfsync.domain import Target
 from urdfsync.engine.result import Exit
-from urdfsync.simulate.motion import MOST_ROWS
-from urdfsync.simulate.results import STEPS, STOP, SimulateOptions
-from urdfsync.simulate.results import TOLERANCE as SIMULATED_TO
+from urdfsync.simulation.motion import MOST_ROWS
+from urdfsync.simulation.results import STEPS, STOP, SimulateOptions
+from urdfsync.simulation.results import TOLERANCE as SIMULATED_TO
 from urdfsync.urdf.domain import DOMAIN
 from urdfsync.urdf.options import Options
 

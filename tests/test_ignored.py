@@ -51,7 +51,7 @@ def test_no_command_tells_what_is_ignored(noted: Path, execute: Execute, command
 
 
 def test_check_does_not_either(project: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("urdfsync.check.run.workers", checks.thread_workers)
+    monkeypatch.setattr("urdfsync.checks.run.workers", checks.thread_workers)
     execute("build", "-q")
     edit("modelica/Ladder/package.order", "Ladder\n", "")
     edit("modelica/Ladder/Elements/R1.mo", "end R1;", "")  # an error, so that nothing is compiled

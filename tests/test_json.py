@@ -18,17 +18,17 @@ import pytest
 from support.commands import Execute
 
 from urdfsync import cli, config
-from urdfsync.check.results import CheckResult, CheckStatus, CompiledModel, EditEffect, ToolResult, TrialTime
+from urdfsync.checks.results import CheckResult, CheckStatus, CompiledModel, EditEffect, ToolResult, TrialTime
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Deviation, Quantity, Role
 from urdfsync.engine.actions import FileStatus, Kind, Reason
 from urdfsync.engine.result import Checked, Result
 from urdfsync.output.console import JSON_VERSION
-from urdfsync.simulate import results as simulation
-from urdfsync.simulate.export import Exported
-from urdfsync.simulate.fmu import Trial
-from urdfsync.simulate.models import Input
-from urdfsync.simulate.results import SimulateResult
+from urdfsync.simulation import results as simulation
+from urdfsync.simulation.export import Exported
+from urdfsync.simulation.fmu import Trial
+from urdfsync.simulation.models import Input
+from urdfsync.simulation.results import SimulateResult
 from urdfsync.watch import events
 from urdfsync.watch.report import event_values, show_json
 
@@ -277,7 +277,7 @@ def checked() -> CheckResult:
 
 def test_check(folder: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
     cli.main(["init", "arm.urdf"])
-    monkeypatch.setattr("urdfsync.check.run.check_robots", lambda *_: iter([checked()]))
+    monkeypatch.setattr("urdfsync.checks.run.check_robots", lambda *_: iter([checked()]))
     document = printed(execute, folder, "check", "--physics")
     assert json.loads(json.dumps(document, allow_nan=False)) == document
     assert tell_all(document, "check", absent=())

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from urdfsync.check.package import read_package
+from urdfsync.checks.package import read_package
 from urdfsync.config import load
 from urdfsync.domain import ChangeClass
 from urdfsync.engine.build import build

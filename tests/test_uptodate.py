@@ -21,7 +21,7 @@ from support.meshes import stl
 from support.screen import print_on_terminal
 
 from urdfsync import cli, dependencies, streams, uptodate
-from urdfsync.check import afterbuild
+from urdfsync.checks import afterbuild
 from urdfsync.engine import plan
 from urdfsync.output import console
 

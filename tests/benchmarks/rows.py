@@ -20,8 +20,8 @@ from support.daemon import LIMIT, Watch
 from benchmarks.measuring import Cost, Measurement, Pair, Reading, UnexpectedError, measure, run
 from benchmarks.published import Published
 from benchmarks.robots import Source, mesh, write_meshes, write_workspace, write_xacro_workspace
-from urdfsync.check.cache import UserCache
-from urdfsync.check.libraries import find_standard_library, standard_library_copy
+from urdfsync.checks.cache import UserCache
+from urdfsync.checks.libraries import find_standard_library, standard_library_copy
 from urdfsync.merge import merge
 
 ARM = REPOSITORY / "modelica/UrdfSync/Resources/robots/six_axis_arm/six_axis_arm.urdf"

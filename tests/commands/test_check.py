@@ -10,8 +10,8 @@ import msgspec
 import pytest
 
 from urdfsync import cli
-from urdfsync.check.compilers.compiler import Tool
-from urdfsync.check.results import CheckOptions, CheckResult, EditEffect, ToolResult
+from urdfsync.checks.compilers.compiler import Tool
+from urdfsync.checks.results import CheckOptions, CheckResult, EditEffect, ToolResult
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Deviation, Quantity
@@ -50,7 +50,7 @@ class Checker:
 @pytest.fixture
 def checker(project: Path, monkeypatch: pytest.MonkeyPatch) -> Checker:
     found = Checker()
-    monkeypatch.setattr("urdfsync.check.run.check_robots", found.check)
+    monkeypatch.setattr("urdfsync.checks.run.check_robots", found.check)
     return found
 
 
@@ -103,7 +103,7 @@ def test_an_interruption_leaves_what_was_found(
         yield RIGHT
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("urdfsync.check.run.check_robots", interrupted)
+    monkeypatch.setattr("urdfsync.checks.run.check_robots", interrupted)
     assert cli.main(["check"]) == 130
     streams = capsys.readouterr()
     assert streams.out.startswith("ladder: right")

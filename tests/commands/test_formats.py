@@ -15,7 +15,7 @@ from support.files import unchanged
 from support.networks import edit
 from support.schemas import validate
 
-from urdfsync.check.results import CheckResult, ToolResult
+from urdfsync.checks.results import CheckResult, ToolResult
 from urdfsync.domain import Deviation, Quantity
 from urdfsync.engine.result import Exit
 
@@ -118,7 +118,7 @@ def test_a_check_says_how_far_the_package_agrees(arm: Path, execute: Execute, mo
     def check(*_: object) -> Iterator[CheckResult]:
         yield wrong
 
-    monkeypatch.setattr("urdfsync.check.run.check_robots", check)
+    monkeypatch.setattr("urdfsync.checks.run.check_robots", check)
     text = markdown(execute, "check")
     assert "- joint elbow: torque differs from Pinocchio 3.4 by 1 N·m" in text
     assert "differ (joint elbow), to 1.0e-01 | joint elbow, effort |" in text

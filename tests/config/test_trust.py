@@ -133,7 +133,7 @@ def asked(project: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Pat
     configure('on_build = "check"\n\n[check]\ntool = "omc"\n')
     balanced = '"Check of it completed successfully.\nClass it has 4 equation(s) and 4 variable(s)."\n""\n'
     fake_omc.install(tmp_path / "bin", {"checkModel": balanced})
-    monkeypatch.setattr("urdfsync.check.run.workers", checks.thread_workers)
+    monkeypatch.setattr("urdfsync.checks.run.workers", checks.thread_workers)
     monkeypatch.setenv("OPENMODELICAHOME", str(tmp_path))
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
     return tmp_path / "bin/asked.txt"

@@ -20,9 +20,9 @@ from support.commands import Execute
 from support.modelica import CACHE, URDFSYNC
 from support.urdfs import ELBOW_ARM
 
-from urdfsync.check import libraries
-from urdfsync.check.compilers import omc, rumoca
-from urdfsync.check.compilers.compiler import CompileJob, CompileTask
+from urdfsync.checks import libraries
+from urdfsync.checks.compilers import omc, rumoca
+from urdfsync.checks.compilers.compiler import CompileJob, CompileTask
 from urdfsync.engine import fit
 from urdfsync.modelica.lexer import lex
 from urdfsync.modelica.statements import Difference, compare

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from urdfsync.check import libraries
+from urdfsync.checks import libraries
 from urdfsync.modelica.classes import Node, Type
 from urdfsync.modelica.files import StoredClasses
 from urdfsync.modelica.scopes import ANYTHING, INTERFACES, Element, Missing, Scopes

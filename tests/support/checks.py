@@ -12,11 +12,11 @@ from pathlib import Path
 
 import psutil
 
-from urdfsync.check import process
-from urdfsync.check.cache import UserCache
-from urdfsync.check.compilers.compiler import CompileJob, CompileResult, Complaint, Tool
-from urdfsync.check.process import LimitError, Limits
-from urdfsync.check.results import CheckOptions, CheckResult, CompiledModel, ToolResult
+from urdfsync.checks import process
+from urdfsync.checks.cache import UserCache
+from urdfsync.checks.compilers.compiler import CompileJob, CompileResult, Complaint, Tool
+from urdfsync.checks.process import LimitError, Limits
+from urdfsync.checks.results import CheckOptions, CheckResult, CompiledModel, ToolResult
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.workers import Workers, tell

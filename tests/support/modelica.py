@@ -11,11 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from support.corpus import REPOSITORY
-from urdfsync.check import libraries as modelica_libraries
-from urdfsync.check.cache import UserCache
-from urdfsync.check.compilers import compiler, run_job
-from urdfsync.check.compilers.compiler import CompileJob, CompilerError, CompileTask, Simulation, Tool
-from urdfsync.check.process import Limits
+from urdfsync.checks import libraries as modelica_libraries
+from urdfsync.checks.cache import UserCache
+from urdfsync.checks.compilers import compiler, run_job
+from urdfsync.checks.compilers.compiler import CompileJob, CompilerError, CompileTask, Simulation, Tool
+from urdfsync.checks.process import Limits
 
 Array = NDArray[np.float64]
 

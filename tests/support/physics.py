@@ -11,9 +11,9 @@ import msgspec
 
 from support.modelica import URDFSYNC, Run, Task, simulate
 from support.packages import Package, generate
-from urdfsync.check import compilation
-from urdfsync.check.flags import flagged
-from urdfsync.check.results import agrees, relative
+from urdfsync.checks import compilation
+from urdfsync.checks.flags import flagged
+from urdfsync.checks.results import agrees, relative
 from urdfsync.domain import Deviation, Experiment, Target
 from urdfsync.urdf.domain import DOMAIN
 from urdfsync.urdf.options import Options

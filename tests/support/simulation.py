@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from support import urdfs
-from urdfsync.check.cache import UserCache
-from urdfsync.check.compilers.compiler import CompileJob, CompileResult, SimulationResult, Tool
-from urdfsync.check.process import Limits
+from urdfsync.checks.cache import UserCache
+from urdfsync.checks.compilers.compiler import CompileJob, CompileResult, SimulationResult, Tool
+from urdfsync.checks.process import Limits
 
 ARM = urdfs.robot(
     *urdfs.links(base=None, upper=2.0, lower=1.0),

@@ -15,8 +15,8 @@ import pytest
 from support.daemon import LIMIT, MODEL, RECORD, REPOSITORY, Daemons, Watch, until
 from support.networks import configure, edit
 
-from urdfsync.check import run
-from urdfsync.check.results import CheckOptions, CheckResult, CompiledModel, ToolResult
+from urdfsync.checks import run
+from urdfsync.checks.results import CheckOptions, CheckResult, CompiledModel, ToolResult
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.engine.options import Progress
@@ -202,7 +202,7 @@ def compilers(watch: Watch) -> list[psutil.Process]:
     while time.monotonic() < deadline and not any(event["event"] == "checked" for event in watch.events):
         with contextlib.suppress(psutil.NoSuchProcess):
             found = psutil.Process(watch.process.pid).children(recursive=True)
-            if any("urdfsync.check.process" in process.cmdline() for process in found):
+            if any("urdfsync.checks.process" in process.cmdline() for process in found):
                 return found
         time.sleep(0.05)
     raise AssertionError(watch.said)

@@ -75,7 +75,7 @@ def build_and_check(config: Config, robots: Sequence[RobotConfig], request: Buil
     if request.dry or not any(robot.checking for robot in robots):
         return results
     dependencies.mark_incomplete()  # checks look at more
-    from urdfsync.check import afterbuild  # most configurations have no use for it
+    from urdfsync.checks import afterbuild  # most configurations have no use for it
 
     return afterbuild.with_checks(config, request, results)
 

@@ -6,11 +6,11 @@ import argparse
 import sys
 from collections.abc import Iterable
 
-from urdfsync.check import run as run_checks
-from urdfsync.check.compilers import COMPILERS
-from urdfsync.check.report import closing_lines, robot_lines, to_json, to_section
-from urdfsync.check.results import CheckOptions, CheckResult, CheckStatus, exit_code
-from urdfsync.check.tools import BOTH, chosen_tools
+from urdfsync.checks import run as run_checks
+from urdfsync.checks.compilers import COMPILERS
+from urdfsync.checks.report import closing_lines, robot_lines, to_json, to_section
+from urdfsync.checks.results import CheckOptions, CheckResult, CheckStatus, exit_code
+from urdfsync.checks.tools import BOTH, chosen_tools
 from urdfsync.commands import arguments
 from urdfsync.output.console import Console, Format, has_marks
 

@@ -13,8 +13,6 @@ from urdfsync import config
 from urdfsync.commands import arguments
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import ConfigError
-from urdfsync.diff import comparison
-from urdfsync.diff.comparison import Comparison
 from urdfsync.engine.actions import USERS, Kind, Reason
 from urdfsync.engine.findings import CONNECTORS
 from urdfsync.output.conflicts import settle_hint, shown_path
@@ -26,6 +24,8 @@ from urdfsync.output.phrases import summary as build_summary
 from urdfsync.output.repeated import show_findings
 from urdfsync.output.results import action_word, change_line, file_line, headline, result_values
 from urdfsync.output.sections import build_section, change_parts
+from urdfsync.versions import comparison
+from urdfsync.versions.comparison import Comparison
 
 _CHANGES, _FILES, _EFFECTS = 60, 12, 8
 """So many lines of changes, files and effects are listed at most, without --verbose."""

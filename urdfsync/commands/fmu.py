@@ -6,8 +6,8 @@ import argparse
 import importlib.util
 from pathlib import Path
 
-from urdfsync.check.compilers.compiler import Export
-from urdfsync.check.tools import chosen_tools
+from urdfsync.checks.compilers.compiler import Export
+from urdfsync.checks.tools import chosen_tools
 from urdfsync.commands import arguments
 from urdfsync.commands.simulate import input_files
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
@@ -15,11 +15,11 @@ from urdfsync.engine.result import Exit
 from urdfsync.extras import install_command
 from urdfsync.files import shown
 from urdfsync.output.console import Console
-from urdfsync.simulate.export import TOLERANCE, Exported, export, is_exported
-from urdfsync.simulate.files import check_file, not_writable, write_file
-from urdfsync.simulate.fmu import AGREEMENT, KINDS, Trial, try_out
-from urdfsync.simulate.report import fmu_lines, fmu_to_json
-from urdfsync.simulate.results import STOP, SimulateOptions
+from urdfsync.simulation.export import TOLERANCE, Exported, export, is_exported
+from urdfsync.simulation.files import check_file, not_writable, write_file
+from urdfsync.simulation.fmu import AGREEMENT, KINDS, Trial, try_out
+from urdfsync.simulation.report import fmu_lines, fmu_to_json
+from urdfsync.simulation.results import STOP, SimulateOptions
 
 _VERSIONS = {"2": "2.0", "3": "3.0"}
 _EXPORTED = {"me": "me", "cs": "cs", "both": "me_cs"}

@@ -5,17 +5,17 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from urdfsync.check.compilers import COMPILERS
-from urdfsync.check.tools import chosen_tools
+from urdfsync.checks.compilers import COMPILERS
+from urdfsync.checks.tools import chosen_tools
 from urdfsync.commands import arguments
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Severity
 from urdfsync.engine.result import Exit
 from urdfsync.output.console import Console
-from urdfsync.simulate.files import check_outputs, write_outputs
-from urdfsync.simulate.report import result_lines, to_json
-from urdfsync.simulate.results import STEPS, STOP, TOLERANCE, SimulateOptions
-from urdfsync.simulate.run import simulate
+from urdfsync.simulation.files import check_outputs, write_outputs
+from urdfsync.simulation.report import result_lines, to_json
+from urdfsync.simulation.results import STEPS, STOP, TOLERANCE, SimulateOptions
+from urdfsync.simulation.run import simulate
 
 
 def add(commands: arguments.Commands) -> None:

@@ -9,7 +9,7 @@ from typing import Self
 
 import msgspec
 
-from urdfsync.check.afterbuild import BuildCheck, BuildChecker, is_general
+from urdfsync.checks.afterbuild import BuildCheck, BuildChecker, is_general
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, internal_error
 from urdfsync.engine.options import BuildOptions

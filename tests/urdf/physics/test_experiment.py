@@ -9,8 +9,8 @@ from typing import Any
 import pytest
 from support.urdfs import dynamics, joint, link, links, robot
 
-from urdfsync.check.compilation import compare_all
-from urdfsync.check.results import TOLERANCE
+from urdfsync.checks.compilation import compare_all
+from urdfsync.checks.results import TOLERANCE
 from urdfsync.diagnostics import SourceError
 from urdfsync.domain import Experiment, Quantity, Target
 from urdfsync.urdf.domain import DOMAIN

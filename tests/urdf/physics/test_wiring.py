@@ -8,7 +8,7 @@ import pytest
 from support.packages import generate
 from support.urdfs import joint, links, robot
 
-from urdfsync.check.results import agrees
+from urdfsync.checks.results import agrees
 from urdfsync.domain import Target
 from urdfsync.urdf.physics.wiring import wiring
 

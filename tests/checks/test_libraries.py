@@ -1,0 +1,266 @@
+"""Modelica libraries in made-up folders: where they are found, which ones a package needs, and what is copied."""
+
+from __future__ import annotations
+
+import errno
+import os
+from collections.abc import Mapping
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from urdfsync.checks.cache import UserCache
+from urdfsync.checks.contents import content_hash, copy_library
+from urdfsync.checks.libraries import (
+    LibraryError,
+    StandardLibrary,
+    find_library,
+    find_standard_library,
+    needed_libraries,
+    standard_library_copy,
+)
+from urdfsync.diagnostics import UrdfsyncError
+
+PACKAGE = 'package %s\n  annotation (\n    uses(Complex(version="9.9")),\n    version="%s");\nend %s;\n'
+
+
+@pytest.fixture(autouse=True)
+def home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A home with nothing in it, and no libraries of the system."""
+    monkeypatch.setenv("HOME", str(tmp_path / "home"))
+    monkeypatch.setenv("USERPROFILE", str(tmp_path / "home"))
+    exists = Path.iterdir
+    monkeypatch.setattr(Path, "iterdir", lambda self: iter(()) if "omlibrary" in self.parts[:5] else exists(self))
+    return tmp_path / "home"
+
+
+def put(folder: Path, *names: str) -> Path:
+    """Libraries such as `Modelica 4.1.0` and `Complex.mo` in a folder; without a number in the name they are 4.1.0."""
+    for name in names:
+        first, _, version = name.removesuffix(".mo").partition(" ")
+        file = folder / name if name.endswith(".mo") else folder / name / "package.mo"
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(PACKAGE % (first, version or "4.1.0", first))
+    return folder
+
+
+def whole(folder: Path, version: str) -> Path:
+    return put(folder, f"Modelica {version}", f"ModelicaServices {version}", f"Complex {version}.mo")
+
+
+def code(environment: Mapping[str, str], configured: Path | None = None) -> str:
+    with pytest.raises(LibraryError) as caught:
+        find_standard_library(environment, configured)
+    (diagnostic,) = caught.value.diagnostics
+    assert diagnostic.hint
+    return diagnostic.code
+
+
+# --- where they are ---------------------------------------------------------------------------------------------------
+
+
+def test_modelicapath_comes_first_then_openmodelicas_folders(tmp_path: Path, home: Path) -> None:
+    mine = whole(tmp_path / "mine", "4.1.0")
+    whole(home / ".openmodelica" / "libraries", "4.2.0")
+    environment = {"MODELICAPATH": os.pathsep.join([str(tmp_path / "absent"), str(mine)])}
+    assert find_standard_library(environment).parts["Modelica"] == mine / "Modelica 4.1.0"
+    assert find_standard_library({}).version == (4, 2, 0)
+
+
+def test_the_newest_version_below_5_is_taken_by_number(tmp_path: Path) -> None:
+    for version in ("4.9.0", "4.10.0", "5.0.0"):
+        whole(tmp_path, version)
+    found = find_standard_library({}, tmp_path)
+    assert found.version == (4, 10, 0)
+    assert {path.stem.partition(" ")[2].partition(".")[0] for path in found.parts.values()} == {"4"}
+
+
+def test_parts_of_the_same_generation_belong_together(tmp_path: Path) -> None:
+    """A folder without a version in its name tells it in its text; a later generation is the last resort."""
+    assert find_standard_library({}, whole(tmp_path / "late", "5.0.0")).version == (5, 0, 0)
+    put(tmp_path / "bare" / ".openmodelica" / "libraries", "Modelica", "ModelicaServices", "Complex.mo")
+    assert find_standard_library({"APPDATA": str(tmp_path / "bare")}).version == (4, 1, 0)
+    put(whole(tmp_path, "4.1.0"), "Modelica 4.2.0", "Modelica 5.0.0")
+    found = find_standard_library({}, tmp_path)
+    assert (found.version, found.parts["Complex"].name) == ((4, 2, 0), "Complex 4.1.0.mo")
+
+
+def test_why_there_is_none(tmp_path: Path) -> None:
+    assert code({}) == "no-standard-library"
+    put(tmp_path / "lone", "Modelica 4.1.0")
+    assert code({"MODELICAPATH": str(tmp_path / "lone")}) == "no-standard-library"
+    old = whole(tmp_path / "old", "4.0.0+maint.om")
+    assert code({"MODELICAPATH": str(old)}) == "standard-library-too-old"
+    assert code({"MODELICAPATH": str(whole(tmp_path / "new", "4.1.0"))}, old) == "wrong-library-folder"
+    assert code({}, tmp_path / "absent") == "wrong-library-folder"
+
+
+def test_an_older_one_does_not_hide_one_that_suits(tmp_path: Path) -> None:
+    places = [str(whole(tmp_path / name, name)) for name in ("4.0.0", "4.1.0")]
+    assert find_standard_library({"MODELICAPATH": os.pathsep.join(places)}).version == (4, 1, 0)
+
+
+@pytest.mark.parametrize("name", ["Pumps", "Pumps 1.2.0", "Pumps.mo", "Pumps 1.2.mo"])
+def test_other_libraries_are_found_by_name(name: str, tmp_path: Path) -> None:
+    put(tmp_path / "second", name)
+    put(tmp_path / "third", "Pumps 9.0.0")
+    (tmp_path / "first" / "Pumps").mkdir(parents=True)  # no package
+    places = [tmp_path / "absent", tmp_path / "first", tmp_path / "second", tmp_path / "third"]
+    assert find_library("Pumps", places) == tmp_path / "second" / name
+    assert find_library("Pump", places) is None
+
+
+# --- which ones a package needs ---------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("text", "names"), [
+    ("Pumps.Small p; extends Tanks . Round;", {"Pumps", "Tanks"}),
+    (".Pumps.Small p;", {"Pumps"}),
+    ("import Pumps; import T = Tanks; import Valves.*;", {"Pumps", "Tanks", "Valves"}),
+    ("arm.Pumps.x; a[1].Tanks.c; Real Pumps; MyPumps.A a;", set()),
+    ('parameter String s = "Pumps.Small"; // Pumps.Small\n/* import Pumps; */', set()),
+    ("Arm.Pumps.Small p; Modelica.Blocks.A a;", set()),
+])  # fmt: skip
+def test_libraries_are_what_names_begin_with(text: str, names: set[str], tmp_path: Path) -> None:
+    place = put(tmp_path, "Pumps 1.2.0", "Tanks.mo", "Valves", "Arm", "Modelica 4.1.0")
+    assert needed_libraries([text.encode()], "Arm", [place], ()).keys() == names
+
+
+# --- the copy of the Modelica Standard Library ------------------------------------------------------------------------
+
+COPIED = (
+    *("package", "Blocks/package", "Constants", "Icons", "Math", "Mechanics/package", "Mechanics/MultiBody/Body"),
+    *("Thermal/package", "Thermal/HeatTransfer/Port", "Electrical/package", "Electrical/Machines/package"),
+    *("Electrical/Machines/Thermal", "Units", "Utilities"),
+)
+LEFT_OUT = ("Mechanics/MultiBody/Examples/Pendulum", "Fluid/package", "Thermal/FluidHeatFlow", "UsersGuide/package")
+
+
+@pytest.fixture
+def small(tmp_path: Path) -> StandardLibrary:
+    """A made-up library."""
+    folder = whole(tmp_path / "libraries", "4.1.0")
+    for name in (*COPIED, *LEFT_OUT):
+        file = folder / "Modelica 4.1.0" / f"{name}.mo"
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.touch()
+    (folder / "Modelica 4.1.0" / "Resources").mkdir()
+    (folder / "Modelica 4.1.0" / "Resources" / "large.bin").touch()
+    return find_standard_library({}, folder)
+
+
+@pytest.fixture
+def cache(tmp_path: Path) -> UserCache:
+    return UserCache(tmp_path / "cache")
+
+
+def names(folder: Path) -> set[str]:
+    return {path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file()}
+
+
+@pytest.mark.parametrize(("text", "whole"), [
+    ("", False),
+    ("Modelica.Mechanics.MultiBody.Body b; import SI = Modelica.Units.SI; import Modelica.Math.{sin, cos};", False),
+    ('Real x "Modelica.Fluid.Tank"; // Modelica.Fluid.Tank', False),
+    ("Modelica . Fluid.Tank t;", True),
+    ("import Modelica.Thermal.*;", True),
+    ("import M = Modelica;", True),
+    ("extends Modelica.Mechanics.MultiBody.Examples.Pendulum;", True),
+])  # fmt: skip
+def test_what_robots_need_is_copied_and_all_if_more_is_named(
+    text: str, whole: bool, small: StandardLibrary, cache: UserCache
+) -> None:
+    copied = standard_library_copy(small.parts, [text.encode()], cache)
+    partners = {"Complex.mo", "ModelicaServices/package.mo"}
+    wanted = (*COPIED, *LEFT_OUT) if whole else COPIED
+    assert names(copied) == {f"Modelica/{name}.mo" for name in wanted} | partners
+
+
+def test_a_copy_is_made_once_for_each_state(small: StandardLibrary, cache: UserCache) -> None:
+    first = standard_library_copy(small.parts, (), cache)
+    (first / "mark").touch()
+    os.utime(first, (0, 0))
+    with ThreadPoolExecutor(8) as pool:
+        assert set(pool.map(lambda _: standard_library_copy(small.parts, (), cache), range(8))) == {first}
+    assert (first / "mark").exists()
+    assert first.stat().st_mtime > 0, "its last use is noted"
+    (small.parts["Modelica"] / "Blocks" / "package.mo").write_text("package Blocks end Blocks;")
+    assert standard_library_copy(small.parts, (), cache) != first
+
+
+def test_a_folder_that_can_not_be_read_hides_no_change_behind_it(
+    small: StandardLibrary, cache: UserCache, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse(path: Any) -> Any:
+        if str(path).endswith("Fluid"):
+            raise PermissionError(errno.EACCES, "Permission denied", path)
+        return genuine(path)
+
+    genuine = os.scandir
+    monkeypatch.setattr(os, "scandir", refuse)
+    first = standard_library_copy(small.parts, (), cache)
+    (small.parts["Modelica"] / "Mechanics" / "package.mo").write_text("package Mechanics end Mechanics;")
+    assert standard_library_copy(small.parts, (), cache) != first
+
+
+# --- links and sizes: a library may be a stranger's -------------------------------------------------------------------
+
+
+def refused(path: Path, target: Path) -> str:
+    with pytest.raises(UrdfsyncError) as caught:
+        copy_library(path, target)
+    (found,) = caught.value.diagnostics
+    assert found.code == "library-not-copied"
+    return f"{found.file}: {found.message}; {found.hint}"
+
+
+@pytest.mark.parametrize("link", ["all", "folder", "file", "device"])
+def test_a_link_in_a_library_that_could_fill_the_disk_is_refused(link: str, tmp_path: Path) -> None:
+    """By copies and by the hash of their content, which would read all that is behind it."""
+    library = put(tmp_path, "Pumps") / "Pumps"
+    (library / "Resources").mkdir()
+    (tmp_path / "outside.txt").write_text("a secret")
+    outside = str(tmp_path / "outside.txt")
+    targets = {"all": "/", "folder": str(library), "file": outside, "device": "/dev/zero"}
+    (library / "Resources/link").symlink_to(targets[link])
+    said = refused(library, tmp_path / "copy")
+    assert said.startswith(f"{library}/Resources/link: the link leads ")
+    assert said.endswith("; put the files themselves in its place")
+    assert not [path for path in (tmp_path / "copy").rglob("*") if path.is_file() and "link" in path.name]
+    with pytest.raises(UrdfsyncError, match="the link leads "):
+        content_hash(library)
+
+
+def test_a_link_to_a_file_of_the_library_and_to_the_library_itself_are_followed(tmp_path: Path) -> None:
+    put(tmp_path / "real", "Pumps")
+    (tmp_path / "real/Pumps/Small.mo").symlink_to("package.mo")
+    (tmp_path / "Pumps").symlink_to("real/Pumps", target_is_directory=True)
+    before = content_hash(tmp_path / "Pumps")
+    copy_library(tmp_path / "Pumps", tmp_path / "copy")
+    assert (tmp_path / "copy/Small.mo").read_text() == (tmp_path / "Pumps/package.mo").read_text()
+    (tmp_path / "real/Pumps/package.mo").write_text("package Pumps end Pumps;")
+    assert content_hash(tmp_path / "Pumps") != before
+
+
+def test_a_library_that_is_too_large_is_refused_before_it_fills_the_disk(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    library = put(tmp_path, "Pumps") / "Pumps"
+    with (library / "zeros.bin").open("wb") as file:
+        file.truncate(2**40)  # takes nothing on the disk, as in a repository
+    assert "Pumps: the library takes more than 512 MB" in refused(library, tmp_path / "copy")
+    (library / "zeros.bin").unlink()
+    monkeypatch.setattr("urdfsync.checks.contents.MOST_BYTES", 40_000)
+    for number in range(20):
+        (library / f"{number}.txt").touch()
+    refused(library, tmp_path / "other")
+    assert len(list((tmp_path / "other").iterdir())) < 10, "empty files take space as well"
+
+
+def test_so_is_a_standard_library_with_such_a_link(small: StandardLibrary, cache: UserCache, tmp_path: Path) -> None:
+    (small.parts["Modelica"] / "Mechanics/Loop").symlink_to(tmp_path, target_is_directory=True)
+    with pytest.raises(UrdfsyncError, match="the link leads out of its library"):
+        standard_library_copy(small.parts, (), cache)
+    assert not list(cache.libraries.glob("*/Modelica"))

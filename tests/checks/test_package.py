@@ -1,0 +1,173 @@
+"""The folder in which a compiler finds one package and what it refers to."""
+
+from __future__ import annotations
+
+import codecs
+import errno
+import os
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from urdfsync import config
+from urdfsync.checks import package as files
+from urdfsync.checks.contents import package_texts
+from urdfsync.checks.package import PackageTexts
+from urdfsync.config import Config, RobotConfig
+from urdfsync.diagnostics import OutputError
+
+CONFIG = "".join(
+    f'[robots.{name}]\nsource = "{name}.json"\npackage = "Plant.Robots.{name.title()}"\ndomain = "rcnetwork"\n'
+    for name in ("arm", "cart", "crane")
+)
+
+
+def write(folder: Path, **texts: str) -> None:
+    for name, text in texts.items():
+        path = folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+
+
+@pytest.fixture
+def plant(rc_domain: None, tmp_path: Path) -> Config:
+    """Three robots and a controller in one top-level package."""
+    output = tmp_path / "modelica"
+    write(
+        output,
+        **{
+            "Plant/package.mo": "package Plant",
+            "Plant/package.order": "Robots\nControl\n",
+            "Plant/Control.mo": "block Control",
+            "Plant/Resources/Old.mo": "no class",
+            "Plant/.git/Hidden.mo": "no class",
+            "Plant/.#Control.mo": "what an editor leaves",
+            "Plant/Robots/package.mo": "package Robots",
+            "Plant/Robots/Arm/package.mo": "package Arm",
+            "Plant/Robots/Arm/Arm.mo": "model Arm",
+            "Plant/Robots/Cart/package.mo": "package Cart",
+            "Plant/Robots/Crane/package.mo": "package Crane",
+            "Plant/Robots/Crane/Hook.mo": "model Hook",
+            "Other/package.mo": "package Other",
+        },
+    )
+    return config.parse(CONFIG, tmp_path / "urdfsync.toml", "urdfsync.toml")
+
+
+def robot(plant: Config, name: str) -> RobotConfig:
+    return next(robot for robot in plant.robots if robot.name == name)
+
+
+@pytest.fixture
+def odd(tmp_path: Path) -> Path:
+    """A package with what is no regular file; but one link leads to such."""
+    folder = tmp_path / "Odd"
+    write(tmp_path, **{"Odd/package.mo": "package Odd", "elsewhere/package.mo": "package Linked", "Real.mo": "model"})
+    (folder / "Dangling.mo").symlink_to("nowhere.mo")
+    (folder / "Circle.mo").symlink_to("Circle.mo")
+    (folder / "Linked").symlink_to(tmp_path / "elsewhere")
+    (folder / "images").symlink_to(tmp_path)
+    (folder / "Real.mo").symlink_to(tmp_path / "Real.mo")
+    if hasattr(os, "mkfifo"):
+        os.mkfifo(folder / "Pipe.mo")
+    return folder
+
+
+def test_what_is_no_regular_file_is_left_out(odd: Path, plant: Config) -> None:
+    assert package_texts(odd) == {"package.mo": b"package Odd", "Real.mo": b"model"}
+    assert package_texts(plant.root / "absent") == {}
+
+
+@pytest.mark.parametrize("name", ["Plant/Control.mo", "Plant/Robots"])
+def test_what_can_not_be_read_is_named_as_people_see_it(
+    name: str, plant: Config, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse(path: str, *rest: Any) -> Any:
+        if os.fspath(path).endswith(name):
+            raise PermissionError(errno.EACCES, "Permission denied", path)
+        return genuine(path, *rest)
+
+    method = "open" if name.endswith(".mo") else "scandir"
+    genuine = getattr(os, method)
+    monkeypatch.chdir(plant.root)
+    with monkeypatch.context() as patch:
+        patch.setattr(os, method, refuse)
+        with pytest.raises(OutputError) as caught:
+            package_texts(plant.root / "modelica" / "Plant")
+    (found,) = caught.value.diagnostics
+    assert (found.file, found.message) == (f"modelica/{name}", "the package can't be read: Permission denied")
+    assert found.hint
+
+
+def test_a_file_that_would_fill_the_memory_is_refused(plant: Config, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(plant.root)
+    with Path("modelica/Plant/Large.mo").open("wb") as file:
+        file.truncate(2**40)  # takes nothing on the disk, as in a repository
+    with pytest.raises(
+        OutputError, match=r"modelica/Plant/Large\.mo: error: the package can't be read: it has more than"
+    ):
+        package_texts(plant.root / "modelica/Plant")
+
+
+def test_other_robots_are_left_out(plant: Config) -> None:
+    found = files.files_around(plant, robot(plant, "arm"), {"Arm.mo": b"model Arm"})
+    expected = {"Plant/package.mo", "Plant/package.order", "Plant/Control.mo", "Plant/Robots/package.mo"}
+    assert found.keys() == expected
+
+
+def test_a_robot_that_is_mentioned_is_there_also_if_another_mentions_it(plant: Config) -> None:
+    write(plant.root / "modelica", **{"Plant/Robots/Cart/Load.mo": "Crane.Hook hook;"})
+    found = files.files_around(plant, robot(plant, "arm"), {"Arm.mo": b"Plant.Robots.Cart cart;"})
+    assert {"Plant/Robots/Cart/Load.mo", "Plant/Robots/Crane/Hook.mo"} <= found.keys()
+
+
+def test_packages_around_that_do_not_exist_are_made_up(rc_domain: None, tmp_path: Path) -> None:
+    plant = config.parse(CONFIG, tmp_path / "urdfsync.toml", "urdfsync.toml")
+    found = files.files_around(plant, robot(plant, "arm"), {})
+    assert found == {
+        "Plant/package.mo": b"within;\npackage Plant\nend Plant;\n",
+        "Plant/Robots/package.mo": b"within Plant;\npackage Robots\nend Robots;\n",
+    }
+
+
+def test_a_package_is_written_where_its_name_says_without_byte_order_marks(plant: Config, tmp_path: Path) -> None:
+    texts = {"Arm.mo": codecs.BOM_UTF8 + b"model Arm"}
+    root = files.write_package(tmp_path / "work", robot(plant, "arm"), texts, {"Plant/package.mo": b"package Plant"})
+    assert root == tmp_path / "work" / "Plant"
+    assert (root / "Robots/Arm/Arm.mo").read_bytes() == b"model Arm"
+    assert (root / "package.mo").read_bytes() == b"package Plant"
+
+
+def package(**texts: str) -> PackageTexts:
+    """A robot's package with these files, written with `_` for `/` and without `.mo`."""
+    contents = {f"{name.replace('_', '/')}.mo": text.encode() for name, text in texts.items()}
+    return PackageTexts("Plant.Robots.Arm", Path("/out/Plant/Robots/Arm"), contents)
+
+
+def test_the_users_models_are_those_in_files_that_are_not_generated() -> None:
+    found = package(
+        Arm="within Plant.Robots.Arm;\nmodel Arm\nend Arm;\n",
+        Own="within Plant.Robots.Arm;\nmodel Own\nend Own;\n",
+        Control_PID="within Plant.Robots.Arm.Control; block PID\nend PID;\n",
+        Control_package="within Plant.Robots.Arm;\npackage Control\nend Control;\n",
+    )
+    assert found.models_not_in(["Arm.mo", "package.mo"]) == ["Control.PID", "Own"]
+    assert found.models_not_in(found.texts) == []
+
+
+@pytest.mark.parametrize(("text", "expected"), [
+    ("within; // model\n\nencapsulated model Own end Own;", True),
+    ("final block Own end Own;", True),
+    ("model Own = Arm(n = 2);", True),
+    ("model Own partial model In end In; end Own;", True),
+    ("encapsulated partial model Own end Own;", False),
+    ("function Own end Own;", False),
+    ("package Own model In end In; end Own;", False),
+    ("model Other end Other;", False),
+    ("within Plant.Robots", False),
+    ("model", False),
+    ("", False),
+])  # fmt: skip
+def test_models_and_blocks_that_are_not_partial_compile_by_themselves(text: str, expected: bool) -> None:
+    assert (package(Own=text).models_not_in([]) == ["Own"]) is expected

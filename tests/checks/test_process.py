@@ -1,0 +1,71 @@
+"""Functions in a process of their own: results, limits, and what is said of one that ends early."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import pytest
+from support import checks
+from support.checks import act
+
+from urdfsync.checks.cache import UserCache
+from urdfsync.checks.compilers import COMPILERS, run_job
+from urdfsync.checks.compilers.compiler import CompileJob, CompilerError, CompileTask, Tool
+from urdfsync.checks.process import BrokenProcessError, Limits, run
+from urdfsync.diagnostics import OutputError
+
+TESTS = Path(__file__).parents[1]
+
+
+@pytest.fixture(autouse=True)
+def _path(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PYTHONPATH", str(TESTS))
+
+
+def limits(seconds: float = 60.0, memory: float = 2e9) -> Limits:
+    return Limits("the check", seconds, memory)
+
+
+def test_all_that_a_function_yields_comes_back_and_prints_are_no_answers() -> None:
+    assert run(act, "one", "print", "two", limits=limits()) == ["one", "print", "two"]
+    assert run(act, limits=limits()) == []
+
+
+@pytest.mark.parametrize(("deed", "kind", "words"), [
+    ("refuse", OutputError, "as it was asked for"),
+    ("import", ImportError, "no such wheel"),
+    ("leave", BrokenProcessError, "exit code 0"),
+    pytest.param("abort", BrokenProcessError, r"\(SIGABRT\): last words",
+                 marks=pytest.mark.skipif(sys.platform == "win32", reason="no such signals")),
+])  # fmt: skip
+def test_an_error_and_an_end_before_the_end_are_told(deed: str, kind: type[Exception], words: str) -> None:
+    with pytest.raises(kind, match=words) as caught:
+        run(act, "one", deed, "two", limits=limits())
+    assert not isinstance(caught.value, BrokenProcessError) or caught.value.results == ["one"]
+
+
+def test_progress_is_told_until_the_end() -> None:
+    told: list[int] = []
+    assert run(act, "one", limits=limits(), progress=lambda: told.append(1)) == ["one"]
+    assert told
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no such signals")
+@pytest.mark.parametrize(("deed", "code", "words", "hint"), [
+    ("abort", "compiler-crashed", r"crashed at Plant.Bad: signal 6 (SIGABRT): last words", "report it"),
+    ("kill", "compiler-crashed", "crashed at Plant.Bad: signal 9 (SIGKILL)", "out of memory"),
+    ("leave", "compiler-crashed", "crashed at Plant.Bad: exit code 0", "report it"),
+    ("import", "no-compiler", "the compiler does not start: no such wheel", "install it"),
+])  # fmt: skip
+def test_a_compiler_that_breaks_down_is_one_line(
+    deed: str, code: str, words: str, hint: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(COMPILERS, "fake", checks.Compiler())
+    tasks = CompileTask("M", "", title="Plant.Good"), CompileTask("M", deed, title="Plant.Bad")
+    with pytest.raises(CompilerError) as caught:
+        run_job(Tool("fake"), CompileJob((), tasks), UserCache(tmp_path), limits())
+    (found,) = caught.value.diagnostics
+    assert found.code == code
+    assert words in found.message
+    assert hint in found.hint

@@ -1,0 +1,507 @@
+"""The check of one robot from end to end, on a robot with two joints; where it matters with compiler and Pinocchio."""
+
+from __future__ import annotations
+
+import importlib.util
+import os
+import re
+import shutil
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import pytest
+from support.checks import Compiling
+from support.corpus import REPOSITORY
+from support.urdfs import dynamics, joint, link, robot
+
+from urdfsync import config
+from urdfsync.checks import libraries
+from urdfsync.checks import robot as robot_check
+from urdfsync.checks.package import RobotPackage, read_package
+from urdfsync.checks.report import summary
+from urdfsync.checks.results import CheckOptions, CheckResult, CheckStatus
+from urdfsync.checks.robot import check_robot
+from urdfsync.engine.build import build
+from urdfsync.engine.options import BuildOptions
+
+ARM = robot(
+    link("base", 3.0),
+    link("arm", 2.0, rpy="0.1 0.2 0.3"),
+    link("hand", 0.7),
+    joint("shoulder", "revolute", "base", "arm", axis="0 1 0", rpy="0.4 0.5 0.6", inside=[dynamics(0.5, 0.2)]),
+    joint("elbow", "continuous", "arm", "hand", axis="0 0 1", inside=[dynamics(0.1, 0.0)]),
+)
+BROKEN = {
+    "MyArm.mo": """\
+within;
+model MyArm
+  extends Arm.Arm(redeclare Arm.Joints.Elbow elbo, elbow(parameters(dynamics(dampin = 5))));
+  Arm.Links.Hnd other;
+  parameter Real load = 2;
+equation
+  connect(elbwo.axis, elbow.axis);
+end MyArm;
+""",
+    "Bench/MyBench.mo": """\
+model MyBench
+  extends Arm.ArmTest(robot(redeclare Arm.Joints.Elbow elbow));
+  MyArm mine;
+  Real x = mine.laod + robot.elbow.axs.tau;
+  Real y = whatever.it.is;
+end MyBench;
+""",
+    "Notes.mo": "model Notes\n  Nothing here;\nend Notes;\n",
+    "Draft.mo": "model Draft\n  Arm.Arm arm\nend Draft;\n",
+}
+
+
+@pytest.fixture
+def arm(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A project with the robot, built; the package's folder."""
+    monkeypatch.chdir(tmp_path)
+    Path("arm.urdf").write_text(ARM)
+    Path("urdfsync.toml").write_text('[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\n')
+    rebuild()
+    return tmp_path / "modelica" / "Arm"
+
+
+@pytest.fixture
+def compiler(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Compiling:
+    """A stand-in for the compiler, and a cache in which nothing is yet."""
+    found = Compiling()
+    monkeypatch.setattr("urdfsync.checks.compilers.run_job", found)
+    monkeypatch.setattr(libraries, "standard_library_copy", lambda *_: tmp_path)
+    monkeypatch.setattr("platformdirs.user_cache_path", lambda *_, **__: tmp_path / "cache")
+    return found
+
+
+@pytest.fixture
+def without_library(monkeypatch: pytest.MonkeyPatch) -> None:
+    """No Modelica Standard Library: nothing is compiled."""
+    monkeypatch.setattr(libraries, "library_folders", lambda *_: [])
+
+
+def rebuild() -> None:
+    loaded = config.load(Path("urdfsync.toml").absolute())
+    (result,) = build(loaded, loaded.robots, BuildOptions())
+    assert not result.failed
+
+
+def check(physics: bool = False, fresh: bool = False) -> CheckResult:
+    loaded = config.load(Path("urdfsync.toml").absolute())
+    return check_robot(loaded, loaded.robots[0], CheckOptions(physics=physics, compilers=2, fresh=fresh))
+
+
+def write(files: dict[str, str]) -> None:
+    for path, text in files.items():
+        (Path("modelica") / path).parent.mkdir(exist_ok=True, parents=True)
+        (Path("modelica") / path).write_text(text)
+
+
+def replace(file: Path, old: str, new: str) -> None:
+    text = file.read_text()
+    assert old in text
+    file.write_text(text.replace(old, new))
+
+
+def codes(result: CheckResult) -> list[str]:
+    return [one.code for one in result.diagnostics if one.severity == "error"]
+
+
+def lines(result: CheckResult) -> list[str]:
+    """The findings as people read them."""
+    return [
+        f"{one.file.removeprefix('modelica/')}:{one.line}: {one.severity}: {one.message}; {one.hint}"
+        for one in result.diagnostics
+    ]
+
+
+@pytest.mark.slow
+def test_each_edit_is_told_with_what_it_changes(arm: Path, modelica_library: Path) -> None:
+    """Edits, of the eighth digit of a mass as well, are results: what is generated agrees with the reference."""
+    replace(arm / "Joints" / "ElbowParameters.mo", "damping = 0.1", "damping = 0.2")
+    replace(arm / "Links" / "HandParameters.mo", "mass = 0.7", "mass = 0.70000001")
+    replace(arm / "Links" / "Base.mo", "model Base", "// looked at\nmodel Base")
+    (arm / "Own.mo").write_text("within Arm;\nmodel Own\n  Real x;\nend Own;\n")
+    result = check(physics=True, fresh=True)
+    assert codes(result) == []
+    assert [(one.code, one.file) for one in result.diagnostics if one.code == "unbalanced"] == [
+        ("unbalanced", "modelica/Arm/Own.mo")
+    ]
+    assert [one.model for one in result.compiled if one.unknowns > 100] == ["Arm", "ArmRun", "ArmTest"]
+    assert result.deviations
+    assert not result.differs
+    assert (result.status(strict=False), result.status(strict=True)) == (CheckStatus.RIGHT, CheckStatus.DIFFERS)
+    elements = {effect.files: {one.element for one in effect.deviations} for effect in result.effects}
+    assert elements.keys() == {("Joints/ElbowParameters.mo",), ("Links/HandParameters.mo",)}, "a comment is no change"
+    assert elements["Joints/ElbowParameters.mo",] == {"joint elbow"}
+    assert elements["Links/HandParameters.mo",] >= {"robot", "joint elbow", "joint shoulder"}
+    assert {effect.owners for effect in result.effects} == {("joint elbow",), ("link hand",)}
+
+
+@pytest.mark.slow
+def test_a_generator_that_is_wrong_is_found_whoever_edited_what(arm: Path, modelica_library: Path) -> None:
+    """A template of the user's turns origins about axes that turn along; an assertion ends each simulation."""
+    templates = Path("templates")
+    shutil.copytree(REPOSITORY / "templates" / "urdf", templates)
+    replace(templates / "macros.jinja", "{3, 2, 1}", "{1, 2, 3}")
+    with Path("urdfsync.toml").open("a") as file:
+        file.write('templates = "templates"\n')
+    rebuild()
+    replace(arm / "Joints" / "Elbow.mo", "equation\n", 'equation\n  assert(false, "not ready yet");\n')
+    result = check(physics=True, fresh=True)
+    assert codes(result) == []
+    assert len(result.compiled) == 3, "the edited robot compiles, although it can't be moved"
+    assert result.status(strict=False) is CheckStatus.DIFFERS
+    assert max(one.relative for one in result.deviations) > 1e-2
+    (gap,) = result.gaps
+    assert "not ready yet" in gap
+
+
+@pytest.mark.slow
+def test_what_was_right_is_not_compiled_again_until_something_changes(
+    arm: Path, modelica_library: Path, compiler: Compiling
+) -> None:
+    first, second = check(), check()
+    assert sorted(compiler.models) == ["Arm", "ArmRun", "ArmTest"]
+    assert [one.model for one in first.compiled] == ["Arm", "ArmRun", "ArmTest"]
+    assert first.compiled == second.compiled
+    assert second.status(strict=True) is CheckStatus.RIGHT
+    assert first.unchecked == second.unchecked == ("poses and efforts were not compared; `--physics` compares them",)
+    check(fresh=True)
+    assert len(compiler.models) == 6
+    replace(arm / "Links" / "Base.mo", "model Base", "// looked at\nmodel Base")
+    compiler.problem = "something is wrong"
+    assert [check().failed for _ in range(2)] == [True, True]
+    assert len(compiler.models) == 12, "what is wrong is compiled again"
+    compiler.problem = ""
+    replace(Path("arm.urdf"), 'type="continuous"', 'type="fixed"')
+    result = check()
+    assert (result.in_step, result.status(strict=False)) == (False, CheckStatus.DIFFERS)
+    assert [one.model for one in result.compiled] == ["Arm", "ArmRun", "ArmTest"]
+
+
+def test_a_robot_of_which_a_joint_is_left_out_agrees_with_nothing(
+    arm: Path, modelica_library: Path, compiler: Compiling
+) -> None:
+    replace(Path("arm.urdf"), "</robot>", '<loop_joint name="bar"/></robot>')
+    with Path("urdfsync.toml").open("a") as file:
+        file.write('allow = ["loop-joint"]\n')
+    rebuild()
+    result = check(physics=True)
+    assert result.gaps == (
+        "poses, efforts and masses were not compared: "
+        "<loop_joint> bar closes a loop of links, and is left out of the model",
+    )
+    assert result.status(strict=False) is CheckStatus.INCOMPLETE
+    assert "agree" not in summary(result, strict=False)
+
+
+def test_a_check_of_what_somebody_saved_meanwhile_is_not_remembered(
+    arm: Path, modelica_library: Path, compiler: Compiling, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The file is as before when it is checked the next time, but another text was right."""
+    file = arm / "Links" / "Base.mo"
+    before = file.read_text()
+
+    def read_later(*arguments: Any) -> RobotPackage:
+        file.write_text(f"// saved\n{before}")
+        return read_package(*arguments)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(robot_check, "read_package", read_later)
+        assert check().status(strict=True) is CheckStatus.RIGHT
+    file.write_text(before)
+    check()
+    assert len(compiler.models) == 6
+
+
+def test_without_a_compiler_all_else_is_checked(
+    arm: Path, modelica_library: Path, compiler: Compiling, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Also what yourdfpy says; nothing of it needs an extra. Whoever asks for more is told what to install."""
+    find = importlib.util.find_spec
+    monkeypatch.setattr(importlib.util, "find_spec", lambda name: None if name == "rumoca" else find(name))
+    Path("arm.urdf").write_text(ARM.replace(' name="own"', ""))
+    rebuild()
+    result = check()
+    assert "second-reader-failed" in [one.code for one in result.diagnostics]
+    (gap,) = result.gaps
+    assert gap.startswith("nothing was compiled: there is no compiler: rumoca is not installed; pip install")
+    assert result.status(strict=False) is CheckStatus.INCOMPLETE
+    assert codes(check(physics=True)) == ["no-compiler"]
+    replace(arm / "Arm.mo", "connect(shoulder.frame_b, ", "connect(sholder.frame_b, ")
+    assert codes(check()) == ["unresolved"]
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="names of files are Unicode there")
+def test_in_a_folder_that_is_not_utf8_the_compiler_gets_copies(
+    arm: Path, modelica_library: Path, compiler: Compiling, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    folder = tmp_path / os.fsdecode(b"caf\xe9")
+    folder.mkdir()
+    for name in ("arm.urdf", "urdfsync.toml"):
+        shutil.copy(name, folder)
+    monkeypatch.chdir(folder)
+    rebuild()
+    write({"Pumps/package.mo": "package Pumps\n  model Small\n  end Small;\nend Pumps;\n"})
+    write(
+        {
+            "Arm/Own.mo": "within Arm;\nmodel Own\n  Pumps.Small pump;\nend Own;\n",
+            "Bench.mo": "model Bench\n  Arm.Arm a;\nend Bench;\n",
+        }
+    )
+    result = check()
+    assert (result.status(strict=True), len(result.compiled)) == (CheckStatus.RIGHT, 4)
+    assert "Bench" in compiler.models
+    assert any(root.endswith("/Pumps") for root in compiler.roots)
+    assert all(root.encode() for root in compiler.roots)
+
+
+@pytest.mark.parametrize("built", [True, False])
+def test_without_a_library_nothing_is_compiled(arm: Path, built: bool) -> None:
+    """The configuration names a folder with nothing in it; a robot that is not built is checked as it would be."""
+    if not built:
+        shutil.rmtree(arm)
+        shutil.rmtree(".urdfsync")
+    Path("nothing").mkdir()
+    with Path("urdfsync.toml").open("a") as file:
+        file.write('[check]\nlibrary = "nothing"\n')
+    result = check()
+    assert (result.built, result.in_step) == (built, built)
+    assert codes(result) == ["wrong-library-folder"]
+    assert any("nothing was compiled" in sentence for sentence in result.gaps)
+
+
+def test_nothing_is_compiled_that_does_not_parse(arm: Path) -> None:
+    (arm / "Joints" / "Elbow.mo").write_text("within Arm.Joints;\nmodel Elbow\n  Real x = ;\nend Elbow;\n")
+    result = check()
+    assert result.failed
+    assert [(one.code, one.file, one.line) for one in result.diagnostics] == [
+        ("syntax", "modelica/Arm/Joints/Elbow.mo", 3),
+    ]
+    assert result.compiled == ()
+    assert result.gaps == ("nothing was compiled, since files have errors",)
+
+
+def test_a_source_with_errors_is_told(arm: Path) -> None:
+    Path("arm.urdf").write_text(ARM[: len(ARM) // 2])
+    result = check()
+    assert result.failed
+    assert result.diagnostics[0].file == "arm.urdf"
+
+
+def test_a_file_that_goes_is_missed_although_the_package_was_right(
+    arm: Path, modelica_library: Path, compiler: Compiling
+) -> None:
+    """No fingerprint knows of it. A link in the documentation is none of its business."""
+    cover, hand = '  parameter String cover = "modelica://Arm/Resources/cover.stl";\n', arm / "Links" / "Hand.mo"
+    replace(hand, "equation\n", f"{cover}equation\n")
+    replace(hand, "end Hand;", 'end Hand; // see "<a href=modelica://Arm/Resources/none.html>"')
+    (arm / "Resources").mkdir(exist_ok=True)
+    (arm / "Resources" / "cover.stl").touch()
+    assert [check().status(strict=True) for _ in range(2)] == [CheckStatus.RIGHT] * 2
+    assert len(compiler.models) == 3
+    (arm / "Resources" / "cover.stl").unlink()
+    (found,) = check().diagnostics
+    line = hand.read_text().split("\n").index(cover.rstrip("\n")) + 1
+    assert (found.code, found.file, found.line) == ("missing-resource", "modelica/Arm/Links/Hand.mo", line)
+    assert len(compiler.models) == 3
+
+
+# --- names ------------------------------------------------------------------------------------------------------------
+
+
+def test_a_user_reads_what_is_missing_in_files_around(arm: Path, modelica_library: Path, compiler: Compiling) -> None:
+    write(BROKEN)
+    result = check()
+    nested = "the redeclaration of `elbow` inside of another modifier is not checked: rumoca ignores it"
+    assert lines(result) == [
+        "Draft.mo:3: warning: the file lacks `;` before `end`; ",
+        f"Bench/MyBench.mo:2: warning: {nested}; "
+        "write a model that says `extends Arm.Arm(redeclare … elbow)`, and use that instead",
+        "Bench/MyBench.mo:4: error: MyArm has no `laod`; did you mean `mine.load`?",
+        "Bench/MyBench.mo:4: error: Elbow has no `axs`; did you mean `robot.elbow.axis.tau`?",
+        "Bench/MyBench.mo:5: error: MyBench has no `whatever`; ",
+        "MyArm.mo:3: error: Arm has no `elbo`; did you mean `elbow`?",
+        "MyArm.mo:3: error: RotationalDynamics has no `dampin`; did you mean `damping`?",
+        "MyArm.mo:4: error: there is no class `Arm.Links.Hnd`; did you mean `Arm.Links.Hand`?",
+        "MyArm.mo:7: error: MyArm has no `elbwo`; did you mean `elbow.axis`?",
+    ]
+    assert result.failed
+    assert [one.model for one in result.compiled if one.is_users] == ["MyBench", "MyArm"]
+    assert len(result.compiled) == 5, "the package itself is right"
+    assert result.gaps == ("modelica/Draft.mo outside of the package: nothing there was compiled",)
+
+
+@pytest.mark.parametrize(
+    ("files", "models", "roots"),
+    [
+        ({"Cell.mo": "model Cell\n  Arm.Arm a;\nend Cell;\n"}, ["Cell"], ["Cell.mo"]),
+        (
+            {
+                "Plant/package.mo": "package Plant\nend Plant;\n",
+                "Plant/Cells/package.mo": "within Plant;\npackage Cells\n  model Two = Arm.Arm;\nend Cells;\n",
+                "Plant/Cells/One.mo": "within Plant.Cells;\nblock One\n  Arm.Arm a;\nend One;\n",
+                "Plant/Base.mo": "within Plant;\npartial model Base\n  Arm.Arm a;\nend Base;\n",
+            },
+            ["Plant.Cells.One", "Plant.Cells.Two"],
+            ["Plant"],
+        ),
+    ],
+)
+def test_models_beside_the_package_are_compiled_with_it(
+    arm: Path, modelica_library: Path, compiler: Compiling, files: dict[str, str], models: list[str], roots: list[str]
+) -> None:
+    write(files)
+    result = check()
+    assert [one.model for one in result.compiled if one.is_users] == models
+    assert {str(Path("modelica", root).resolve()) for root in roots} <= set(compiler.roots)
+    assert (result.status(strict=True), result.gaps) == (CheckStatus.RIGHT, ())
+
+
+@pytest.mark.parametrize(
+    ("file", "text"),
+    [
+        ("Other.mo", "model Cell\n  Arm.Arm a;\nend Cell;\n"),
+        ("Cell.mo", "within Plant;\nmodel Cell\n  Arm.Arm a;\nend Cell;\n"),
+        ("Cell.mo", "model Cell\n  Arm.Arm a;\nend Cell;\nmodel Cell2\nend Cell2;\n"),
+    ],
+)
+def test_a_model_that_no_compiler_would_find_keeps_the_verdict_from_being_right(
+    arm: Path, modelica_library: Path, compiler: Compiling, file: str, text: str
+) -> None:
+    write({file: text})
+    result = check()
+    assert result.status(strict=False) is CheckStatus.INCOMPLETE
+    assert result.gaps == (f"modelica/{file} outside of the package: nothing there was compiled",)
+
+
+def test_a_model_of_the_user_that_does_not_compile_is_a_warning_at_its_file(
+    arm: Path, modelica_library: Path, compiler: Compiling
+) -> None:
+    write({"Cell.mo": "model Cell\n  Arm.Arm a;\nend Cell;\n"})
+    compiler.problems["Cell"] = "unbalanced model: 2 equations, 3 unknowns"
+    result = check()
+    assert (result.tools[0].failing, len(result.compiled)) == (("Cell",), 3)
+    hint = "a part of other models need not compile by itself"
+    assert lines(result) == [f"Cell.mo:0: warning: there is 1 equation too few; {hint}"]
+
+
+def test_a_part_of_a_model_that_compiles_need_not_compile_by_itself(
+    arm: Path, modelica_library: Path, compiler: Compiling
+) -> None:
+    part, line = "model Part\n  Arm.Arm a;\nend Part;\n", "model Line\n  Part part;\nend Line;\n"
+    write({"Part.mo": part, "Line.mo": line})
+    compiler.problems["Part"] = "unbalanced model: 2 equations, 3 unknowns"
+    result = check()
+    assert (result.tools[0].failing, result.diagnostics) == ((), ())
+    compiler.problems["Line"] = compiler.problems["Part"]
+    assert check(fresh=True).tools[0].failing == ("Line", "Part")
+
+
+def test_only_models_whose_names_mean_the_package_are_compiled_with_it(
+    arm: Path, modelica_library: Path, compiler: Compiling
+) -> None:
+    """`Elbow` and `Arm` are words that other robots have as well."""
+    other = "within Other;\nmodel %s\n  %s part;\nend %s;\n"
+    write(
+        {
+            "Other/package.mo": "package Other\nend Other;\n",
+            "Other/Elbow.mo": other % ("Elbow", "Real", "Elbow"),
+            "Other/Arm.mo": other % ("Arm", "Elbow", "Arm"),
+            "Other/Bad.mo": other % ("Bad", "Arm.nothing", "Bad"),
+            "Cell.mo": "model Cell\n  Arm.Arm a;\nend Cell;\n",
+            "Line.mo": "model Line\n  Cell cell;\nend Line;\n",
+            "Elsewhere.mo": "model Elsewhere\n  Other.Arm arm;\n  Real x = Elbow.y;\nend Elsewhere;\n",
+        }
+    )
+    result = check()
+    assert (result.diagnostics, result.gaps) == ((), ())
+    assert [one.model for one in result.compiled if one.is_users] == ["Cell", "Line"]
+
+
+def test_other_line_ends_are_no_edit_and_comments_move_nothing(arm: Path) -> None:
+    base = arm / "Links" / "Base.mo"
+    base.write_bytes(base.read_bytes().replace(b"\n", b"\r\n"))
+    replace(arm / "Links" / "Hand.mo", "model Hand", "// looked at\nmodel Hand")
+    replace(arm / "Joints" / "ElbowParameters.mo", "damping = 0.1", "damping = 0.2")
+    loaded = config.load(Path("urdfsync.toml").absolute())
+    package = read_package(loaded, loaded.robots[0], BuildOptions(dry=True))
+    assert package.files.edited == ["Joints/ElbowParameters.mo", "Links/Hand.mo"]
+    assert package.edits == ("Joints/ElbowParameters.mo",)
+
+
+def test_a_model_whose_new_name_waits_is_not_the_users(arm: Path) -> None:
+    """The package on disk has the old names until the conflict is resolved."""
+    replace(arm / "Arm.mo", "shoulder(", "shoulder(fixedStart = true, ")
+    replace(arm / "Joints" / "Elbow.mo", "model Elbow", "// looked at\nmodel Elbow")
+    source = Path("arm.urdf")
+    source.write_text(source.read_text().replace('"elbow"', '"hinge"').replace('name="shoulder"', 'name="lift"'))
+    loaded = config.load(Path("urdfsync.toml").absolute())
+    package = read_package(loaded, loaded.robots[0], BuildOptions(dry=True))
+    assert package.conflicting
+    assert "Joints/Elbow.mo" in package.written
+    assert package.files.models_not_in(package.generated.keys() | package.written) == []
+
+
+def test_the_package_is_not_compiled_if_names_in_it_mean_nothing(arm: Path, without_library: None) -> None:
+    replace(arm / "Arm.mo", "connect(shoulder.frame_b, ", "connect(sholder.frame_b, ")
+    result = check()
+    (line,) = lines(result)
+    assert "error: robot: Arm has no `sholder`; did you mean `shoulder.frame_b`?" in line
+    assert line.endswith("the file was edited by hand")
+    assert result.gaps == ("nothing was compiled, since names in the package do not exist",)
+
+
+def test_a_frame_that_the_configuration_does_not_list_is_told_with_its_key(arm: Path, without_library: None) -> None:
+    bench = "model Bench\n  Arm.Arm robot;\nequation\n  connect(robot.%s, robot.frame_a);\nend Bench;\n"
+    with Path("urdfsync.toml").open("a") as file:
+        file.write('frames = ["arm"]\n')
+    rebuild()
+    frames = re.findall(r"Frame_b (\w+)", (arm / "Arm.mo").read_text())
+    (name,) = [name for name in frames if "arm" in name.lower()]
+    write({"Bench.mo": bench % name})
+    assert lines(check()) == []
+    replace(Path("urdfsync.toml"), 'frames = ["arm"]\n', 'frames = ["base"]\n')
+    rebuild()
+    assert lines(check()) == [
+        f'Bench.mo:4: error: Arm has no `{name}`; set `frames = ["base", "arm"]` to bring it back'
+    ]
+
+
+@pytest.mark.parametrize(
+    ("files", "expected"),
+    [
+        (  # of the classes of that library which UrdfSync extends, the elements are known
+            {"MyArm.mo": BROKEN["MyArm.mo"]},
+            [
+                "MyArm.mo:3: error: Arm has no `elbo`",
+                "MyArm.mo:3: error: RotationalDynamics has no `dampin`",
+                "MyArm.mo:4: error: there is no class `Arm.Links.Hnd`",
+                "MyArm.mo:7: error: MyArm has no `elbwo`",
+            ],
+        ),
+        (
+            {"Own.mo": "model Own\n  extends Arm.Joints.Elbow;\n  Real x = wrong.x;\nend Own;\n"},
+            ["Own.mo:3: error: Own has no `wrong`"],
+        ),
+        ({"Own.mo": "model Own\n  extends Modelica.Math.M;\n  Arm.Arm a;\n  Real x = inherited.x;\nend Own;\n"}, []),
+        ({".backup/MyArm.mo": BROKEN["MyArm.mo"], "Resources/MyArm.mo": BROKEN["MyArm.mo"]}, []),
+    ],
+)
+def test_without_the_standard_library_nothing_is_said_of_what_it_may_hold(
+    arm: Path, without_library: None, files: dict[str, str], expected: Sequence[str]
+) -> None:
+    write(files)
+    assert [line.partition(";")[0] for line in lines(check())] == expected
+
+
+def test_packages_of_other_robots_are_left_alone(arm: Path, without_library: None) -> None:
+    shutil.copytree(arm, arm.parent / "Other")
+    with Path("urdfsync.toml").open("a") as file:
+        file.write('[robots.other]\nsource = "arm.urdf"\npackage = "Other"\n')
+    write({"Other/Bad.mo": "within Other;\nmodel Bad\n  Arm.Bad bad;\nend Bad;\n"})
+    assert lines(check()) == []

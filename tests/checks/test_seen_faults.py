@@ -1,0 +1,188 @@
+"""Faults that are put one at a time into templates, library, reader and a user's edits: the comparison sees each."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+import pytest
+from support import physics
+from support.modelica import URDFSYNC
+from support.urdfs import dynamics, joint, limit, link, links, mimic, robot
+
+from urdfsync.checks.results import agrees
+from urdfsync.domain import Deviation, Part
+
+pytestmark = pytest.mark.slow
+
+GEAR = (
+    '<transmission name="t"><joint name="elbow"><offset>0.2</offset></joint><actuator name="m">'
+    "<mechanicalReduction>50</mechanicalReduction><drake:rotor_inertia>1e-4</drake:rotor_inertia>"
+    "</actuator></transmission>"
+)
+IMU = '<gazebo reference="hand"><sensor name="imu" type="imu"><pose>0.1 0.2 -0.3 0.4 -0.5 0.6</pose></sensor></gazebo>'
+LOAD = '<gazebo reference="elbow"><sensor name="load" type="force_torque"/></gazebo>'
+SOURCE = robot(
+    *links(base=4.0, upper=2.5, hand=0.7),
+    link("finger", 0.3),
+    joint("shoulder", "revolute", "base", "upper", axis="0 1 0", inside=[limit(0.2, 2, 3, 90), dynamics(0.5, 0.4)]),
+    joint("elbow", "continuous", "upper", "hand", axis="0.3 -0.4 1.2", inside=[dynamics(0.1, 0.2)]),
+    joint("grip", "prismatic", "hand", "finger", axis="0 1 0", inside=[mimic("shoulder", 0.1, 0.02), limit(-1, 1)]),
+    *(GEAR, IMU, LOAD),
+)
+
+
+class Fault(NamedTuple):
+    """A text of a file that is replaced by another; `part` is what has to differ then, at the least."""
+
+    part: Part
+    file: str
+    old: str
+    new: str
+
+
+B, L, F, R, S, W, G = (
+    *(Part.BODIES, Part.LOSSES, Part.FREE_MOTION, Part.BENCHES),
+    *(Part.SENSORS, Part.LIMITS, Part.CONTACTS),
+)
+POINT = "Contacts/Functions/point.mo"
+SHOULDER, ELBOW, GRIP, HAND = (
+    f"{place}.mo" for place in ("Joints/Shoulder", "Joints/Elbow", "Joints/Grip", "Links/Hand")
+)
+PACKAGE: Mapping[str, Fault] = {
+    "order of a joint's turns": Fault(B, ELBOW, "{3, 2, 1}", "{1, 2, 3}"),
+    "sign of an axis": Fault(B, ELBOW, "n = parameters.axis", "n = -parameters.axis"),
+    "centre of mass": Fault(
+        B, HAND, "r_CM = parameters.inertial.origin.xyz", "r_CM = 1.01*parameters.inertial.origin.xyz"
+    ),
+    "sign of an inertia off the diagonal": Fault(B, HAND, "I_21 = I[2, 1]", "I_21 = -I[2, 1]"),
+    "rotor without its reduction": Fault(B, ELBOW, "rotorInertia*parameters.transmission.reduction^2", "rotorInertia"),
+    "no friction": Fault(L, "Joints/ShoulderParameters.mo", "friction = 0.4", "friction = 0"),
+    "damping of another number": Fault(L, "Joints/ShoulderParameters.mo", "damping = 0.5", "damping = 0.4"),
+    "reduction": Fault(L, "Joints/ElbowParameters.mo", "reduction = 50", "reduction = 5"),
+    "offset of a gear": Fault(L, "Joints/ElbowParameters.mo", "offset = 0.2", "offset = -0.2"),
+    "multiplier of a mimic": Fault(B, "Joints/GripParameters.mo", "multiplier = 0.1", "multiplier = -0.1"),
+    "offset of a mimic": Fault(B, "Joints/GripParameters.mo", "offset = 0.02", "offset = 0"),
+    "start that is not applied": Fault(F, SHOULDER, "phi(start = phi_start, ", "phi(start = 0, "),
+    "speed that is not applied": Fault(F, SHOULDER, "w(start = w_start, ", "w(start = 0, "),
+    "axes of an IMU": Fault(S, "ArmSensors.mo", "rpy = {0.4, -0.5, 0.6}", "rpy = {0.6, -0.5, 0.4}"),
+    "sign of a wrench": Fault(S, "Arm.mo", "f_joint = elbow.frame_b.f", "f_joint = -elbow.frame_b.f"),
+    "sign of a limit": Fault(
+        W,
+        SHOULDER,
+        "isAtMost(parameters.limits.lower, revolute.phi)",
+        "isAtMost(revolute.phi, parameters.limits.lower)",
+    ),
+    "limit that never warns": Fault(W, SHOULDER, "(abs(revolute.w), parameters", "(0.5*abs(revolute.w), parameters"),
+    "limit of the effort without sign": Fault(W, "Arm.mo", "abs(shoulderAxis.tau)", "shoulderAxis.tau"),
+    "limit that names another joint": Fault(
+        W, "Arm.mo", '".shoulder (joint " + shoulder.parameters', '".shoulder (joint " + elbow.parameters'
+    ),
+    "record with another joint's name": Fault(W, "Joints/ShoulderParameters.mo", 'name = "shoulder"', 'name = "elbow"'),
+    "height of the stance": Fault(G, "CartStance.mo", "height = 0.1", "height = 0.10001"),
+    "friction of a link": Fault(G, "Links/LeftParameters.mo", "mu = 0.5", "mu = 0.6"),
+    "limit that is read wrongly": Fault(W, "Joints/ShoulderParameters.mo", "upper = 2", "upper = 2.1"),
+    "input at another axis": Fault(
+        R, "ArmRun.mo", "connect(elbow_phi, elbowDrive.phi_ref)", "connect(shoulder_phi, elbowDrive.phi_ref)"
+    ),
+    "two sources exchanged": Fault(
+        R, "ArmRun.mo", "elbowDrive.flange, robot.elbowAxis", "elbowDrive.flange, robot.shoulderAxis"
+    ),
+    "gravity of Test": Fault(
+        R,
+        "ArmTest.mo",
+        "extends UrdfSync.Robots.PartialBench;",
+        "extends UrdfSync.Robots.PartialBench(world(g = 1.62));",
+    ),
+    "Test within another joint's limits": Fault(
+        R, "ArmTest.mo", "phi_max = robot.shoulder.phi_max", "phi_max = robot.elbow.phi_max"
+    ),
+}
+"""In the text that a template gives, as a fault of the template, of the reader or of a number of the user's would."""
+LIBRARY: Mapping[str, Fault] = {
+    "sign of friction": Fault(
+        L, "Friction/Rotational.mo", "+ parameters.friction*tanh(", "- parameters.friction*tanh("
+    ),
+    "steepness of friction": Fault(L, "Friction/Rotational.mo", "tanh(0.5*parameters", "tanh(parameters"),
+    "sign of damping": Fault(L, "Friction/Rotational.mo", "parameters.damping*w", "parameters.damping*abs(w)"),
+    "effort of a mimic": Fault(B, "Couplings/RotationalToTranslational.mo", "leader.tau + ", "leader.tau - "),
+    "gravity in an IMU": Fault(S, "Sensors/Imu.mo", "a = acceleration - ", "a = acceleration + "),
+    "gravity of the bench": Fault(F, "Robots/PartialBench.mo", "n = {0, 0, -1}", "n = {0, 0, 1}"),
+    "where a joint begins": Fault(F, "Functions/closestToZero.mo", "min(max(", "max(max("),
+    "turned inertia": Fault(B, "Functions/inertiaInLinkAxes.mo", "I := R*[", "I := transpose(R)*["),
+}
+
+
+def standing(part: str, shape: str, xyz: str = "0 0 0") -> str:
+    """A link with a collision."""
+    collision = f'<collision><origin xyz="{xyz}"/><geometry><{shape}/></geometry></collision>'
+    return part.replace("</link>", f"{collision}</link>")
+
+
+CART = robot(
+    standing(link("base", 8.0), 'sphere radius="0.02"', "0.3 0 -0.081"),
+    *(standing(link(side, 1.0), 'cylinder radius="0.1" length="0.04"') for side in ("left", "right")),
+    *(
+        joint(side, "continuous", "base", f"{side}", xyz=f"-0.1 {y} 0", rpy="-1.5707963267948966 0 0", axis="0 0 1")
+        for side, y in (("left", 0.2), ("right", -0.2))
+    ),
+    '<gazebo reference="base"><minDepth>0.001</minDepth></gazebo>',
+    '<gazebo reference="left"><mu1>0.5</mu1><kp>2e5</kp></gazebo>',
+    '<gazebo reference="right"><mu1>0.5</mu1><kp>3e5</kp><kd>20</kd></gazebo>',
+)
+FLOATING: Mapping[str, Fault] = {
+    "order of a free base's angles": Fault(F, "Robots/FreeBase.mo", "{3, 2, 1}", "{1, 2, 3}"),
+    "frame of a free base's speed": Fault(
+        F, "Robots/FreeBase.mo", "w_rel_a_start = w_start", "w_rel_a_start = -w_start"
+    ),
+    "sign of the ground's friction": Fault(G, POINT, "f_n*(n - friction", "f_n*(n + friction"),
+    "ground that pulls": Fault(
+        G, POINT, "max(0, stiffness*p*max(0, 1 - damping*v_n) - viscosity*v_n)", "stiffness*p*(1 - damping*v_n)"
+    ),
+    "ground of ten times its stiffness": Fault(
+        G, "Contacts/Ground.mo", "stiffness = load/penetration", "stiffness = 10*load/penetration"
+    ),
+    "ground that feeds in energy": Fault(G, POINT, "1 - damping*v_n", "1 + damping*v_n"),
+    "height of a rim": Fault(G, "Contacts/Functions/cylinder.mo", "(c*R[:, 3] - n)", "(c*R[:, 3] + n)"),
+    "force of the ground on no link": Fault(G, "Contacts/PartialContact.mo", "frame_a.f = -f", "frame_a.f = zeros(3)"),
+}
+
+
+def prepared(fault: Fault, name: str, **options: str) -> physics.Case:
+    """The robot, and the one simulation in which a fault shows."""
+    trial = {Part.FREE_MOTION: "free motion", Part.BENCHES: ""}.get(fault.part, "motion")
+    source = CART if fault.part is Part.CONTACTS else SOURCE
+    return physics.prepare(source.encode(), name, **options).only(trial)
+
+
+def is_seen(fault: Fault, deviations: Sequence[Deviation]) -> bool:
+    return any(each.part is fault.part for each in deviations if not agrees(each))
+
+
+def test_without_a_fault_all_is_right(modelica_library: Path, tmp_path: Path) -> None:
+    cases = [physics.prepare(SOURCE.encode(), "Arm"), physics.prepare(CART.encode(), "Cart", base="floating")]
+    arm, cart = physics.compare(modelica_library, tmp_path, cases)
+    assert physics.fault(arm) is physics.fault(cart) is None
+    assert {each.part for each in (*arm, *cart)} == {*Part}
+
+
+@pytest.mark.parametrize("fault_name", PACKAGE)
+def test_a_fault_in_a_package_is_seen(fault_name: str, modelica_library: Path, tmp_path: Path) -> None:
+    fault = PACKAGE[fault_name]
+    name, options = ("Cart", {"base": "floating"}) if fault.part is Part.CONTACTS else ("Arm", {})
+    case = prepared(fault, name, **options).changed(fault.file, fault.old, fault.new)
+    (found,) = physics.compare(modelica_library, tmp_path, [case])
+    assert is_seen(fault, found)
+
+
+@pytest.mark.parametrize(("name", "base"), [(name, "fixed") for name in LIBRARY] + [(n, "floating") for n in FLOATING])
+def test_a_fault_in_the_library_is_seen(name: str, base: str, modelica_library: Path, tmp_path: Path) -> None:
+    fault, own = {**LIBRARY, **FLOATING}[name], tmp_path / "own" / "UrdfSync"
+    shutil.copytree(URDFSYNC, own, ignore=shutil.ignore_patterns("Images", "robots"))
+    text = (own / fault.file).read_text("utf-8")
+    assert fault.old in text
+    (own / fault.file).write_text(text.replace(fault.old, fault.new), "utf-8")
+    (found,) = physics.compare(modelica_library, tmp_path, [prepared(fault, "Bot", base=base)], own)
+    assert is_seen(fault, found)

@@ -1,0 +1,302 @@
+"""A simulation from the configuration to series: what is compiled, what comes back, what is refused."""
+
+from __future__ import annotations
+
+import math
+import os
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from support.modelica import CACHE, URDFSYNC
+from support.simulation import Compiler
+
+from urdfsync import config
+from urdfsync.checks import libraries
+from urdfsync.checks.compilers.compiler import CompileResult, SimulationResult
+from urdfsync.diagnostics import Severity, UrdfsyncError
+from urdfsync.engine.options import no_progress
+from urdfsync.simulation.results import SimulateOptions, SimulateResult
+from urdfsync.simulation.run import simulate
+
+OWN = "model Own\n  extends Arm.ArmTest;\n  parameter Real k = 2;\n  Real y = k*time;\nend Own;\n"
+
+
+def run(**options: Any) -> SimulateResult:
+    found = config.load(Path("urdfsync.toml"))
+    return simulate(found, found.robots[0], SimulateOptions(**options), no_progress)
+
+
+def refused(**options: Any) -> str:
+    with pytest.raises(UrdfsyncError) as caught:
+        run(**options)
+    return str(caught.value)
+
+
+def test_test_is_simulated_as_its_annotation_says(compiler: Compiler) -> None:
+    result = run()
+    (task,) = compiler.jobs[0].tasks
+    assert "extends Arm.ArmTest;" in task.source
+    assert [(one.stop, one.step, one.tolerance) for one in task.runs] == [(10.0, 0.02, 1e-6)]
+    assert (result.model, result.stop, result.step, result.is_known) == ("Arm.ArmTest", 10.0, 0.02, False)
+    assert [joint.element for joint in result.joints] == ["joint shoulder", "joint elbow"]
+    assert result.series == compiler.values
+
+
+def test_a_limit_that_is_passed_is_a_warning(compiler: Compiler) -> None:
+    (found,) = run().diagnostics
+    assert (found.severity, found.code) == (Severity.WARNING, "limit-passed")
+    assert found.message == "joint shoulder: position passes its limit, 2 rad, at 2 s; by up to 0.5 rad, for 0 s"
+    Path("urdfsync.toml").write_text(Path("urdfsync.toml").read_text() + 'ignore = ["limit-passed"]\n')
+    assert run().diagnostics == ()
+
+
+def test_arguments_come_before_the_annotation(compiler: Compiler) -> None:
+    run(stop=3.0, step=0.5, tolerance=1e-4, method="bdf", values=("robot.elbow.parameters.dynamics.damping=4",))
+    (task,) = compiler.jobs[0].tasks
+    assert "extends Arm.ArmTest(robot(elbow(parameters(dynamics(damping = 4)))));" in task.source
+    assert task.parameters == ("robot.elbow.parameters.dynamics.damping",)
+    (one,) = task.runs
+    assert (one.stop, one.step, one.tolerance, one.method) == (3.0, 0.5, 1e-4, "bdf")
+
+
+def test_a_model_without_annotation_has_the_defaults(compiler: Compiler) -> None:
+    Path("Own.mo").write_text(OWN)
+    result = run(model="Own")
+    assert (result.stop, result.step, result.tolerance) == (1.0, 0.002, 1e-6)
+    assert str(Path("Own.mo").resolve()) in compiler.jobs[0].roots
+
+
+@pytest.mark.parametrize("place", ["Cells/package.mo", "elsewhere/Cells/package.mo", "elsewhere/Cells.mo"])
+def test_models_of_the_user_are_found(
+    compiler: Compiler, modelica_library: Path, place: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    file = Path(place)
+    file.parent.mkdir(parents=True, exist_ok=True)
+    file.write_text("package Cells\n" + OWN + "end Cells;\n")
+    monkeypatch.setenv("MODELICAPATH", os.pathsep.join((str(modelica_library), str(Path("elsewhere").resolve()))))
+    assert run(model="Cells.Own").model == "Cells.Own"
+
+
+def test_inputs_follow_the_motion_and_drives_the_inputs(compiler: Compiler) -> None:
+    Path("m.csv").write_text("time,shoulder_phi,elbow_phi [deg]\n0,0,0\n0.5,1,90\n2,2,180\n")
+    result = run(motion=Path("m.csv"))
+    assert (result.model, result.stop) == ("Arm.ArmRun", 2.0)
+    assert "extends Arm.ArmRun(shoulderDrive(exact = true), elbowDrive(exact = true));" in compiler.source
+    assert "shoulder_phi = course1(time);" in compiler.source
+    assert "constant Real q2[3] = {0.0, 1.5707963267948966, 3.141592653589793};" in compiler.source
+
+
+def test_the_same_is_simulated_once(compiler: Compiler, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.undo()
+    monkeypatch.chdir(tmp_path / "project")
+    monkeypatch.setattr("urdfsync.checks.compilers.run_job", compiler)
+    monkeypatch.setattr("platformdirs.user_cache_path", lambda *_, **__: tmp_path / "cache")
+    first, second = run(), run()
+    assert (first.is_known, second.is_known, len(compiler.jobs)) == (False, True, 1)
+    assert second.series == {name: tuple(values) for name, values in first.series.items()}
+    file = Path("modelica/Arm/Joints/ElbowParameters.mo")
+    file.write_text(file.read_text().replace("damping = 0.5", "damping = 0.75"))
+    assert not run().is_known, "an edit"
+    assert not run(stop=1.0).is_known
+
+
+def test_a_package_that_is_out_of_step_is_simulated_with_a_warning(compiler: Compiler) -> None:
+    file = Path("arm.urdf")
+    file.write_text(file.read_text().replace('damping="0.5"', 'damping="0.7"'))
+    assert [one.code for one in run().diagnostics] == ["out-of-step", "limit-passed"]
+
+
+def test_a_model_without_the_robot_has_no_joints(compiler: Compiler) -> None:
+    compiler.values = {"time": (0.0, 1.0)}
+    assert [one.code for one in run().diagnostics] == ["no-joints"]
+
+
+def write(text: str, name: str = "m.csv") -> Callable[[], None]:
+    return lambda: (Path(name).write_text(text), None)[1]
+
+
+MOTION = "time,shoulder_phi,elbow_phi\n0,0,0\n2,2,2\n"
+
+
+@pytest.mark.parametrize(
+    ("prepare", "options", "words"),
+    [
+        (None, {"model": "ArmTst"}, "there is no model `ArmTst`; did you mean `ArmTest`?"),
+        (None, {"model": "Arm.ArmTst"}, "did you mean `ArmTest`?"),
+        (None, {"model": "Plant.Cell"}, "libraries are found beside the package"),
+        (None, {"model": "Links"}, "it is a package"),
+        (None, {"model": "ArmRun"}, "`Arm.ArmRun` has inputs; give a CSV file with `--input`; its first line is "
+         "time,shoulder_phi,elbow_phi"),
+        (write(MOTION), {"model": "ArmTest", "motion": Path("m.csv")}, "the model has no inputs that a motion could "
+         "drive; leave `--input` out"),
+        (write(MOTION), {"motion": Path("m.csv"), "stop": 3.0}, "the motion ends at 2 s, before the stop time, 3 s"),
+        (None, {"method": "bdff"}, "did you mean `bdf`?"),
+        (None, {"values": ("a",)}, "gives no value"),
+        (write("not a robot", "arm.urdf"), {}, "arm.urdf"),
+    ],
+)  # fmt: skip
+def test_bad_input_is_refused_before_anything_is_compiled(
+    compiler: Compiler, prepare: Callable[[], None] | None, options: dict[str, Any], words: str
+) -> None:
+    if prepare:
+        prepare()
+    assert words in refused(**options)
+    assert compiler.jobs == []
+
+
+def test_a_package_that_is_not_built_is_refused(compiler: Compiler) -> None:
+    shutil.rmtree("modelica")
+    assert "is not built; run `urdfsync build`" in refused()
+
+
+@pytest.mark.parametrize(
+    ("problem", "words"),
+    [
+        ("Modelica assert failed at t=0.25: too late", "stops at 0.25 s: Modelica assert failed"),
+        ("non-finite derivative evaluation for state 'x'", "stops before its end: non-finite"),
+        ("initial variable projection did not satisfy the residual system", "does not initialise"),
+        ("assert failed at t=0.000: too late", "does not initialise"),
+        ("The following assertion has been violated at time 0.500000", "stops at 0.5 s"),
+        ("The corrector could not converge.; can't continue. time = 0.000000", "does not initialise"),
+    ],
+)
+def test_a_simulation_that_fails_says_when(compiler: Compiler, problem: str, words: str) -> None:
+    compiler.results = [CompileResult(runs=(SimulationResult(problem=problem),))] * 2
+    assert words in refused()
+
+
+def test_results_until_a_simulation_stops_are_kept(compiler: Compiler) -> None:
+    """And it is simulated again the next time."""
+    stopped = SimulationResult(problem="Modelica assert failed at t=2.25: too late")
+    compiler.results = [CompileResult(runs=(stopped,))]
+    result = run(step=0.25)
+    assert [one.stop for job in compiler.jobs for one in job.tasks[0].runs] == [10.0, 2.0]
+    assert result.series["time"] == (0.0, 1.0, 2.0)
+    assert [one.element for one in result.joints] == ["joint shoulder", "joint elbow"]
+    (error,) = (one for one in result.diagnostics if one.severity is Severity.ERROR)
+    assert "stops at 2.25 s: Modelica assert failed" in error.message
+    assert error.message.endswith("results until 2 s are kept")
+    assert not any(one.severity is Severity.ERROR for one in run(step=0.25).diagnostics)
+    assert len(compiler.jobs) == 3
+
+
+def test_a_model_that_ends_the_simulation_is_a_note(compiler: Compiler) -> None:
+    ended = SimulationResult(compiler.values, termination="landed", parameters=compiler.parameters)
+    compiler.results = [CompileResult(runs=(ended,))]
+    assert "`Arm.ArmTest` ends the simulation at 2 s: landed" in [one.message for one in run().diagnostics]
+
+
+def test_a_parameter_that_does_not_exist_is_refused_with_the_nearest(compiler: Compiler) -> None:
+    compiler.results = [CompileResult(parameters=("robot.elbow.parameters.dynamics.damping",))]
+    found = refused(values=("robot.elbow.parameters.dynamics.dampin=1",))
+    assert "did you mean `robot.elbow.parameters.dynamics.damping`?" in found
+    compiler.results = [CompileResult("unbalanced model: 4 equations, 3 unknowns"), CompileResult(parameters=("a",))]
+    assert "has no parameter `b`" in refused(values=("b=1",)), "what is set keeps the model from compiling"
+    assert [bool(job.tasks[0].runs) for job in compiler.jobs[1:]] == [True, False]
+    compiler.results = [CompileResult("unbalanced model: 4 equations, 3 unknowns"), CompileResult()]
+    assert "1 equation too many" in (found := refused(values=("b=1",)))
+    assert "look whether one of these is final, or gets the wrong kind of value: b" in found
+
+
+def test_a_file_that_can_not_be_read_is_told_in_place_of_what_the_compiler_says(compiler: Compiler) -> None:
+    Path("modelica/Arm/Own.mo").write_text("model Own\n  Real\nend Own;")
+    compiler.results = [CompileResult("something or other")]
+    assert refused().startswith("modelica/Arm/Own.mo:3: error: ")
+
+
+def test_what_is_wrong_with_a_model_of_the_user_is_told_of_its_file(compiler: Compiler) -> None:
+    Path("Own.mo").write_text(OWN)
+    compiler.results = [CompileResult("unbalanced model: 2 equations, 3 unknowns")]
+    assert refused(model="Own") == "Own.mo: error: there is 1 equation too few [unbalanced]"
+
+
+# --- with the embedded compiler -----------------------------------------------------------------------------------
+
+
+@pytest.mark.slow
+def test_series_are_those_of_the_compiler_itself(arm: Path, modelica_library: Path) -> None:
+    rumoca = pytest.importorskip("rumoca")
+    result = run(stop=0.5, step=0.1)
+    standard = libraries.find_standard_library({"MODELICAPATH": str(modelica_library)}).parts
+    texts = [file.read_bytes() for file in Path("modelica/Arm").rglob("*.mo")]
+    roots = [libraries.standard_library_copy(standard, texts, CACHE), URDFSYNC, Path("modelica/Arm").resolve()]
+    source = "model P\n  import Modelica;\n  import UrdfSync;\n  import Arm;\n  extends Arm.ArmTest;\nend P;\n"
+    model = rumoca.Session(roots=list(map(str, roots))).loads(source, model="P", filename="P.mo")
+    direct = model.simulate((0, 0.5), config=rumoca.SimConfig(dt=0.1, rtol=1e-6, atol=1e-6))
+    assert len(result.series) == 7
+    for name, values in result.series.items():
+        assert np.array_equal(values, direct.time if name == "time" else direct[name]), name
+
+
+@pytest.mark.slow
+def test_a_motion_comes_back(arm: Path, modelica_library: Path) -> None:
+    times = np.linspace(0, 1, 51)
+    rows = [f"{t!r},{math.sin(2 * t)!r},{math.degrees(math.cos(3 * t))!r}" for t in times.tolist()]
+    Path("m.csv").write_text("\n".join(["time,shoulder_phi,elbow_phi [deg]", *rows, ""]))
+    series = run(motion=Path("m.csv"), step=0.01).series
+    moments = np.array(series["time"])
+    for joint, course in (("shoulder", np.sin(2 * moments)), ("elbow", np.cos(3 * moments))):
+        assert np.abs(series[f"robot.{joint}.revolute.phi"] - course).max() < 1e-6
+        assert np.array_equal(series[f"robot.{joint}.revolute.phi"], series[f"{joint}_phi"]), "as it was asked for"
+
+
+@pytest.mark.slow
+def test_parameters_change_what_they_should(arm: Path, modelica_library: Path) -> None:
+    name = "robot.elbow.parameters.dynamics.damping"
+    variables = ("robot.elbow.friction.*",)
+    found = run(stop=0.2, step=0.1, values=(f"{name}=400",), variables=variables).series
+    speed, torque = found["robot.elbow.friction.w"][-1], found["robot.elbow.friction.tau"][-1]
+    assert torque == pytest.approx(400 * speed + 0.1 * math.tanh(50 * speed))
+    assert f"did you mean `{name}`?" in refused(values=("robot.elbow.parameters.dynamics.dampin=1",))
+    assert "nothing in the compiled model depends on it" in refused(
+        values=("robot.elbow.friction.parameters.damping=1",)
+    )
+    assert "is declared final" in refused(values=("robot.m=1",))
+
+
+@pytest.mark.slow
+def test_a_record_that_is_handed_down_is_not_changed_in_silence(arm: Path, modelica_library: Path) -> None:
+    Path("Twin.mo").write_text("""
+package Twin
+  record Numbers
+    Real mass = 1;
+    Real size = 2;
+  end Numbers;
+  record Whole
+    Numbers first;
+  end Whole;
+  model Part
+    parameter Numbers numbers;
+    Real x(start = 0, fixed = true);
+  equation
+    der(x) = numbers.mass;
+  end Part;
+  model Robot
+    parameter Whole whole;
+    Part part(numbers = whole.first);
+  end Robot;
+  model Both
+    extends Arm.ArmTest;
+    Robot other;
+  end Both;
+end Twin;
+""")
+    values = ("other.whole.first.mass=7",)
+    series = run(model="Twin.Both", stop=0.2, values=values, variables=("other.part.x",)).series
+    assert series["other.part.x"][-1] == pytest.approx(1.4)
+
+
+@pytest.mark.slow
+def test_a_model_of_the_user_is_told_what_is_wrong_with_it(arm: Path, modelica_library: Path) -> None:
+    Path("Own.mo").write_text(OWN.replace("  Real y = k*time;", "  Real z;"))
+    assert refused(model="Own") == "Own.mo: error: there is 1 equation too few [unbalanced]"
+    Path("Own.mo").write_text(OWN.replace("end Own", 'equation\n  assert(time < 0.05, "too late");\nend Own'))
+    result = run(model="Own", stop=0.1, step=0.02)
+    (error,) = result.diagnostics
+    assert "the simulation of `Own` stops at 0.05 s: " in error.message
+    assert error.message.endswith("too late; results until 0.04 s are kept")
+    assert result.series["time"] == pytest.approx([0, 0.02, 0.04])

@@ -1,0 +1,131 @@
+"""`urdfsync simulate` as people type it: what they see, files that they name, exit codes."""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+
+import pytest
+from support.commands import Execute
+from support.simulation import Compiler
+
+from urdfsync.checks.process import LimitError
+from urdfsync.diagnostics import Diagnostic, Severity
+
+SHOWN = """\
+arm: Arm.ArmTest, 10 s in steps of 0.02 s; … s
+  joint     position     limits  speed/limit  effort/limit
+  shoulder  0 … 2.5 rad  -2 … 2  1/3 rad/s    1 N·m
+  elbow     0 … 0.5 rad  -       0 rad/s      -
+"""
+
+
+def test_joints_are_shown_beside_their_limits(compiler: Compiler, execute: Execute) -> None:
+    before = sorted(Path().rglob("*"))
+    printed = execute("simulate")
+    first, *rest = printed.lines
+    assert first.startswith("arm: Arm.ArmTest, 10 s in steps of 0.02 s; ")
+    assert rest == SHOWN.splitlines()[1:]
+    assert printed.errors == [
+        "warning: joint shoulder: position passes its limit, 2 rad, at 2 s; by up to 0.5 rad, for 0 s [limit-passed]"
+    ]
+    assert max(map(len, printed.lines)) <= 80
+    assert sorted(Path().rglob("*")) == before
+
+
+def test_all_arguments_reach_the_compiler(compiler: Compiler, execute: Execute) -> None:
+    execute(
+        *("simulate", "arm", "--model", "ArmTest", "--stop", 2, "--step", 0.5, "--tolerance", 1e-3, "--method", "bdf"),
+        *("--set", "robot.elbow.w_start=1", "--set", "robot.checkLimits=false", "--variable", "robot.*.r_0[1]"),
+    )
+    (task,) = compiler.jobs[0].tasks
+    assert "extends Arm.ArmTest(robot(elbow(w_start = 1), checkLimits = false));" in task.source
+    assert [(one.stop, one.step, one.tolerance, one.method) for one in task.runs] == [(2.0, 0.5, 1e-3, "bdf")]
+
+
+def test_series_are_written_with_all_digits(compiler: Compiler, execute: Execute) -> None:
+    compiler.values = {**compiler.values, "table[1,2]": (0.1, 1 / 3, 2e-300)}
+    Path("a.csv").write_text("of an earlier run")
+    assert execute("simulate", "--csv", "a.csv").lines[-1] == "  csv: a.csv"
+    with Path("a.csv").open(newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert {name: tuple(float(row[name]) for row in rows) for name in rows[0]} == compiler.values
+    execute("simulate", "--csv", "b.csv")
+    assert Path("a.csv").read_bytes() == Path("b.csv").read_bytes()
+
+
+def test_parquet_has_the_same_numbers(compiler: Compiler, execute: Execute) -> None:
+    parquet = pytest.importorskip("pyarrow.parquet")
+    execute("simulate", "--parquet", "a.parquet")
+    assert {
+        name: tuple(values) for name, values in parquet.read_table("a.parquet").to_pydict().items()
+    } == compiler.values
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("--csv", "modelica"), "modelica: error: a folder is in its place"),
+        (("--csv", "nowhere/a.csv"), "there is no such folder"),
+        (("--csv", "arm.urdf"), "the source of the robot has this name"),
+        (("--csv", "urdfsync.toml"), "the configuration has this name"),
+        (("--input", "m.csv", "--csv", "m.csv"), "the file with the inputs has this name"),
+        (("--plot", "a.pdf"), "a plot is one of .png, .svg"),
+        (("--csv", "a.svg", "--plot", "a.svg"), "two outputs have this name"),
+        (("--input", "absent.csv"), "absent.csv"),
+        (("--stop", "0"), "'0' is no amount"),
+        (("--step", "nan"), "'nan' is no amount"),
+        (("nobody",), "no robot `nobody`"),
+    ],
+)
+def test_bad_arguments_are_refused_and_nothing_is_written(
+    compiler: Compiler, execute: Execute, arguments: tuple[str, ...], words: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("importlib.util.find_spec", lambda name: name)
+    Path("m.csv").write_text("time,shoulder_phi,elbow_phi\n0,0,0\n1,1,1\n")
+    before = sorted(Path().rglob("*"))
+    assert words in execute("simulate", *arguments, code=2).words
+    assert (sorted(Path().rglob("*")), compiler.jobs) == (before, [])
+
+
+@pytest.mark.parametrize(("option", "module"), [("--plot", "matplotlib"), ("--parquet", "pyarrow")])
+def test_what_is_not_installed_is_said_first(
+    compiler: Compiler, execute: Execute, option: str, module: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
+    found = execute("simulate", option, "a.png", code=2).words
+    assert f"`{option}` needs {module}, which is not installed; pip install matplotlib pyarrow" in found
+    assert compiler.jobs == []
+
+
+def test_one_of_several_robots_has_to_be_named(compiler: Compiler, execute: Execute) -> None:
+    with Path("urdfsync.toml").open("a") as file:
+        file.write('[robots.other]\nsource = "arm.urdf"\npackage = "Other"\n')
+    assert "name one: arm, other" in execute("simulate", code=2).words
+    execute("simulate", "arm")
+
+
+def test_an_interruption_leaves_nothing(compiler: Compiler, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
+    def interrupt(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("urdfsync.checks.compilers.run_job", interrupt)
+    before = sorted(Path().rglob("*"))
+    assert "interrupted" in execute("simulate", "--csv", "a.csv", code=130).words
+    assert sorted(Path().rglob("*")) == before
+
+
+def test_a_limit_of_time_is_told_with_its_option(
+    compiler: Compiler, execute: Execute, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def take_too_long(*arguments: object) -> None:
+        limits = arguments[3]
+        raise LimitError(Diagnostic(Severity.ERROR, "out-of-time", f"{limits.owner}: {limits.seconds:g} s"))  # type: ignore[attr-defined]
+
+    monkeypatch.setattr("urdfsync.checks.compilers.run_job", take_too_long)
+    assert "the simulation of `Arm.ArmTest`: 5 s [out-of-time]" in execute("simulate", "--timeout", "5", code=2).words
+
+
+def test_quiet_shows_warnings_to_nobody(compiler: Compiler, execute: Execute) -> None:
+    printed = execute("simulate", "-q")
+    assert (printed.out, printed.err) == ("", "")

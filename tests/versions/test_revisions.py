@@ -1,0 +1,99 @@
+"""Files of other revisions: what git has, what it has not, and names that are no revisions."""
+
+from __future__ import annotations
+
+import shutil
+import zlib
+from pathlib import Path
+from unittest import mock
+
+import pygit2
+import pytest
+from support.git import NEEDS_GIT, Repository
+
+from urdfsync.diagnostics import SourceError
+from urdfsync.versions.revisions import Revision
+
+pytestmark = NEEDS_GIT
+
+
+@pytest.fixture(scope="module")
+def template(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A repository with two versions of `cad/arm.urdf`, the work tree a third one."""
+    with pytest.MonkeyPatch.context() as patch:
+        return _make(Repository(tmp_path_factory.mktemp("git") / "repo", patch))
+
+
+def _make(made: Repository) -> Path:
+    (made.folder / "cad").mkdir()
+    arm = made.folder / "cad/arm.urdf"
+    arm.write_bytes(b"one\r\n")
+    made.commit("first")
+    arm.write_bytes(b"two\n")
+    made.commit("second")
+    made.git("tag", "v2")
+    arm.write_bytes(b"three\n")
+    return made.folder
+
+
+@pytest.fixture
+def repository(template: Path, tmp_path: Path) -> Path:
+    """The folder of a copy of the repository."""
+    shutil.copytree(template, tmp_path / "repo")
+    return tmp_path / "repo"
+
+
+@pytest.mark.parametrize(("name", "content"), [("HEAD", b"two\n"), ("v2", b"two\n"), ("main~1", b"one\r\n")])
+def test_a_file_is_read_as_it_was_without_git(
+    repository: Path, name: str, content: bytes, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("PATH", str(repository))
+    arm = repository / "cad/arm.urdf"
+    assert Revision(arm.parent, name).read(arm) == content
+
+
+def test_a_link_to_the_repository_is_no_obstacle(repository: Path, tmp_path: Path) -> None:
+    (tmp_path / "link").symlink_to(repository / "cad")
+    arm = tmp_path / "link/arm.urdf"
+    assert Revision(arm.parent, "HEAD").read(arm) == b"two\n"
+
+
+def test_what_belongs_to_another_repository_is_not_asked_for(repository: Path) -> None:
+    inner = repository / "cad/meshes"
+    inner.mkdir()
+    (inner / ".git").write_text("gitdir: elsewhere")
+    (inner / "tip.stl").write_bytes(b"solid")
+    revision = Revision(repository, "HEAD")
+    assert not revision.holds(inner / "tip.stl")
+    assert revision.holds(repository / "cad/arm.urdf")
+    assert not revision.holds(repository.parent / "arm.urdf")
+
+
+def test_a_path_that_the_revision_does_not_have(repository: Path) -> None:
+    with pytest.raises(SourceError, match=r"tip\.urdf does not exist in revision 'HEAD'; .*git show") as caught:
+        Revision(repository, "HEAD").read(repository / "cad/tip.urdf")
+    assert caught.value.diagnostics[0].file.startswith("HEAD:")
+
+
+@pytest.mark.parametrize(
+    "name", ["nope", "HEAD~9", "HEAD:cad/arm.urdf", "a b", "..", "^HEAD", "-x", "--output=stolen", "", " ", "a\0b"]
+)
+def test_a_name_that_is_no_revision(repository: Path, name: str) -> None:
+    with pytest.raises(SourceError, match=r"is neither a file nor a .*revision"):
+        Revision(repository, name)
+
+
+def test_a_content_that_the_clone_lacks(repository: Path) -> None:
+    """As in one that was made without files."""
+    for place in (repository / ".git/objects").glob("??/*"):
+        if b"two\n" in zlib.decompress(place.read_bytes()):
+            place.unlink()
+    with pytest.raises(SourceError, match=r"git does not have its content: .*; fetch it, or use --against FILE"):
+        Revision(repository, "HEAD").read(repository / "cad/arm.urdf")
+
+
+def test_a_repository_of_another_user(repository: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    error = pygit2.GitError(f"repository path '{repository}' is not owned by current user")
+    monkeypatch.setattr(pygit2, "Repository", mock.Mock(side_effect=error))
+    with pytest.raises(SourceError, match=r"the repository can't be read: .* is not owned by current user; repair it"):
+        Revision(repository, "HEAD")

@@ -1,0 +1,116 @@
+"""The check after a build: syntax, layout, compiling and balance of the package that is on disk.
+
+A right package is not checked again until an input of the check changes: a check takes 10 s for an arm. A wrong package
+is checked again after each build: a second build must not look right.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+
+import msgspec
+
+from urdfsync.checks import run
+from urdfsync.checks.cache import UserCache
+from urdfsync.checks.fingerprint import fingerprint
+from urdfsync.checks.results import CheckOptions, CheckResult
+from urdfsync.checks.tools import chosen_tools
+from urdfsync.config import Config, RobotConfig
+from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError, findings_of
+from urdfsync.engine.options import BuildOptions, Progress
+from urdfsync.engine.result import Checked, Result
+
+
+class BuildCheck(msgspec.Struct, frozen=True):
+    """The verdict of the check after a build."""
+
+    checked: Checked
+    diagnostics: tuple[Diagnostic, ...] = ()
+    seconds: float = 0.0
+    """Seconds that the check took; 0 for an earlier check."""
+
+
+class BuildChecker:
+    """Checks packages of one configuration as they are on disk."""
+
+    def __init__(self, config: Config, request: BuildOptions) -> None:
+        self._config = config
+        self._options = CheckOptions(
+            tools=chosen_tools(config, trusted=request.trusted),
+            jobs=request.jobs,
+            wait=request.wait,
+            package_paths=request.package_paths,
+            fresh=request.full,
+        )
+
+    def key(self, robot: RobotConfig) -> str | None:
+        """Return the fingerprint of all that a check of a robot rests on; None if some of that can't be read."""
+        return fingerprint(self._config, robot, self._options)
+
+    def find_earlier(self, key: str | None) -> BuildCheck | None:
+        """Return an earlier check with this key, with findings about the machine alone; None if there is none."""
+        result = None if self._options.fresh or key is None else UserCache.default().load(key, CheckResult)
+        if result is None:
+            return None
+        check = _judge(result)
+        return BuildCheck(check.checked, tuple(filter(is_general, check.diagnostics)))
+
+    def check(self, robots: Sequence[RobotConfig], tell: Progress) -> Iterator[BuildCheck]:
+        """Check packages, in their order, as far as no earlier check is known.
+
+        Faults of a package, or of its check, come back as diagnostics.
+        """
+        earlier = {robot.name: self.find_earlier(self.key(robot)) for robot in robots}
+        unknown = [robot for robot in robots if earlier[robot.name] is None]
+        results = run.check_robots(self._config, unknown, self._options, tell)
+        trouble: BuildCheck | None = None  # it ends the checks of all other robots
+        for robot in robots:
+            try:
+                yield earlier[robot.name] or trouble or _judge(next(results))
+            except (UrdfsyncError, OSError) as error:
+                trouble = BuildCheck(Checked.WRONG, findings_of(error))
+                yield trouble
+
+
+def with_checks(config: Config, request: BuildOptions, results: Iterable[Result]) -> Iterator[Result]:
+    """Yield the results of builds, in their order, each with the check of its package.
+
+    The checks come after all builds, since others wait for the lock as long as these are not done.
+    """
+    robots = {robot.name: robot for robot in config.robots}
+    told: set[Diagnostic] = set()
+    built: list[Result] = []
+    count = 0
+    try:
+        built.extend(results)
+        fresh = [result.robot for result in built if not (result.failed or result.dry or result.checked)]
+        due = [robots[name] for name in fresh if robots[name].checking]
+        checks = BuildChecker(config, request).check(due, request.progress)
+        for result in built:
+            if robots[result.robot] in due:
+                check = next(checks)
+                findings = robots[result.robot].without_ignored(check.diagnostics)
+                new = tuple(finding for finding in findings if finding not in told)
+                told.update(filter(is_general, new))  # findings about the machine are said once for all robots
+                diagnostics = (*result.diagnostics, *new)
+                result = msgspec.structs.replace(result, diagnostics=diagnostics, checked=check.checked)
+            count += 1
+            yield result
+    except (KeyboardInterrupt, Exception):
+        yield from built[count:]  # they are built, whatever becomes of their checks
+        raise
+
+
+def is_general(finding: Diagnostic) -> bool:
+    """Whether a finding is about this machine, and not about one robot."""
+    return not finding.file and finding.severity is not Severity.ERROR
+
+
+def _judge(result: CheckResult) -> BuildCheck:
+    """Return the part of a result that a build shows."""
+    if result.failed:
+        return BuildCheck(Checked.WRONG, result.diagnostics, result.seconds)
+    if result.compiled and not result.gaps:
+        return BuildCheck(Checked.RIGHT, result.diagnostics, result.seconds)
+    gaps = (Diagnostic(Severity.WARNING, "not-checked", sentence) for sentence in result.gaps or result.unchecked)
+    return BuildCheck(Checked.INCOMPLETE, (*result.diagnostics, *gaps), result.seconds)

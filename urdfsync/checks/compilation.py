@@ -1,0 +1,369 @@
+"""Compiles and simulates versions of one robot's package, each a copy in a folder where the compiler finds it."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from typing import TypeAlias
+
+import msgspec
+
+from urdfsync.checks import compilers
+from urdfsync.checks.compilers.compiler import (
+    Compiler,
+    CompileResult,
+    CompileTask,
+    Complaint,
+    Series,
+    Simulation,
+    Tool,
+    compile_task,
+    one_line,
+)
+from urdfsync.checks.flags import with_flags
+from urdfsync.checks.jobs import Jobs
+from urdfsync.checks.libraries import Libraries
+from urdfsync.checks.package import PackageTexts, RobotPackage, UsersModels
+from urdfsync.checks.process import Limits
+from urdfsync.checks.results import MOST_SINGLE_EDITS, CompiledModel, EditEffect, ToolResult, TrialTime, agrees, listed
+from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError, findings_of
+from urdfsync.domain import Compared, Deviation, Experiment, Trial
+from urdfsync.engine.generation import generated_texts
+from urdfsync.files import shown
+from urdfsync.output.phrases import counted
+from urdfsync.workers import tell
+
+_USERS = "users"
+"""The job that compiles models of the user's outside of the package."""
+_MOST_DIAGNOSTICS = 5
+_LONGEST_MESSAGE = 300
+_SAME_TIME = 1e-7  # s
+_BALANCE = re.compile(r"([\d,]+) equations?(?:\(s\))?(?:,| and| for) ([\d,]+) (?:unknown|variable)")
+
+_Job: TypeAlias = tuple[Mapping[str, bytes], Sequence[CompileTask]]
+"""The texts of a version of the package, and what is done with it."""
+
+
+class Compilation:
+    """The compiling of one package by one compiler: `run` fills `result`, `diagnostics` and `gaps`."""
+
+    def __init__(
+        self,
+        package: RobotPackage,
+        tool: Tool,
+        needed: Libraries,
+        users: UsersModels,
+        needed_by_users: Libraries,
+        limits: Limits,
+        folder: Path,
+        processes: int = 1,
+    ) -> None:
+        """So many `processes` may compile at a time; copies of the package go below `folder`.
+
+        The models of the user outside of the package, `users`, need more libraries than the package.
+        """
+        self._package, self._users, self._processes = package, users, processes
+        self._jobs = Jobs(package.robot, tool, needed, package.around, limits, folder)
+        # of their own: what can't be read of the user's files would keep the package from being compiled
+        self._users_jobs = msgspec.structs.replace(self._jobs, needed=needed_by_users)
+        self._users_models = package.files.models_not_in(package.generated.keys() | package.written)
+        self._compiler = compilers.COMPILERS[tool.name]
+        self.result = ToolResult(self._compiler.TITLE)
+        self.diagnostics: list[Diagnostic] = []
+        self.gaps: list[str] = []
+        self.generated: Mapping[str, Series] = {}
+        """The simulations of the package as it is generated, completed for the comparison, by the names of trials."""
+        self.edited: Mapping[str, Series] = {}
+        """Those of the package on disk, if it is edited."""
+
+    def run(self, experiment: Experiment | None) -> None:
+        """Compile the package, and compare it by an experiment: 20 s for a six-axis arm, minutes for a humanoid."""
+        # versions of the package are compiled beside its models, so that these need not be divided
+        models = self._model_jobs(1 if experiment else max(1, min(self._processes, len(self._package.models))))
+        done = self._run_all({**models, **(self._versions(experiment) if experiment else {})})
+        self._note_models(models, done)
+        if experiment:
+            self._compare(experiment, done)
+
+    def _versions(self, experiment: Experiment) -> dict[str, _Job]:
+        """Return jobs that move the generated package and the edited one, and each edit of the user by itself."""
+        package = self._package
+        move = [_task(trial) for trial in experiment.trials]
+        is_same = experiment.content == package.generation.inputs.source.content
+        completed = package.generated if is_same else generated_texts(package.generation, experiment.content)
+        jobs: dict[str, _Job] = {"completed": (with_flags(completed), move)}
+        if package.edits:
+            jobs["edited"] = with_flags(package.files.texts), move
+            if not is_same:
+                jobs["generated"] = with_flags(package.generated), move
+            own = {path: content for path, content in package.on_disk.items() if path not in package.generated}
+            for file in package.edits if 1 < len(package.edits) <= MOST_SINGLE_EDITS else ():
+                texts = {**package.generated, **own, file: package.on_disk[file]}
+                jobs[file] = with_flags(texts), move[:1]
+        return jobs
+
+    def _compare(self, experiment: Experiment, done: Mapping[str, Sequence[CompileResult]]) -> None:
+        """Hold the generated package against the reference, and the edited one against the generated."""
+        package, trials = self._package, experiment.trials
+        self.generated, faults = self._motions(done["completed"], trials)
+        times = zip(trials, done["completed"], strict=False)
+        self.result.times = tuple(TrialTime(trial.name, answer.seconds) for trial, answer in times if answer.seconds)
+        self.diagnostics += faults
+        if self.generated:
+            generation, robot = package.generation, package.robot
+            snapshot, domain = generation.now.snapshot, generation.inputs.domain
+            # templates of the user's may connect benches in another way
+            own = robot.templates is not None
+            wiring = () if own else domain.wiring(package.generated, snapshot, robot.target, robot.options)
+            self.result.deviations = (*compare_all(trials, self.generated), *wiring)
+        if not package.edits:
+            return
+        without_edits = self.generated
+        if "generated" in done:
+            without_edits, faults = self._motions(done["generated"], trials)
+            self.diagnostics += faults
+        self.edited, faults = self._motions(done["edited"], trials)
+        if faults:  # no fault of an edited package
+            self.gaps.append(f"the effect of your edits was not measured: {faults[0].message}")
+        if not self.edited or not without_edits:
+            return
+        alone = {file: self._motions(done[file], trials)[0] for file in package.edits if file in done}
+        single = {file: compare_all(trials[:1], motions, without_edits) for file, motions in alone.items() if motions}
+        whole = compare_all(trials[:1], self.edited, without_edits)
+        # what else changes follows from that, but for files that change nothing there
+        others = compare_all(trials[1:], self.edited, without_edits)
+        changes = tuple(deviation for deviation in others if not agrees(deviation))
+        self.result.effects = tuple(
+            effect if effect.deviations else msgspec.structs.replace(effect, deviations=changes)
+            for effect in edit_effects(package.edits, package.files.owners, whole, single)
+        )
+
+    def _model_jobs(self, count: int) -> dict[str, _Job]:
+        """Return jobs that compile all models: those of the package in `count` parts, then the user's."""
+        package, own = self._package, self._package.robot.target.package
+        models = *package.models, *self._users_models
+        tasks = [msgspec.structs.replace(compile_task(f"{own}.{model}"), title=model) for model in models]
+        jobs: dict[str, _Job] = {
+            f"models{number}": (package.files.texts, tasks[number::count]) for number in range(count)
+        }
+        if self._users.files:
+            libraries = ("Modelica", "UrdfSync", own.partition(".")[0])
+            jobs[_USERS] = package.files.texts, [compile_task(model, libraries) for model in self._users.files]
+        return jobs
+
+    def _note_models(self, jobs: Mapping[str, _Job], done: Mapping[str, Sequence[CompileResult]]) -> None:
+        """Take note of the models that were compiled by themselves."""
+        compiled, files, users = list[CompiledModel](), self._package.files, self._users
+        failing: dict[str, list[Diagnostic]] = {}  # of the models outside of the package
+        for label, (_, tasks) in jobs.items():
+            is_users = label == _USERS
+            for task, answer in zip(tasks, done[label], strict=False):
+                self._note_version(answer)
+                if answer.problem:
+                    file = users.files.get(task.title) if is_users else None
+                    faults = explain(answer.problem, self._compiler, files, task.title, file)
+                    if is_users:
+                        failing[task.title] = faults
+                    else:
+                        self.diagnostics += map(_as_part, faults) if task.title in self._users_models else faults
+                    continue
+                # another model with the same part has it under another name
+                told = {(finding.file, finding.line, finding.code) for finding in self.diagnostics}
+                warnings = explain_warnings(answer.warnings, self._compiler, files)
+                self.diagnostics += [
+                    finding for finding in warnings if (finding.file, finding.line, finding.code) not in told
+                ]
+                if is_users or task.title not in self._users_models:
+                    compiled.append(CompiledModel(task.title, answer.unknowns, is_users))
+        order = [*self._package.models, *users.files]
+        self.result.compiled = tuple(sorted(compiled, key=lambda model: order.index(model.model)))
+        parts = {part for model in compiled if model.is_users for part in users.uses.get(users.files[model.model], ())}
+        for model, faults in failing.items():
+            if users.files[model] not in parts:  # else it compiles there, which is what it is for
+                self.diagnostics += map(_as_part, faults)
+                self.result.failing += (model,)
+
+    def _note_version(self, answer: CompileResult) -> None:
+        if answer.version:
+            self.result.tool = f"{self._compiler.TITLE} {answer.version}"
+
+    def _run_all(self, jobs: Mapping[str, _Job]) -> dict[str, list[CompileResult]]:
+        """Do jobs, some at the same time. Of one in which the compiler breaks down there are no results."""
+        done: dict[str, list[CompileResult]] = {}
+        with ThreadPoolExecutor(self._processes) as pool:
+            futures = {label: pool.submit(self._run, label, *job) for label, job in jobs.items()}
+            for label, future in futures.items():
+                try:
+                    done[label] = future.result()
+                except (UrdfsyncError, OSError) as error:
+                    done[label], faults = [], findings_of(error)
+                    if label == _USERS:  # the package itself may be right
+                        reason = "; ".join(filter(None, (faults[0].message, faults[0].hint)))
+                        self.gaps.append(f"your models outside of the package were not compiled: {reason}")
+                    else:
+                        self.diagnostics += faults
+        return done
+
+    def _run(self, label: str, texts: Mapping[str, bytes], tasks: Sequence[CompileTask]) -> list[CompileResult]:
+        tell(f"{self._package.robot.name}: loading libraries, then compiling {listed([task.title for task in tasks])}")
+        return (self._users_jobs if label == _USERS else self._jobs).run(label, texts, tasks)
+
+    def _motions(
+        self, results: Sequence[CompileResult], trials: Sequence[Trial]
+    ) -> tuple[dict[str, Series], list[Diagnostic]]:
+        """Return the simulation of each trial of a job by its name, and why there is none of the first one.
+
+        What the compiler can't do of the others is a gap.
+        """
+        motions = dict[str, Series]()
+        for trial, result in zip(trials, results, strict=False):
+            self._note_version(result)
+            problem = result.problem or result.runs[0].problem
+            if not problem:
+                motions[trial.name] = result.runs[0].values
+            elif trial is not trials[0]:
+                gap = f"{trial.name} was not compared: {one_line(problem)[:_LONGEST_MESSAGE]}"
+                self.gaps += [gap] * (gap not in self.gaps)
+            elif result.problem:
+                return {}, explain(problem, self._compiler, self._package.files)
+            else:
+                message = f"the robot can't be simulated: {one_line(problem)[:200]}"
+                return {}, [Diagnostic(Severity.ERROR, "no-simulation", message)]
+        return motions, []
+
+
+def _task(trial: Trial) -> CompileTask:
+    probe = trial.probe
+    run, title = Simulation(probe.stop, probe.step), f"the comparison ({trial.name})"
+    return CompileTask(probe.model, probe.source, (run,), probe.values, probe.optional, title=title)
+
+
+def _as_part(finding: Diagnostic) -> Diagnostic:
+    """Make a warning of what keeps a model of the user's from being compiled, since it may be a part of others."""
+    hint = "; ".join(filter(None, (finding.hint, "a part of other models need not compile by itself")))
+    return msgspec.structs.replace(finding, severity=Severity.WARNING, hint=hint)
+
+
+def compare_all(
+    trials: Iterable[Trial], motions: Mapping[str, Series], others: Mapping[str, Series] | None = None
+) -> tuple[Deviation, ...]:
+    """Return the differences of simulations from what is expected of them, or from others."""
+    deviations = list[Deviation]()
+    for trial in trials:
+        expected = trial.expected if others is None else others.get(trial.name)
+        if trial.name in motions and expected is not None:
+            deviations += compare(trial.compared, motions[trial.name], expected)
+    return tuple(deviations)
+
+
+def compare(compared: Iterable[Compared], series: Series, expected: Series) -> tuple[Deviation, ...]:
+    """Return the differences from the expected values, at the instants; one without a number is infinite."""
+    deviations: list[Deviation] = []
+    for quantity in compared:
+        places = [(name, instant) for name in quantity.values for instant in quantity.instants]
+        pairs = [(_number(series, *place), _number(expected, *place)) for place in places]
+        differences = [abs(value - other) for value, other in pairs]
+        greatest = math.inf if any(map(math.isnan, differences)) else max(differences)
+        value = max((abs(other) for _, other in pairs if math.isfinite(other)), default=0.0)
+        deviations.append(
+            Deviation(
+                quantity.quantity, quantity.element, greatest, value, 0.0, quantity.unit, quantity.part, quantity.detail
+            )
+        )
+    sizes: dict[tuple[str, str, str], float] = {}
+    for deviation in deviations:
+        kind = deviation.quantity, deviation.unit, deviation.part
+        sizes[kind] = max(sizes.get(kind, 0.0), deviation.value)
+    return tuple(
+        msgspec.structs.replace(deviation, size=sizes[deviation.quantity, deviation.unit, deviation.part])
+        for deviation in deviations
+    )
+
+
+def _number(series: Series, name: str, instant: float) -> float:
+    """Return the number of a variable at a time; a name that is a regular expression has to fit one variable."""
+    numbers = series.get(name)
+    if numbers is None:
+        fitting = [other for other in series if re.fullmatch(name, other)] if "\\" in name else []
+        numbers = series[fitting[0]] if len(fitting) == 1 else None
+    times = series.get("time", ())
+    place = next((k for k, time in enumerate(times) if abs(time - instant) < _SAME_TIME), None)
+    return numbers[place] if numbers and place is not None else math.nan
+
+
+def edit_effects(
+    files: Sequence[str],
+    owners: Mapping[str, str],
+    whole: Sequence[Deviation],
+    single: Mapping[str, Sequence[Deviation]],
+) -> Iterator[EditEffect]:
+    """Yield the effects of edits in `files`, each apart if possible; the rest is the effect of the others together.
+
+    Deviations are from the generated package: `whole` of the one on disk, `single` of those with one edit each.
+    """
+
+    def effect(files: Sequence[str], deviations: Sequence[Deviation]) -> EditEffect:
+        return EditEffect(tuple(files), tuple(deviations), tuple(dict.fromkeys(owners[file] for file in files)))
+
+    changes = [deviation for deviation in whole if not agrees(deviation)]
+    apart = {
+        file: [deviation for deviation in deviations if not agrees(deviation)] for file, deviations in single.items()
+    }
+    explained = {deviation.key for deviations in apart.values() for deviation in deviations}
+    rest = [deviation for deviation in changes if deviation.key not in explained]
+    quiet = [file for file in files if not apart.get(file)]
+    yield from (effect([file], deviations) for file, deviations in apart.items() if deviations)
+    if rest or quiet:
+        yield effect(quiet or files, rest)
+
+
+def explain(
+    problem: str, compiler: Compiler, package: PackageTexts, model: str = "", file: Path | None = None
+) -> list[Diagnostic]:
+    """Return findings for a compiler's text about `model`, a name below the package, with the files that people know.
+
+    `file` is that of a model of the user's outside of the package.
+    """
+    path = f"{model.replace('.', '/')}.mo"
+    users_file = str(package.folder / path) if path in package.texts and path not in package.owners else ""
+    users_file = str(file) if file else users_file
+    if (balance := _BALANCE.search(problem)) and balance[1] != balance[2]:
+        equations, unknowns = (int(number.replace(",", "")) for number in balance.groups())
+        lacking = abs(equations - unknowns)
+        # without the name of the model, since the models around it lack as many, which need not be said again
+        message = f"there {'is' if lacking == 1 else 'are'} {counted(lacking, 'equation')} too "
+        message += "many" if equations > unknowns else "few"
+        return [_diagnostic(Complaint(message, users_file), package, "unbalanced")]
+    every = compiler.complaints(problem) or [Complaint(one_line(problem))] * bool(problem.strip())
+    complaints = [complaint for complaint in every if complaint.code == "does-not-compile"] or every
+    own = [complaint for complaint in complaints if Path(complaint.file).is_relative_to(package.folder)]
+    placed = [msgspec.structs.replace(complaint, file=complaint.file or users_file) for complaint in own or complaints]
+    findings = dict.fromkeys(_diagnostic(complaint, package, "does-not-compile") for complaint in placed)
+    return list(findings)[:_MOST_DIAGNOSTICS]
+
+
+def explain_warnings(text: str, compiler: Compiler, package: PackageTexts) -> list[Diagnostic]:
+    """Return warnings for a compiler's text about a model that compiles, those about files of the package."""
+    complaints = dict.fromkeys(compiler.complaints(text))
+    own = [complaint for complaint in complaints if Path(complaint.file).is_relative_to(package.folder)]
+    findings = [_diagnostic(complaint, package, complaint.code) for complaint in own]
+    return [msgspec.structs.replace(finding, severity=Severity.WARNING) for finding in findings]
+
+
+def _diagnostic(complaint: Complaint, package: PackageTexts, code: str) -> Diagnostic:
+    """Return the finding of a complaint; if the compiler gives no place, perhaps it is in the edited file."""
+    file, message = Path(complaint.file), complaint.message.removesuffix(".")
+    message = message if len(message) <= _LONGEST_MESSAGE else f"{message[: _LONGEST_MESSAGE - 1]}…"
+    edited = [shown(package.folder / path) for path in sorted(package.edited)]
+    look = f"look at {listed(edited)}, which {'was' if len(edited) == 1 else 'were'} edited" if edited else ""
+    place = complaint.line, complaint.column
+    if file.is_absolute() and file.is_relative_to(package.folder):
+        path = file.relative_to(package.folder).as_posix().removeprefix(".")
+        return package.diagnostic(Severity.ERROR, code, message, path, *place, hint=package.by_hand(path) or look)
+    if file.is_absolute():
+        return Diagnostic(Severity.ERROR, code, message, shown(file), *place, hint=look)
+    where = edited[0] if len(edited) == 1 else shown(package.folder)
+    return Diagnostic(Severity.ERROR, code, message, where, hint=look)

@@ -1,0 +1,74 @@
+"""Modelica compilers. A job is done in a process of its own: it may crash, and keeps gigabytes for large robots."""
+
+from __future__ import annotations
+
+import importlib.util
+import tempfile
+from collections.abc import Callable, Mapping
+
+import msgspec
+
+from urdfsync.checks import process
+from urdfsync.checks.cache import UserCache
+from urdfsync.checks.compilers import omc, rumoca
+from urdfsync.checks.compilers.compiler import CompileJob, Compiler, CompilerError, CompileResult, Tool
+from urdfsync.checks.contents import content_hash
+from urdfsync.checks.process import BrokenProcessError, Limits
+from urdfsync.diagnostics import Diagnostic, Severity
+
+COMPILERS: Mapping[str, Compiler] = {"rumoca": rumoca, "omc": omc}
+"""By the value of `--tool`, the default first."""
+
+
+def find_missing(tool: Tool) -> Diagnostic | None:
+    """Return why a compiler can't be started, with what to do; None if all is there."""
+    compiler = COMPILERS[tool.name]
+    for module in compiler.MODULES:
+        if importlib.util.find_spec(module) is None:
+            return _missing(compiler, f"{module} is not installed")
+    if tool.problem is None and compiler.program(tool.program) is None:
+        named = f"`{tool.program}`, which `omc` in the table `[check]` names, is no program"
+        return _missing(compiler, named if tool.program else f"`{tool.name}` is not on the PATH")
+    return tool.problem
+
+
+def state(tool: Tool) -> list[str]:
+    """Return what changes whenever a compiler does: hashes of its files, and the version that it says; or why not.
+
+    Raises OSError if that can't be known.
+    """
+    if missing := find_missing(tool):
+        return [tool.name, str(missing)]
+    version, places = COMPILERS[tool.name].state(tool.program)
+    return [tool.name, version, *(f"{place} {content_hash(place)}" for place in places)]
+
+
+def run_job(
+    tool: Tool, job: CompileJob, cache: UserCache, limits: Limits, progress: Callable[[], None] | None = None
+) -> list[CompileResult]:
+    """Do the tasks of a job in a process; returns a result for each, in order. `progress` is as in `process.run`.
+
+    A model that does not compile is a result. Raises CompilerError if the compiler is missing or breaks down, and
+    LimitError.
+    """
+    compiler = COMPILERS[tool.name]
+    if missing := find_missing(tool):
+        raise CompilerError(missing)
+    job = msgspec.structs.replace(job, program=tool.program)
+    with tempfile.TemporaryDirectory(prefix="urdfsync-", ignore_cleanup_errors=True) as folder:
+        environment = compiler.environment(str(cache.compiler), folder)
+        try:
+            return process.run(compiler.work, job, limits=limits, environment=environment, progress=progress)
+        except ImportError as error:
+            raise CompilerError(_missing(compiler, f"{compiler.TITLE} does not start: {error}")) from None
+        except BrokenProcessError as error:
+            task = job.tasks[min(len(error.results), len(job.tasks) - 1)].title
+            message = f"{compiler.TITLE} crashed at {task}: {error}"
+            killed = "probably the system was out of memory: check fewer robots at a time (--jobs)"
+            hint = killed if error.was_killed else compiler.REPORT
+            raise CompilerError(Diagnostic(Severity.ERROR, "compiler-crashed", message, hint=hint)) from error
+
+
+def _missing(compiler: Compiler, reason: str) -> Diagnostic:
+    message = f"there is no compiler: {reason}"
+    return Diagnostic(Severity.ERROR, "no-compiler", message, hint=compiler.INSTALL)

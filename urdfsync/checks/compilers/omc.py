@@ -1,0 +1,352 @@
+"""OpenModelica: `omc SCRIPT.mos` for each job; its answers stand in its output, results in files.
+
+Written for the answers that OpenModelica 1.27 gave, see docs/openmodelica.md.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+import re
+import shutil
+import subprocess
+import tempfile
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import msgspec
+
+from urdfsync.checks.compilers.compiler import (
+    CompileJob,
+    CompilerError,
+    CompileResult,
+    CompileTask,
+    Complaint,
+    Simulation,
+    SimulationResult,
+    one_line,
+)
+from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.modelica.names import STANDARD_LIBRARIES
+from urdfsync.processes import exit_cause
+
+TITLE = "OpenModelica"
+MODULES: tuple[str, ...] = ("scipy",)
+INSTALL = "install OpenModelica, or name its program with `omc` in the table `[check]`"
+REPORT = "report it to the authors of OpenModelica"
+METHODS: tuple[str, ...] = ("dassl", "ida", "cvode", "rungekutta", "euler")
+HAS_STANDARD_LIBRARY = True
+
+_TOLERANCE = 1e-8
+_PATIENCE = 30.0
+"""Seconds in which OpenModelica has to tell its version."""
+_NOBODY = "http://127.0.0.1:9"
+_VALUE = re.compile(
+    r"\s*(?:(?P<record>record (?P<name>\w+)\n.*?\nend (?P=name);)"
+    r'|"(?P<text>(?:[^"\\]|\\.)*)"|(?P<word>true|false))(?=\n|\Z)',
+    re.DOTALL,
+)
+_FIELD = re.compile(r'^ *(\w+) = "((?:[^"\\]|\\.)*)"', re.MULTILINE | re.DOTALL)
+_ESCAPED = re.compile(r"\\(.)", re.DOTALL)
+_ESCAPES = {"n": "\n", "t": "\t", "r": "\r"}
+_COUNTS = re.compile(r"has (\d+) equation\(s\) and (\d+) variable\(s\)")
+_MESSAGE = re.compile(
+    r"^(?:\[(?P<file>[^\n]*?):(?P<line>\d+):(?P<column>\d+)-\d+:\d+:\w+\] )?(?P<level>Error|Warning|Notification): ",
+    re.MULTILINE,
+)
+_UNITS, _UNITS_GO_ON = "INCONSISTENT due to specified unit information", "The units of following sub-expressions"
+_FOLLOWS = re.compile(
+    r"Failed to load package |Class \S+ not found in scope <top>|Curl error|Failed to download"
+    r"|Internal error Failed to move",
+    re.IGNORECASE,
+)
+"""Messages that only follow from another one: something could not be read."""
+_ASSERTION = re.compile(
+    r"\[(?P<file>[^\n]*?):(?P<line>\d+):\d+-\d+:\d+:\w+\]\n[^\n]*violated at time (?P<time>[-+.\deE]*\d)\n"
+    r"[^\n]* --> \"(?P<text>.*?)\"$",
+    re.MULTILINE | re.DOTALL,
+)
+_TERMINATED = re.compile(r"call terminate\(\) at time [^\n]*\n[^\n]*Message : ([^\n]*)")
+_BUILDS = re.compile(r"Error building simulator|Failed to get version from cmake")
+_LOG = re.compile(r"^(?:LOG_\w+)? *\| *(?P<level>\w+|\|) *\|? *\|? *")
+
+
+class _Answer(NamedTuple):
+    """The value that OpenModelica gives for a call, and its messages."""
+
+    value: str
+    messages: str
+
+
+def program(named: str) -> str | None:
+    """See `Compiler`: as it is named, else below OPENMODELICAHOME, else on the PATH."""
+    if named:
+        return shutil.which(named)
+    home = os.environ.get("OPENMODELICAHOME")
+    return (shutil.which("omc", path=str(Path(home, "bin"))) if home else None) or shutil.which("omc")
+
+
+def state(named: str) -> tuple[str, list[Path]]:
+    """See `Compiler`: the program, its shared libraries, and the Modelica Standard Library that comes with it.
+
+    The program may be a script that starts something else, so it is asked as well.
+    """
+    file = Path(program(named) or "omc").resolve()
+    with tempfile.TemporaryDirectory(prefix="urdfsync-", ignore_cleanup_errors=True) as folder:
+        try:
+            ((version, _),) = _ask(CompileJob((), (), named), Path(folder), ["getVersion()"], _PATIENCE)
+        except (ImportError, subprocess.TimeoutExpired) as error:
+            raise OSError(str(error)) from error
+    patterns = "lib/omc/*.so*", "lib/*/omc/*.so*", *(f"lib/omlibrary/{name}*" for name in STANDARD_LIBRARIES)
+    return version, [file, *(path for pattern in patterns for path in sorted(file.parent.parent.glob(pattern)))]
+
+
+def environment(cache: str, folder: str) -> dict[str, str]:  # noqa: ARG001 - see `Compiler`
+    """See `Compiler`: the temporary folder is for scripts and whatever it writes."""
+    # It asks for an index of libraries on the network if there is none on disk: a proxy that nobody is leaves it alone.
+    proxies = dict.fromkeys(("http_proxy", "https_proxy"), _NOBODY) | dict.fromkeys(("no_proxy", "NO_PROXY"), "")
+    return dict.fromkeys(("TMPDIR", "TEMP", "TMP"), folder) | proxies
+
+
+def complaints(problem: str) -> list[Complaint]:
+    """See `Compiler`. Each message goes on to the beginning of the next one; notifications do not count.
+
+    Of an error in a library that has two places, the first one counts, which a notification tells.
+    """
+    result, origin = list[Complaint](), Complaint("")
+    messages = list(_MESSAGE.finditer(problem))
+    ends = [*(message.start() for message in messages[1:]), len(problem)]
+    for message, end in zip(messages, ends, strict=bool(messages)):
+        words = one_line(problem[message.end() : end])
+        if _BUILDS.search(words):
+            words = f"{words}; OpenModelica needs a C compiler, make, and for FMUs cmake: install them"
+        if message["level"] == "Notification":
+            if words == "From here:":
+                origin = Complaint("", message["file"] or "", int(message["line"] or 0), int(message["column"] or 0))
+            continue
+        if result and not message["file"] and words.startswith(_UNITS_GO_ON):
+            result[-1] = msgspec.structs.replace(result[-1], message=f"{result[-1].message}; {words}")
+            continue
+        place = origin.file or message["file"] or "", origin.line or int(message["line"] or 0)
+        column = origin.column or int(message["column"] or 0)
+        code = (
+            "units" if _UNITS in words else "compiler-warning" if message["level"] == "Warning" else "does-not-compile"
+        )
+        result.append(Complaint(words, *place, column, code))
+        origin = Complaint("")
+    result = [complaint for complaint in result if not _FOLLOWS.match(complaint.message)] or result
+    return result or ([Complaint(one_line(problem))] if problem.strip() and not messages else [])
+
+
+def work(job: CompileJob) -> Iterator[CompileResult]:
+    """See `Compiler`: all in one script. What can't be loaded is the problem of each task."""
+    folder = Path(tempfile.mkdtemp())
+    files = _package_files(job)
+    version = _ask(job, folder, ["getVersion()"])[0].value
+    # the one that compiles to WebAssembly needs no C compiler, and has no other target
+    options = ['setCommandLineOptions("--simCodeTarget=wasm-jit")'] if version.endswith("-rust") else []
+    if any(task.export for task in job.tasks):  # else an FMU for co-simulation takes Euler's method, one step for each
+        solver = "dassl" if options else "cvode"
+        options.append(f'setCommandLineOptions("--fmiFlags=s:{solver}")')
+    loads = [*options, "loadModel(Modelica)", *(f"loadFile({quoted(path.as_posix())})" for path in files)]
+    calls = [_calls(task, number, folder) for number, task in enumerate(job.tasks)]
+    answers = iter(_ask(job, folder, [*loads, *(call for some in calls for call in some)]))
+    problem = "\n".join(_problem(next(answers)) for _ in loads).strip()
+    for task, some in zip(job.tasks, calls, strict=True):
+        given = [next(answers) for _ in some]
+        result = CompileResult(problem) if problem else _result(task, given, folder)
+        # a fault in the text of the task is in none of the user's files
+        own = re.compile(rf"\[{re.escape((folder / 'task').as_posix())}\d+\.mo:[^\]]*\] ")
+        result = msgspec.structs.replace(result, problem=own.sub("", result.problem))
+        yield msgspec.structs.replace(result, version=version.removeprefix("OpenModelica ").removeprefix("v"))
+
+
+def _calls(task: CompileTask, number: int, folder: Path) -> list[str]:
+    """Return the calls for a task: its text is loaded, then checked or simulated."""
+    file = folder / f"task{number}.mo"
+    file.write_text(task.source, encoding="utf-8")
+    calls = [f"loadFile({quoted(file.as_posix())})"]
+    if export := task.export:
+        kind = f'version="{export.version}", fmuType="{export.kind}"'
+        return [*calls, f"buildModelFMU({task.model}, {kind}, fileNamePrefix={quoted(task.model)})"]
+    if task.parameters and not task.runs:  # only a result names all parameters
+        return [*calls, f'simulate({task.model}, stopTime=1e-6, outputFormat="mat", fileNamePrefix="names{number}")']
+    if not task.runs:
+        return [*calls, f"checkModel({task.model})"]
+    for each, run in enumerate(task.runs):
+        calls.append(f"simulate({task.model}, {_settings(run)}, fileNamePrefix={quoted(f'task{number}_{each}')})")
+    return calls
+
+
+def _settings(run: Simulation) -> str:
+    changed = ",".join(f"{name}={value!r}" for name, value in run.parameters.items())
+    override = f", simflags={quoted(f'-override={changed}')}" if changed else ""
+    intervals, tolerance = max(1, round(run.stop / run.step)), run.tolerance or _TOLERANCE
+    times = f"startTime=0, stopTime={run.stop!r}, numberOfIntervals={intervals}, tolerance={tolerance!r}"
+    return f'{times}, method={quoted(run.method or METHODS[0])}, outputFormat="mat"{override}'
+
+
+def _ask(job: CompileJob, folder: Path, calls: Sequence[str], seconds: float | None = None) -> list[_Answer]:
+    """Return the answers to all calls. Raises ImportError or CompilerError if OpenModelica does not give them.
+
+    Raises TimeoutExpired after `seconds`; None for a process that has a limit already.
+    """
+    script = folder / "script.mos"
+    script.write_text("".join(f"{call}; getErrorString();\n" for call in calls), encoding="utf-8")
+    try:
+        done = subprocess.run(  # noqa: S603 - the user's own program
+            [program(job.program) or "omc", script.name],
+            cwd=folder,
+            capture_output=True,
+            stdin=subprocess.DEVNULL,
+            check=False,
+            timeout=seconds,
+        )
+    except OSError as error:
+        raise ImportError(str(error)) from error
+    answers, rest = read_answers(done.stdout.decode(errors="replace"))
+    if len(answers) < len(calls):
+        last_words = done.stderr.decode(errors="replace").strip().splitlines()[-1:] or rest.strip().splitlines()[:1]
+        if len(calls) == 1:
+            raise ImportError(": ".join(filter(None, (exit_cause(done.returncode), *last_words))))
+        message = f"OpenModelica ended at `{calls[len(answers)]}` ({exit_cause(done.returncode)})"
+        hint = f"{job.tasks[0].title}: {REPORT}"
+        raise CompilerError(
+            Diagnostic(Severity.ERROR, "compiler-crashed", ": ".join((message, *last_words)), hint=hint)
+        )
+    return answers
+
+
+def read_answers(printed: str) -> tuple[list[_Answer], str]:
+    """Return the answers in what OpenModelica printed, two values for each call, and the rest, which is none."""
+    values, end = list[str](), 0
+    while match := _VALUE.match(printed, end):
+        values.append(match["record"] or match["word"] or _text(match["text"]))
+        end = match.end()
+    return [_Answer(*pair) for pair in zip(values[::2], values[1::2], strict=False)], printed[end:]
+
+
+def _problem(answer: _Answer) -> str:
+    """Return what is wrong with something that was to be loaded; empty if it is there."""
+    if answer.value == "true":
+        return ""
+    return answer.messages.strip() or "OpenModelica can't load it and gives no reason"
+
+
+def _result(task: CompileTask, answers: Sequence[_Answer], folder: Path) -> CompileResult:
+    loaded, *rest = answers
+    if problem := _problem(loaded):
+        return CompileResult(problem)
+    if task.runs:
+        return _simulated(task, rest, folder)
+    if task.export:
+        return _exported(rest[0], folder)
+    if task.parameters:
+        return _without_parameters(task, rest, folder)
+    ((answer, messages),) = rest
+    counts = _COUNTS.search(answer)
+    if "completed successfully" not in answer or counts is None:
+        return CompileResult(
+            "\n".join(filter(None, map(str.strip, (messages, answer)))) or "the model does not compile"
+        )
+    if counts[1] != counts[2]:
+        return CompileResult(f"unbalanced model: {counts[1]} equations, {counts[2]} unknowns")
+    return CompileResult(unknowns=int(counts[2]), warnings=messages.strip())
+
+
+def _without_parameters(task: CompileTask, answers: Sequence[_Answer], folder: Path) -> CompileResult:
+    """Name all parameters of a model if it lacks one that the task sets."""
+    everything = msgspec.structs.replace(task, runs=(Simulation(1.0, 1.0),), values=(), pattern=".*")
+    result = _simulated(everything, answers, folder)
+    names = tuple(result.runs[0].parameters) if result.runs else ()
+    lacks_one = bool(names) and not set(task.parameters).issubset(names)
+    return CompileResult(result.problem, parameters=names if lacks_one else ())
+
+
+def _exported(answer: _Answer, folder: Path) -> CompileResult:
+    file = folder / answer.value
+    if not answer.value or not file.is_file():
+        return CompileResult(answer.messages.strip() or "OpenModelica makes no FMU and gives no reason")
+    return CompileResult(fmu=file.read_bytes())
+
+
+def _simulated(task: CompileTask, answers: Sequence[_Answer], folder: Path) -> CompileResult:
+    runs = []
+    for value, messages in answers:
+        fields = {name: _text(text) for name, text in _FIELD.findall(value)}
+        log = fields.get("messages", value)
+        if fields.get("resultFile"):
+            ended = _TERMINATED.search(log)
+            run = _read_results(folder / fields["resultFile"], task)
+            runs.append(msgspec.structs.replace(run, termination=ended[1].strip() if ended else ""))
+        elif log.startswith("Failed to build model"):
+            return CompileResult(messages.strip() or one_line(log))
+        else:
+            lines = [_LOG.sub("", line) for line in log.splitlines() if not line.startswith("LOG_SUCCESS")]
+            text = "\n".join(filter(None, lines))
+            if failed := _ASSERTION.search(text):
+                text = f"assert failed at t={failed['time']}: {failed['text']} ({failed['file']}:{failed['line']})"
+            runs.append(SimulationResult(problem=one_line(text.replace("\n", "; "))))
+    return CompileResult(runs=tuple(runs))
+
+
+def _read_results(file: Path, task: CompileTask) -> SimulationResult:
+    """Read a trajectory in MATLAB's format 4, which has parameters as well; one file has all, CSV lacks them.
+
+    Two tables have the numbers: `data_1` what never changes, at the beginning and at the end, `data_2` a column for
+    each instant. `dataInfo` says for each name which table, and which row of it, from 1 on; below 0 it is negated.
+    """
+    import numpy as np  # scipy brings it along
+    from scipy.io import loadmat
+    from scipy.io.matlab import MatReadError
+
+    try:
+        content: Any = loadmat(file, chars_as_strings=False)
+        letters = np.ascontiguousarray(content["name"].T)
+        places = zip(*content["dataInfo"][:2].astype(int).tolist(), strict=True)
+        texts = letters.view(f"<U{letters.shape[1]}")[:, 0].tolist()
+        rows = dict(zip(map(str.strip, texts), places, strict=True))
+        tables = {1: content["data_1"], 2: content["data_2"]}
+        times = tables[2][0]
+        wanted = re.compile(task.pattern)
+        names = dict.fromkeys(("time", *task.values, *(name for name in rows if wanted.fullmatch(name))))
+        if missing := [name for name in names if name not in rows]:
+            return SimulationResult(problem=f"the result has no `{missing[0]}`")
+        series, parameters = dict[str, tuple[float, ...]](), dict[str, float]()
+        for name in names:
+            number, row = rows[name]
+            numbers = math.copysign(1, row) * tables[number or 2][abs(row) - 1]
+            if number == 1:
+                parameters[name] = float(numbers[0])
+                numbers = np.full(len(times), numbers[0])
+            series[name] = tuple(numbers.tolist())
+    except (OSError, ValueError, IndexError, KeyError, TypeError, MatReadError) as error:
+        return SimulationResult(problem=f"the result can't be read: {error}")
+    return SimulationResult(series, parameters=parameters)
+
+
+def _package_files(job: CompileJob) -> list[Path]:
+    """Return the files that load all roots, which are packages or folders of packages.
+
+    The standard library is OpenModelica's own, which goes with it.
+    """
+    files: list[Path] = []
+    for root in map(Path, job.roots):
+        whole = root if root.is_file() else root / "package.mo"
+        files += [whole] if whole.is_file() else sorted([*root.glob("*/package.mo"), *root.glob("*.mo")])
+    return [path for path in files if _library_name(path) not in STANDARD_LIBRARIES]
+
+
+def _library_name(file: Path) -> str:
+    return (file.parent.name if file.name == "package.mo" else file.stem).split(" ")[0]
+
+
+def quoted(text: str) -> str:
+    """Return a text as a literal of Modelica."""
+    return '"' + text.replace("\\", "\\\\").replace('"', '\\"') + '"'
+
+
+def _text(literal: str) -> str:
+    """Return the text of a literal of Modelica, given without its quotes."""
+    return _ESCAPED.sub(lambda match: _ESCAPES.get(match[1], match[1]), literal)

@@ -1,0 +1,218 @@
+"""rumoca, the embedded compiler: jobs done with it, and its messages.
+
+rumoca says everything in one text: complaints in lines or after semicolons, some with a place in brackets, some drawn
+with a frame around the source.
+"""
+
+from __future__ import annotations
+
+import importlib.util
+import math
+import re
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import msgspec
+
+from urdfsync.checks.compilers.compiler import (
+    CompileJob,
+    CompileResult,
+    CompileTask,
+    Complaint,
+    Simulation,
+    SimulationResult,
+    one_line,
+)
+from urdfsync.extras import install_command
+
+if TYPE_CHECKING:
+    import rumoca
+
+TITLE = "rumoca"
+MODULES: tuple[str, ...] = ("rumoca",)
+INSTALL = install_command("check")
+REPORT = "report it to the authors of rumoca"
+METHODS: tuple[str, ...] = ("auto", "bdf", "rk-like")
+HAS_STANDARD_LIBRARY = False
+
+_FILE = "Task.mo"  # always the same, so that a text takes the place of the one before in the compiler's memory
+_UNKNOWN = frozenset(("state", "algebraic", "output", "discrete_real", "discrete_value"))
+_SEARCH = re.compile(r"event iteration (at t=\S+) cycles .* which the mode search ")
+_STUCK = (
+    "rumoca finds no state of joints with the friction law stiction that slide together, {}: "
+    'choose `friction = "lugre"`, or OpenModelica with `--tool`'
+)
+"""In place of what rumoca 0.10.2 says of two such joints."""
+_SPAN = re.compile(r" @ Span \{.*?\) \}")
+
+_SHADOW = "variability violation: "
+"""rumoca 0.10.2 says this of sound models of the Modelica Standard Library as soon as something else is wrong."""
+_COLOURS = re.compile(r"\x1b\[[0-9;]*m")
+_FRAMED = re.compile(r"×(?P<words>[^╭]*?)\n\s*╭─+\[(?P<file>[^\n]*?):(?P<line>\d+):(?P<column>\d+)\]")
+_PIECES = re.compile(r"\n|; (?=\S)")
+_PREFIXES = re.compile(
+    r"^(?:- <[^>]*> \[\w+\]: |\w+ failed: |[\w.]+ failed in \w+: |[\w.]+ could not be compiled: |Failed to [^:]*: )+"
+)
+_PLACE = re.compile(r" \[(?P<file>[^\[\]]*):(?P<line>\d+):(?P<column>\d+)\]$")
+
+
+def program(named: str) -> str:  # noqa: ARG001 - see `Compiler`
+    """See `Compiler`: all of it is in the module."""
+    return ""
+
+
+def state(named: str) -> tuple[str, list[Path]]:  # noqa: ARG001 - see `Compiler`
+    """See `Compiler`: the folder of the module; its version is part of that."""
+    spec = importlib.util.find_spec("rumoca")
+    return "", [Path(spec.origin).parent] if spec and spec.origin else []
+
+
+def environment(cache: str, folder: str) -> dict[str, str]:  # noqa: ARG001 - see `Compiler`
+    """See `Compiler`. rumoca looks at MODELICAPATH for whatever the roots do not have, so that goes."""
+    return {"XDG_CACHE_HOME": str(Path(cache).parent), "MODELICAPATH": ""}  # it adds its own name to the first
+
+
+def complaints(problem: str) -> list[Complaint]:
+    """See `Compiler`. A complaint that only follows from another one is left out."""
+    text = _COLOURS.sub("", problem).strip()
+    result = [_placed(match["words"].replace("│", " "), match) for match in _FRAMED.finditer(text)]
+    for piece in () if result else _PIECES.split(text):
+        words = _PREFIXES.sub("", piece.strip())
+        if not words or words[-1] == ":":  # a heading
+            continue
+        if place := _PLACE.search(words):
+            result.append(_placed(words[: place.start()], place))
+        else:
+            result.append(Complaint(one_line(words)))
+    if not result and text:
+        result.append(Complaint(one_line(text)))
+    return [complaint for complaint in result if not complaint.message.startswith(_SHADOW)] or result[:1]
+
+
+def _placed(words: str, place: re.Match[str]) -> Complaint:
+    return Complaint(one_line(words), file=place["file"], line=int(place["line"]), column=int(place["column"]))
+
+
+def work(job: CompileJob) -> Iterator[CompileResult]:
+    """Do all tasks with one session, in order. Raises ImportError without the compiler."""
+    import rumoca  # an optional extra
+
+    session = rumoca.Session(roots=list(job.roots))
+    for task in job.tasks:
+        begin = time.process_time()
+        result = _compile(session, task)
+        yield msgspec.structs.replace(result, version=rumoca.version(), seconds=time.process_time() - begin)
+
+
+def _compile(session: rumoca.Session, task: CompileTask) -> CompileResult:
+    import rumoca
+
+    try:
+        model = session.loads(task.source, model=task.model, filename=_FILE)
+    except rumoca.RumocaError as error:
+        return CompileResult(_words(error))
+    if not set(task.parameters).issubset(model.parameters.names):
+        return CompileResult(parameters=tuple(model.parameters.names))
+    if unused := _without_effect(model, task.parameters):
+        return CompileResult(without_effect=unused)
+    runs = tuple(_simulate(model, run, task) for run in task.runs)
+    return CompileResult(unknowns=_unknowns(model), runs=runs)
+
+
+class _Type(msgspec.Struct):
+    scalar: str
+    dimensions: list[int]
+
+
+class _Attributes(msgspec.Struct):
+    binding: int | None
+
+
+class _Variable(msgspec.Struct):
+    name: str
+    role: str
+    value_type: int
+    attributes: _Attributes
+
+
+class _Expressions(msgspec.Struct):
+    nodes: list[dict[str, Any]]
+
+
+class _Storage(msgspec.Struct):
+    value_types: list[_Type]
+    variables: list[_Variable]
+    expressions: _Expressions
+
+
+class _Equations(msgspec.Struct):
+    """A part of the compiler's own form of a model: its variables, and where expressions mention them."""
+
+    storage: _Storage
+
+
+def _unknowns(model: rumoca.Model) -> int:
+    """Count the scalar unknowns as the compiler does when it finds a model unbalanced."""
+    storage = msgspec.json.decode(model.to_json("dae"), type=_Equations).storage
+    sizes = [math.prod(value_type.dimensions) for value_type in storage.value_types]
+    return sum(sizes[variable.value_type] for variable in storage.variables if variable.role in _UNKNOWN)
+
+
+def _without_effect(model: rumoca.Model, names: tuple[str, ...]) -> tuple[str, ...]:
+    """Return the parameters among `names` that no equation uses, neither directly nor through what is bound to them.
+
+    rumoca 0.10.2 takes a modifier of a part of a record that is handed down as a whole, and then uses the whole.
+    """
+    if not names:
+        return ()
+    storage = msgspec.json.decode(model.to_json("dae"), type=_Equations).storage
+    bound = {variable.attributes.binding: number for number, variable in enumerate(storage.variables)}
+    uses: dict[int, list[int]] = {}
+    for place, node in enumerate(storage.expressions.nodes):
+        match node:
+            case {"coordinate": {"parameter": int(number)}}:
+                uses.setdefault(number, []).append(place)
+    numbers = {variable.name: number for number, variable in enumerate(storage.variables)}
+    structural = {parameter.name for parameter in model.parameters if parameter.kind == "structural"}
+
+    def is_used(number: int, above: frozenset[int] = frozenset()) -> bool:
+        # what the structure depends on is evaluated, and then mentioned nowhere; sizes are not even called structural
+        variable = storage.variables[number]
+        if variable.name in structural or storage.value_types[variable.value_type].scalar != "real":
+            return True
+        places = uses.get(number, [])
+        return any(place not in bound for place in places) or any(
+            is_used(bound[place], above | {number}) for place in places if bound[place] not in above
+        )
+
+    return tuple(name for name in names if name in numbers and not is_used(numbers[name]))
+
+
+def _simulate(model: rumoca.Model, run: Simulation, task: CompileTask) -> SimulationResult:
+    """Simulate a compiled model. rumoca hands back nothing of a run that stops."""
+    import rumoca
+
+    tolerance, method = run.tolerance, run.method or None
+    config = rumoca.SimConfig(dt=run.step, rtol=tolerance, atol=tolerance, solver=method)
+    try:
+        result = model.simulate((0, run.stop), config=config, params=dict(run.parameters) or None)
+        wanted = re.compile(task.pattern)
+        others = (name for name in result.names if wanted.fullmatch(name) and name[0] != "$")  # but for its own
+        series = {name: tuple(result[name].tolist()) for name in dict.fromkeys((*task.values, *others))}
+    except (rumoca.RumocaError, LookupError, ValueError) as error:
+        return SimulationResult(problem=_words(error))
+    values = {"time": tuple(result.time.tolist()), **series}  # all finite, or it says so itself
+    parameters = {
+        parameter.name: parameter.value
+        for parameter in model.parameters
+        if parameter.value is not None and wanted.fullmatch(parameter.name)
+    }
+    return SimulationResult(values, termination=result.termination or "", parameters=parameters)
+
+
+def _words(error: Exception) -> str:
+    """Return the compiler's message without places in its own notation."""
+    words = _SPAN.sub("", str(error.args[0] if error.args else error))
+    return _STUCK.format(search[1]) if (search := _SEARCH.search(words)) else words

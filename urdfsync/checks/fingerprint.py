@@ -1,0 +1,100 @@
+"""One hash of all that a result rests on: `check`, the check after a build and `simulate` remember results by it."""
+
+from __future__ import annotations
+
+import functools
+import os
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+import msgspec
+
+import urdfsync
+from urdfsync import registry
+from urdfsync.checks import compilers, libraries, package
+from urdfsync.checks.cache import digest
+from urdfsync.checks.compilers.compiler import Tool
+from urdfsync.checks.contents import RESOURCES, content_hash, package_texts
+from urdfsync.checks.results import CheckOptions
+from urdfsync.config import Config, RobotConfig, find_own_library
+from urdfsync.diagnostics import UrdfsyncError
+from urdfsync.engine import source
+from urdfsync.engine.options import BuildOptions
+from urdfsync.files import shown
+from urdfsync.modelica.names import LIBRARY
+from urdfsync.state.store import Store
+
+
+def result_key(robot: RobotConfig, tools: Sequence[Tool], needed: libraries.Libraries, *facts: object) -> str | None:
+    """Return the key of a result: a hash of `facts`, and of the contents of all else that any result rests on.
+
+    That is urdfsync with its library, the code of the domain, Python with all that is installed, the compilers and the
+    Modelica libraries. None if some of it can't be known: then the result must not be remembered.
+    """
+    own = find_own_library(LIBRARY, robot.target.package)
+    places = {**needed.others, **({LIBRARY: own} if own else {})}
+    if any(compilers.COMPILERS[tool.name].HAS_STANDARD_LIBRARY for tool in tools):
+        places |= {str(path): path for path in libraries.standard_libraries(os.environ)}
+    try:
+        return digest(
+            *(sys.version, sys.platform, _installed(), _code(urdfsync.__file__), _domain_code(robot.domain)),
+            *(compilers.state(tool) for tool in tools),
+            [(name, str(path), content_hash(path)) for name, path in sorted(places.items())],
+            # of these a copy is used, without resources
+            [(str(path), content_hash(path, [RESOURCES])) for path in needed.standard.values()],
+            *(str(needed.problem), robot.target, robot.domain),
+            *facts,
+        )
+    except (UrdfsyncError, OSError):
+        return None
+
+
+def fingerprint(config: Config, robot: RobotConfig, options: CheckOptions) -> str | None:
+    """Return the key of the check of a package in step; None if some of what it rests on can't be read."""
+    domain = registry.domain(robot.domain)
+    try:
+        texts = package_texts(robot.folder)
+        around = package.files_around(config, robot, texts)
+        users = package.users_files(config, robot)
+        every = [*texts.values(), *around.values(), *users.values()]
+        needed = libraries.find_libraries(config, robot, every, [name for name, _ in domain.uses(robot.options)])
+        others = {**needed.others, **package.users_models(robot, users).libraries}
+        request = BuildOptions(dry=True, package_paths=options.package_paths)
+        content = source.read_source(config, robot, Store(config.root), request).content
+        templates = source.templates(config, robot, domain).digest
+    except (UrdfsyncError, OSError):
+        return None
+    return result_key(
+        robot,
+        options.tools,
+        msgspec.structs.replace(needed, others=others),
+        *(options.physics, robot.options, content, templates),
+        shown(robot.folder),  # findings name files as they are seen from the working folder
+        *(sorted(files.items()) for files in (texts, around, users)),
+    )
+
+
+@functools.cache
+def _code(file: str) -> str:
+    """Hash the code of the package that a module is in, as it is when it is first asked for.
+
+    A process goes on with the code that it has loaded, whatever is installed meanwhile.
+    """
+    return content_hash(Path(file).parent if Path(file).name == "__init__.py" else Path(file))
+
+
+def _domain_code(name: str) -> list[str]:
+    """Hash the code of a domain, which is loaded: of the top-level package or module that it comes from."""
+    module = sys.modules[registry.top_level(name)]
+    files = [module.__file__] if module.__file__ else [f"{path}/__init__.py" for path in module.__path__]
+    return [_code(file) for file in files]
+
+
+def _installed() -> list[str]:
+    """Return the names and versions of all that is installed, as the folders of their metadata say them."""
+    folders = set[str]()
+    for place in sys.path:
+        names = os.listdir(place) if os.path.isdir(place) else []  # noqa: PTH112, PTH208
+        folders.update(name for name in names if name.endswith((".dist-info", ".egg-info")))
+    return sorted(folders)

@@ -1,0 +1,107 @@
+"""Does tasks of a compiler with versions of one robot's package, each a copy in a folder that the compiler reads."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from pathlib import Path
+
+import msgspec
+
+from urdfsync.checks import compilers, libraries
+from urdfsync.checks.cache import UserCache
+from urdfsync.checks.compilers.compiler import CompileJob, CompileResult, CompileTask, Tool
+from urdfsync.checks.contents import copy_library
+from urdfsync.checks.package import write_package
+from urdfsync.checks.process import Limits
+from urdfsync.config import RobotConfig, find_own_library
+from urdfsync.modelica.names import LIBRARY
+
+
+class Jobs(msgspec.Struct, frozen=True):
+    """Where the tasks of one compiler are done with the package of one robot."""
+
+    robot: RobotConfig
+    tool: Tool
+    needed: libraries.Libraries
+    around: Mapping[str, bytes]
+    """See `package.files_around`."""
+    limits: Limits
+    folder: Path
+    """Copies of the package go below it."""
+    progress: Callable[[], None] | None = None
+    """See `process.run`."""
+
+    def run(
+        self,
+        label: str,
+        texts: Mapping[str, bytes],
+        tasks: Sequence[CompileTask],
+        changed: Mapping[Path, bytes] | None = None,
+    ) -> list[CompileResult]:
+        """Do tasks with a version of the package in a process. Problems name the files that people know.
+
+        `label` names the copy; `changed` are files, by their absolute paths, that have another content in it. Raises
+        CompilerError, LimitError and CacheError, and as `copy_library`.
+        """
+        cache, folder, changed = UserCache.default(), self.folder / label.replace("/", "-"), changed or {}
+        texts = {path: changed.get(self.robot.folder / path, content) for path, content in texts.items()}
+        around = {path: changed.get(self.robot.output / path, content) for path, content in self.around.items()}
+        own = find_own_library(LIBRARY, self.robot.target.package)
+        needed = {**({LIBRARY: own} if own else {}), **self.needed.others}
+        originals: dict[str, Path] = {}
+        """The folders and files that people know, by those that the compiler reads."""
+        roots: list[str] = []
+        if not compilers.COMPILERS[self.tool.name].HAS_STANDARD_LIBRARY:
+            others = (text for path in self.needed.others.values() for text in libraries.library_texts(path).values())
+            every = [*texts.values(), *around.values(), *others]
+            standard = libraries.standard_library_copy(self.needed.standard, every, cache)
+            roots.append(str(standard))
+            parts = self.needed.standard.items()
+            originals |= {str(standard / name): path for name, path in parts if path.suffix != ".mo"}
+        top = write_package(folder, self.robot, texts, around)
+        for path in needed.values():
+            roots.append(_readable(path, folder / ".libraries", changed))
+            originals[roots[-1]] = path
+        roots.append(str(top))
+        originals[roots[-1]] = self.robot.output / top.name
+        tasks = [_with_imports(task, needed) for task in tasks]
+        job = CompileJob(tuple(roots), tuple(tasks))
+        results = compilers.run_job(self.tool, job, cache, self.limits, self.progress)
+        return [_with_originals(result, originals) for result in results]
+
+
+def _with_imports(task: CompileTask, names: Iterable[str]) -> CompileTask:
+    """Import libraries behind the first line of a task's text: rumoca loads no others."""
+    first, _, rest = task.source.partition("\n")
+    imports = "".join(f"  import {name};\n" for name in names if f"import {name};" not in rest)
+    return msgspec.structs.replace(task, source=f"{first}\n{imports}{rest}")
+
+
+def _with_originals(result: CompileResult, originals: Mapping[str, Path]) -> CompileResult:
+    """Replace the paths of copies in what a compiler says."""
+
+    def named(text: str) -> str:
+        for copy, original in originals.items():
+            text = text.replace(copy, str(original))
+        return text
+
+    runs = tuple(msgspec.structs.replace(run, problem=named(run.problem)) for run in result.runs)
+    return msgspec.structs.replace(result, problem=named(result.problem), warnings=named(result.warnings), runs=runs)
+
+
+def _readable(path: Path, folder: Path, changed: Mapping[Path, bytes]) -> str:
+    """Return where the compiler can read a library: a copy if its path is not UTF-8, or if a file of it changed."""
+    inside = {file: content for file, content in changed.items() if file == path or path in file.parents}
+    try:
+        str(path).encode()
+    except UnicodeEncodeError:
+        pass
+    else:
+        if not inside:
+            return str(path)
+    copy = folder / path.name
+    folder.mkdir(parents=True, exist_ok=True)
+    copy_library(path, copy)
+    for file, content in inside.items():
+        (copy / file.relative_to(path)).write_bytes(content)
+    return str(copy)

@@ -1,0 +1,249 @@
+"""The Modelica libraries that a package needs: where they are, and a copy of the part that robots need of the MSL."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import re
+import tempfile
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import TypeAlias
+
+import msgspec
+
+from urdfsync.checks.cache import UserCache, cache_errors, digest
+from urdfsync.checks.contents import RESOURCES, content_hash, copy_library, package_texts
+from urdfsync.config import Config, RobotConfig, find_own_library
+from urdfsync.dependencies import read_unrecorded
+from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
+from urdfsync.modelica.names import LIBRARY, STANDARD_LIBRARIES
+
+Version: TypeAlias = tuple[int, ...]
+
+OLDEST: Version = (4, 1)  # the first that the embedded compiler takes
+NEXT: Version = (5,)  # the first that is known only by its number; taken if there is no other
+
+# The copy of these takes the compiler a fifth of the time and memory that the whole library does (5 s and 1.1 GB).
+_COPIED = tuple(
+    tuple(part.split("."))
+    for part in (
+        "Blocks Constants Icons Math Mechanics Units Utilities Thermal.HeatTransfer Electrical.Machines.Thermal"
+    ).split()
+)
+_LEFT_OUT = frozenset({"Examples", "UsersGuide", RESOURCES})
+_COPY_REVISION = 2  # raised when other parts are copied
+
+_ANNOTATED_VERSION = re.compile(r'(?:^|,|\bannotation\s*\()\s*version\s*=\s*"(\d+(?:\.\d+)*)', re.MULTILINE)
+_NOISE = re.compile(rb'"(?:\\.|[^"\\])*"|//[^\n]*|/\*.*?\*/', re.DOTALL)
+_LIBRARY_NAME = re.compile(rb"\bimport\s+(?:\w+\s*=\s*)?\.?(\w+)|(?<![\w.\])'])\.?\b(\w+)\s*\.")
+_STANDARD_NAME = re.compile(rb"\bModelica((?:\s*\.\s*[\w*{]+)+)")
+_STANDARD_ALIAS = re.compile(rb"=\s*Modelica\s*;")
+_HINT = (
+    "name the folder that holds `Modelica`, `ModelicaServices` and `Complex`, 4.1.0 or newer, with `library` in the "
+    "table `[check]`, or put it on MODELICAPATH"
+)
+
+
+class LibraryError(UrdfsyncError):
+    """There is no Modelica Standard Library that suits; the code of the one diagnostic says why."""
+
+    def __init__(self, code: str, message: str) -> None:
+        super().__init__(Diagnostic(Severity.ERROR, code, message, hint=_HINT))
+
+
+class StandardLibrary(msgspec.Struct, frozen=True):
+    """The Modelica Standard Library: three libraries that belong together."""
+
+    version: Version
+    """Empty if unknown."""
+    parts: Mapping[str, Path]
+    """Its libraries by their names: each a folder with a `package.mo`, or a file."""
+
+
+def find_standard_library(environment: Mapping[str, str], configured: Path | None = None) -> StandardLibrary:
+    """Find the Modelica Standard Library: in the configured folder, else in the first folder with one that suits.
+
+    Raises LibraryError.
+    """
+    candidates: list[StandardLibrary] = []
+    for place in [configured] if configured else library_folders(environment):
+        for version, path in _versions(place, "Modelica"):
+            parts = {"Modelica": path}
+            for name in STANDARD_LIBRARIES[1:]:  # of the same version, else the newest
+                others = _versions(place, name)
+                if others:
+                    parts[name] = dict(others).get(version, others[0][1])
+            if len(parts) == len(STANDARD_LIBRARIES):
+                candidates.append(StandardLibrary(version, parts))
+    suitable = [library for library in candidates if library.version >= OLDEST]
+    if suitable:
+        return next((library for library in suitable if library.version < NEXT), suitable[0])
+    code, message = "no-standard-library", "there is no Modelica Standard Library"
+    if candidates:
+        first, oldest = candidates[0], ".".join(map(str, OLDEST))
+        place, number = first.parts["Modelica"].parent, ".".join(map(str, first.version)) or "of unknown version"
+        code = "standard-library-too-old"
+        message = f"the Modelica Standard Library in {place} is {number}; the compiler takes {oldest} and newer"
+    if configured:
+        code, message = "wrong-library-folder", f"{message}: `library` in the table `[check]` names {configured}"
+    raise LibraryError(code, message)
+
+
+def library_folders(environment: Mapping[str, str]) -> list[Path]:
+    """Return the folders of libraries, each once: those on MODELICAPATH, then those of OpenModelica."""
+
+    def paths(name: str) -> list[Path]:
+        return [Path(folder) for folder in environment.get(name, "").split(os.pathsep) if folder]
+
+    homes = [Path(os.path.expanduser("~")), *paths("APPDATA")]  # noqa: PTH111 - Path.home() fails without a home
+    own = [home / ".openmodelica" / "libraries" for home in homes]
+    installed = [path / "lib" / "omlibrary" for path in paths("OPENMODELICAHOME")]
+    installed += [Path("/usr/lib/omlibrary"), Path("/opt/openmodelica/lib/omlibrary")]
+    return list(dict.fromkeys([*paths("MODELICAPATH"), *paths("OPENMODELICALIBRARY"), *own, *installed]))
+
+
+def standard_libraries(environment: Mapping[str, str]) -> list[Path]:
+    """Return all versions of the Modelica Standard Library's libraries: a compiler with one of its own takes any."""
+    return [
+        path
+        for place in library_folders(environment)
+        for name in STANDARD_LIBRARIES
+        for _, path in _versions(place, name)
+    ]
+
+
+def find_library(name: str, places: Iterable[Path]) -> Path | None:
+    """Find the library `name` in the first folder that has it, in its newest version: a folder or a file."""
+    return next((versions[0][1] for place in places if (versions := _versions(place, name))), None)
+
+
+def class_finder(package: str, standard: Mapping[str, Path], places: Sequence[Path]) -> Callable[[str], Path | None]:
+    """Return a function that finds the folder or file of a top-level class other than that of a robot's package.
+
+    Of the Modelica Standard Library only the parts in `standard` count.
+    """
+
+    def find(name: str) -> Path | None:
+        if own := find_own_library(name, package):
+            return own
+        return standard.get(name) if name in STANDARD_LIBRARIES else find_library(name, places)
+
+    return find
+
+
+class Libraries(msgspec.Struct, frozen=True):
+    """The libraries that a package needs, but for UrdfSync."""
+
+    standard: Mapping[str, Path]
+    """The Modelica Standard Library; empty if there is none that suits."""
+    others: Mapping[str, Path]
+    problem: Diagnostic | None = None
+    """Why there is no Modelica Standard Library."""
+
+
+def find_libraries(config: Config, robot: RobotConfig, texts: Iterable[bytes], wanted: Iterable[str] = ()) -> Libraries:
+    """Find the libraries that the texts of a robot's package need, and `wanted` ones. Raises OutputError."""
+    top, places = robot.target.package.partition(".")[0], search_path(robot)
+    others = needed_libraries(texts, top, places, wanted)
+    try:
+        return Libraries(find_standard_library(os.environ, config.check.library).parts, others)
+    except LibraryError as error:
+        return Libraries({}, others, error.diagnostics[0])
+
+
+def search_path(robot: RobotConfig) -> list[Path]:
+    """Return the folders in which the libraries of a robot's package are looked for, that of the package first."""
+    return [robot.output, *library_folders(os.environ)]
+
+
+def needed_libraries(
+    texts: Iterable[bytes], top: str, places: Sequence[Path], wanted: Iterable[str]
+) -> dict[str, Path]:
+    """Find the libraries in `places` that texts of the top-level package `top` name, `wanted` ones, and what they name.
+
+    A library is named in an import, or where its name and a dot begin a name; components of something else do not
+    count. The Modelica Standard Library and UrdfSync are left out. Raises OutputError for an unreadable library.
+    """
+    available = {path.name.removesuffix(".mo").partition(" ")[0] for place in places for path in _entries(place)}
+    available -= {top, LIBRARY, *STANDARD_LIBRARIES}
+    named, waiting, needed = set(wanted), list(texts), dict[str, Path]()
+    while named or waiting:
+        for name in sorted(named & available):
+            available.remove(name)
+            if path := find_library(name, places):
+                needed[name] = path
+                waiting += library_texts(path).values()
+        code = _NOISE.sub(b"", waiting.pop()) if waiting else b""
+        named = {os.fsdecode(word) for match in _LIBRARY_NAME.finditer(code) for word in match.groups() if word}
+    return dict(sorted(needed.items()))
+
+
+def library_texts(path: Path) -> Mapping[str, bytes]:
+    """Read the files of a library, which is a folder or a file. Raises OutputError for one that can't be read."""
+    return {path.name: read_unrecorded(path)} if path.suffix == ".mo" else package_texts(path)
+
+
+def standard_library_copy(parts: Mapping[str, Path], texts: Iterable[bytes], cache: UserCache) -> Path:
+    """Return a copy of the part of the library that robots need, or of the whole if `texts` name anything else of it.
+
+    It is made once for each content of the library. The whole is copied as well, without its resources: the compiler
+    wants all parts in one folder, and would read all that is in this one. Raises CacheError, and as `copy_library`.
+    """
+    whole = not all(map(_is_in_copy, texts))
+    key = digest(_COPY_REVISION, [content_hash(path, [RESOURCES]) for _, path in sorted(parts.items())])[:16]
+    target, top = cache.libraries / f"{'whole' if whole else 'part'}-{key}", parts["Modelica"].resolve()
+
+    def ignored(folder: str, names: list[str]) -> list[str]:
+        left_out = [name for name in names if name in (RESOURCES, "package.order") or name.startswith(".")]
+        if not whole and Path(folder).is_relative_to(top):
+            below = Path(folder).relative_to(top).parts
+            for name in names:
+                path = (*below, name.removesuffix(".mo"))
+                is_part = any(path[: len(part)] == part[: len(path)] for part in _COPIED)  # of one, or around one
+                if path[-1] != "package" and not (is_part and _LEFT_OUT.isdisjoint(path)):
+                    left_out.append(name)
+        return left_out
+
+    with cache_errors(cache.folder):
+        if not target.is_dir():
+            target.parent.mkdir(parents=True, exist_ok=True)
+            with tempfile.TemporaryDirectory(prefix="new-", dir=target.parent) as folder:
+                made = Path(folder) / "library"
+                made.mkdir()
+                for name, path in parts.items():
+                    copy_library(path, made / (f"{name}.mo" if path.suffix == ".mo" else name), ignored)
+                try:
+                    made.rename(target)
+                except OSError:
+                    if not target.is_dir():  # else another process was faster
+                        raise
+        os.utime(target)  # the cache sees that it is in use
+    return target
+
+
+def _is_in_copy(text: bytes) -> bool:
+    """Whether the part of the Modelica Standard Library that is copied has all that a text names of it."""
+    code = _NOISE.sub(b"", text)
+    names = [tuple(re.sub(r"\s", "", name.decode()).strip(".").split(".")) for name in _STANDARD_NAME.findall(code)]
+    covered = (any(name[: len(part)] == part for part in _COPIED) and "Examples" not in name for name in names)
+    return all(covered) and not _STANDARD_ALIAS.search(code)
+
+
+def _versions(place: Path, name: str) -> list[tuple[Version, Path]]:
+    """Return all versions of a library in a folder, the newest first, one without a known version last."""
+    versions = []
+    for path in _entries(place):
+        stem = path.name.removesuffix(".mo")
+        text = path if path.suffix == ".mo" else path / "package.mo"
+        if (stem == name or stem.startswith(f"{name} ")) and text.is_file():
+            number = re.search(r"\d+(?:\.\d+)*", stem.removeprefix(name))
+            written = None if number else _ANNOTATED_VERSION.search(text.read_text("utf-8", "replace"))
+            digits = number[0] if number else written[1] if written else ""
+            versions.append((tuple(map(int, digits.split("."))) if digits else (), path))
+    return sorted(versions, reverse=True)
+
+
+def _entries(place: Path) -> Iterator[Path]:
+    with contextlib.suppress(OSError):  # a folder on a search path need not exist
+        yield from list(place.iterdir())

@@ -1,0 +1,127 @@
+"""Names that mean nothing, in the robot's package and in the files of the user that use it. No compiler is asked."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
+from pathlib import Path, PurePosixPath
+from typing import NamedTuple
+
+import msgspec
+
+from urdfsync.checks import libraries
+from urdfsync.checks.package import RobotPackage
+from urdfsync.checks.results import listed
+from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.domain import brings_back
+from urdfsync.files import shown
+from urdfsync.modelica.classes import Node
+from urdfsync.modelica.files import StoredClasses, class_of_file, files_that_use, parse_file, place_of, text_of
+from urdfsync.modelica.layout import check_class_file
+from urdfsync.modelica.scopes import Scopes
+from urdfsync.modelica.unresolved import Unresolved, UnresolvedKind, unresolved
+
+
+class NameCheck(NamedTuple):
+    """The findings about names, each once in a file, at its first line."""
+
+    package: list[Diagnostic]
+    users: list[Diagnostic]
+    """In files of the user outside of the package."""
+    users_files: Mapping[Path, bytes]
+    """The files of the user that use the package: by names that mean a class of it, or of another such file."""
+    uses: Mapping[Path, Set[Path]]
+    """For each file of the user, those of the classes that its names mean."""
+
+
+def check_names(package: RobotPackage, standard: Mapping[str, Path]) -> NameCheck:
+    """Resolve all names; `standard` are the libraries of the Modelica Standard Library."""
+    robot = package.robot
+    find = libraries.class_finder(robot.target.package, standard, libraries.search_path(robot))
+    around = {robot.output / path: text for path, text in package.around.items() if path.endswith(".mo")}
+    others = {**around, **package.users_files}
+    read = functools.cache(parse_file)  # for each file of the user anew
+    sources = StoredClasses(robot.target.package, robot.folder, package.files.texts, others, find, read)
+    scopes = Scopes(sources)
+    own = _findings(package, _unresolved(filter(None, map(scopes.node, sorted(sources.own))), scopes))
+    places: list[tuple[Path, Unresolved]] = []
+    uses: dict[Path, set[Path]] = {}
+    using, top = set[Path](), tuple(robot.target.package.split("."))
+    unplaced = set(sources.unread)
+    for name, definition in sources.users.items():
+        if (path := Path(definition.file)) in package.users_files:
+            sources.seen.clear()
+            scopes = Scopes(sources)  # one that has resolved a name does not ask for its class again
+            if (node := scopes.node(name)) is None:  # there is no such package
+                unplaced.add(path)
+                continue
+            places += _unresolved([node], scopes)
+            if any(other[: len(top)] == top and len(other) > len(top) for other in sources.seen):
+                using.add(path)
+            seen = {Path(file) for file in sources.seen.values() if file}
+            # each file asks for the packages around it
+            around_it = {folder / "package.mo" for folder in path.parents}
+            uses.setdefault(path, set()).update(seen - around_it)
+    while more := {path for path, seen in uses.items() if path not in using and seen & using}:
+        using |= more
+    contents = {path: text for path, text in package.users_files.items() if path in unplaced}
+    unplaced = files_that_use(contents, [robot.folder.name]).keys() - around.keys()
+    users_files = {path: text for path, text in package.users_files.items() if path in using | unplaced}
+    users = [finding for path in sorted(unplaced) for finding in _check_place(path, others)]
+    users += _findings(package, [place for place in places if place[0] in using])
+    return NameCheck(own, users, users_files, uses)
+
+
+def _check_place(path: Path, files: Mapping[Path, bytes]) -> Iterator[Diagnostic]:
+    """Yield why nothing is known of the names in a file of the user."""
+    name = ".".join((*place_of(path, files)[1], class_of_file(path)))
+    for finding in check_class_file(text_of(files[path]), PurePosixPath(path.name), name)[1]:
+        if finding.severity is Severity.ERROR:
+            yield msgspec.structs.replace(finding, severity=Severity.WARNING, file=shown(path))
+
+
+def _unresolved(nodes: Iterable[Node], scopes: Scopes) -> list[tuple[Path, Unresolved]]:
+    return [(Path(node.file), fault) for node in nodes for fault in unresolved(node, scopes)]
+
+
+def _findings(package: RobotPackage, places: Iterable[tuple[Path, Unresolved]]) -> list[Diagnostic]:
+    """Return one finding for all places in a file that have the same fault."""
+    alike: dict[tuple[Path, UnresolvedKind, str, str], list[Unresolved]] = {}
+    for file, fault in places:
+        alike.setdefault((file, fault.kind, fault.owner, fault.part), []).append(fault)
+    findings = [_diagnostic(package, file, uses) for (file, *_), uses in alike.items()]
+    return sorted(findings, key=lambda finding: (finding.file, finding.line))
+
+
+def _diagnostic(package: RobotPackage, file: Path, places: Sequence[Unresolved]) -> Diagnostic:
+    earliest, files = min(places, key=lambda place: place.line), package.files
+    severity, code, hint = Severity.WARNING, earliest.kind.value, ""
+    if earliest.kind is UnresolvedKind.NESTED_REDECLARE:
+        message = f"the redeclaration of `{earliest.part}` inside of another modifier is not checked: rumoca ignores it"
+        hint = f"write a model that says `extends {earliest.owner}(redeclare … {earliest.part})`, and use that instead"
+    elif earliest.kind is UnresolvedKind.DOTTED_MODIFIER:
+        message = f"the modifier of `{earliest.name}` is not checked: rumoca ignores names with dots in modifiers"
+        first, *rest = earliest.name.split(".")
+        hint = f"write `{first}({'('.join(rest)} = …{')' * len(rest)}`, which every tool follows"
+    else:
+        severity, code, hint = (
+            Severity.ERROR,
+            "unresolved",
+            f"did you mean `{earliest.meant}`?" if earliest.meant else "",
+        )
+        message = earliest.message
+        if earliest.kind is UnresolvedKind.ELEMENT:
+            robot, snapshot = package.robot, package.generation.now.snapshot
+            if earliest.owner in [f"{robot.target.package}.{model}" for model in package.models]:
+                option = package.generation.inputs.domain.option_for(
+                    earliest.part, snapshot, robot.target, robot.options
+                )
+                hint = brings_back(option) or hint
+    lines = sorted({place.line for place in places} - {earliest.line})
+    also = f"also in line{'s' if len(lines) > 1 else ''} {listed([*map(str, lines)])}" if lines else ""
+    if not file.is_relative_to(files.folder):
+        hint = "; ".join(filter(None, (hint, also)))
+        return Diagnostic(severity, code, message, shown(file), earliest.line, hint=hint)
+    path = file.relative_to(files.folder).as_posix()
+    hint = "; ".join(filter(None, (hint, also, files.by_hand(path))))
+    return files.diagnostic(severity, code, message, path, earliest.line, hint=hint)

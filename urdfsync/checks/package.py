@@ -1,0 +1,232 @@
+"""The package of one robot: as it is on disk, as it is generated, and where these differ.
+
+A compiler reads all files below a folder, and one that does not parse spoils them all. So packages of other robots
+are left out, unless they are mentioned.
+"""
+
+from __future__ import annotations
+
+import codecs
+import os
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from pathlib import Path, PurePosixPath
+
+import msgspec
+
+from urdfsync.checks.contents import package_texts
+from urdfsync.config import Config, RobotConfig
+from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
+from urdfsync.domain import Bench
+from urdfsync.engine.build import build
+from urdfsync.engine.generation import Generation, generate_robot, generated_texts
+from urdfsync.engine.inputs import inspect
+from urdfsync.engine.options import BuildOptions
+from urdfsync.engine.users_files import find_users_files
+from urdfsync.files import normalised, shown
+from urdfsync.modelica.files import files_that_use, has_word, text_of
+from urdfsync.modelica.lexer import lex
+from urdfsync.modelica.names import within
+from urdfsync.modelica.parser import parse
+from urdfsync.modelica.syntax import Class
+
+
+class PackageTexts(msgspec.Struct, frozen=True):
+    """A Modelica package that is stored as a folder. Paths are POSIX ones, below that folder."""
+
+    name: str
+    """Its full name, as in `Plant.Robots.Arm`."""
+    folder: Path
+    """Where people find it, whether or not it has been written yet."""
+    texts: Mapping[str, bytes]
+    """Its `.mo` and `package.order` files by path."""
+    owners: Mapping[str, str] = msgspec.field(default_factory=dict)
+    """The element that a file belongs to, in the domain's words: `joint elbow`."""
+    edited: Collection[str] = ()
+    """The files that differ from what is generated."""
+
+    def text(self, path: str) -> str:
+        """Return the text of a file; bytes that are not UTF-8 are replaced."""
+        return self.texts[path].decode("utf-8", "replace")
+
+    def models_not_in(self, generated: Collection[str]) -> list[str]:
+        """Return the user's models and blocks that are files and not partial, by their names below the package."""
+        return [
+            ".".join(path.with_suffix("").parts)
+            for path in map(PurePosixPath, sorted(self.texts.keys() - {*generated}))
+            if path.suffix == ".mo" and path.stem in _models_in(parse(self.text(str(path))).classes, ())
+        ]
+
+    def diagnostic(
+        self, severity: Severity, code: str, message: str, path: str, line: int = 0, column: int = 0, hint: str = ""
+    ) -> Diagnostic:
+        """Return a finding in one of the files, or in a folder; it names the element."""
+        owner = self.owners.get(path, "")
+        message = f"{owner}: {message}" if owner else message
+        return Diagnostic(severity, code, message, shown(self.folder / path), line, column, hint)
+
+    def by_hand(self, path: str) -> str:
+        """Return a hint for a file that was edited; empty for others."""
+        return "the file was edited by hand" if path in self.edited else ""
+
+
+class RobotPackage(msgspec.Struct):
+    """The package of one robot as it is now."""
+
+    robot: RobotConfig
+    generation: Generation
+    bench: Bench | None
+    """How it is simulated; None if the domain does not say."""
+    errors: tuple[Diagnostic, ...]
+    """Errors that a build would report, but for those in files of Modelica."""
+    on_disk: Mapping[str, bytes]
+    """The Modelica files of the package on disk, by their path below it; none if there is no package."""
+    in_step: bool
+    conflicting: bool
+    """Whether it is out of step because edits and new texts contradict each other."""
+    generated: Mapping[str, bytes]
+    """The files of the package as it is generated, by their path below it."""
+    written: frozenset[str]
+    """The files that urdfsync wrote, by their path below it; with those of elements whose new names wait."""
+    files: PackageTexts
+    """The texts that count: the package on disk, or what a build would write."""
+    around: Mapping[str, bytes]
+    """See `files_around`."""
+    users_files: Mapping[Path, bytes]
+    """See `users_files`."""
+    models: tuple[str, ...]
+    """The classes that have to compile by themselves, by their names below the package, the main one first."""
+    edits: tuple[str, ...]
+    """The edited files that have a part in the main model, and in which more than comments and blanks differ."""
+
+
+def read_package(config: Config, robot: RobotConfig, options: BuildOptions) -> RobotPackage:
+    """Read and generate the package of a robot. Writes nothing.
+
+    Raises UrdfsyncError for whatever is wrong with source, state or templates, OSError for what can't be read.
+    """
+    (built,) = build(config, [robot], options)
+    if built.failed:
+        raise UrdfsyncError(*built.diagnostics)
+    generation = generate_robot(inspect(config, robot, options))
+    domain, snapshot = generation.inputs.domain, generation.now.snapshot
+    errors = [finding for finding in built.diagnostics if finding.severity is Severity.ERROR]
+    on_disk, generated = package_texts(robot.folder), generated_texts(generation)
+    texts, in_step = on_disk or generated, bool(on_disk) and built.are_files_in_step
+    models = tuple(domain.models(snapshot, robot.target, robot.options))
+    benches = {f"{name.replace('.', '/')}.mo" for name in models[1:]}
+    shared = [path for path in sorted(generated.keys() & on_disk.keys()) if path.endswith(".mo")]
+    edited = [path for path in shared if normalised(on_disk[path]) != generated[path]] if in_step else []
+    keys = (key for action in built.actions for key in (action.path, action.origin) if key)
+    owners = {path: artifact.owner for path, artifact in generation.package.artifacts.items()}
+    return RobotPackage(
+        robot=robot,
+        generation=generation,
+        bench=domain.bench(snapshot, robot.target, robot.options),
+        errors=tuple(dict.fromkeys(error for error in errors if not error.file.endswith(".mo"))),
+        on_disk=on_disk,
+        in_step=in_step,
+        conflicting=bool(built.conflicts),
+        generated=generated,
+        written=frozenset(Path(os.path.relpath(config.root / key, robot.folder)).as_posix() for key in keys),
+        files=PackageTexts(robot.target.package, robot.folder, texts, owners, edited),
+        around=files_around(config, robot, texts),
+        users_files=users_files(config, robot),
+        models=models,
+        edits=tuple(
+            path for path in edited if path not in benches and _words(generated[path]) != _words(on_disk[path])
+        ),
+    )
+
+
+def _words(text: bytes) -> list[str]:
+    """Return the words of a text, without comments and blanks."""
+    return [token.text for token in lex(text.decode(errors="replace"))[0]]
+
+
+def files_around(config: Config, robot: RobotConfig, texts: Mapping[str, bytes]) -> dict[str, bytes]:
+    """Return the files of the top-level package around a robot's package, by their paths below the output folder.
+
+    Packages of other robots are among them if `texts` (the robot's own), or anything else around, mention them.
+    Packages around the robot's that do not exist yet are made up. Raises OutputError for a file that can't be read.
+    """
+    output, parts = robot.output, robot.target.package.split(".")
+    top = output / parts[0]
+    others = {other.folder: other.target.package.rpartition(".")[2].encode() for other in config.robots}
+    others = {folder: name for folder, name in others.items() if top in folder.parents and folder != robot.folder}
+    around = package_texts(top, output, {robot.folder, *others}) if top != robot.folder else {}
+    waiting = [*texts.values(), *around.values()] if others else []
+    while waiting:
+        text = waiting.pop()
+        for folder in [folder for folder, name in others.items() if has_word(text, name)]:
+            del others[folder]
+            mentioned = package_texts(folder, output, others)
+            around |= mentioned
+            waiting += mentioned.values()
+    for count in range(1, len(parts)):
+        name = parts[count - 1]
+        made_up = f"{within('.'.join(parts[:count]))}\npackage {name}\nend {name};\n"
+        around.setdefault(f"{'/'.join(parts[:count])}/package.mo", made_up.encode())
+    return around
+
+
+def users_files(config: Config, robot: RobotConfig) -> dict[Path, bytes]:
+    """Return the user's models in no robot's package that may have to do with this robot's package."""
+    return files_that_use(find_users_files(config, robot, [robot.folder.name]).mentioning, [robot.folder.name])
+
+
+class UsersModels(msgspec.Struct, frozen=True):
+    """The user's models outside of the package, as far as they can be compiled."""
+
+    files: Mapping[str, Path]
+    """The file of each model, by its full name: of each model or block that is not partial."""
+    libraries: Mapping[str, Path]
+    """The top-level classes that they are in, but for the one around the package: folders or files."""
+    left_out: tuple[Path, ...]
+    """Files that no compiler would find, or that are no Modelica."""
+    uses: Mapping[Path, Collection[Path]]
+    """For each file, those that it uses."""
+
+
+def users_models(
+    robot: RobotConfig, files: Mapping[Path, bytes], uses: Mapping[Path, Collection[Path]] | None = None
+) -> UsersModels:
+    """Return what can be compiled of the user's files."""
+    models, libraries, left_out = dict[str, Path](), dict[str, Path](), list[Path]()
+    top = robot.target.package.partition(".")[0]
+    for path, content in files.items():
+        text = parse(text_of(content))
+        around = tuple(text.within.split(".")) if text.within else ()
+        place = path.parent if path.name == "package.mo" else path
+        name = (*around, text.classes[0].name.parts[0]) if len(text.classes) == 1 else ()
+        root = place.parents[len(around) - 1] if 0 < len(around) <= len(place.parents) else place
+        is_stored = place.with_suffix("").parts[-len(name) :] == name and (
+            not around or (root / "package.mo").is_file()
+        )
+        is_around = bool(name) and name[0] == top and root == robot.output / top
+        if text.is_broken or not name or not is_stored or (name[0] == top and not is_around):
+            left_out.append(path)
+            continue
+        if not is_around:
+            libraries[name[0]] = root
+        models |= dict.fromkeys(_models_in(text.classes, around), path)
+    return UsersModels(models, libraries, tuple(left_out), uses or {})
+
+
+def _models_in(classes: Sequence[Class], around: tuple[str, ...]) -> Iterator[str]:
+    """Yield the models and blocks in classes that are not partial, by their full names."""
+    for definition in classes:
+        name = (*around, definition.name.parts[0])
+        if definition.kind in ("model", "block") and "partial" not in definition.prefixes:
+            yield ".".join(name)
+        elif definition.kind == "package":
+            yield from _models_in(definition.classes, name)
+
+
+def write_package(folder: Path, robot: RobotConfig, texts: Mapping[str, bytes], around: Mapping[str, bytes]) -> Path:
+    """Write the package in `texts` with what is around it below `folder`. Returns the top-level package."""
+    place = robot.target.package.replace(".", "/")
+    for name, content in {**around, **{f"{place}/{path}": content for path, content in texts.items()}}.items():
+        path = folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(content.removeprefix(codecs.BOM_UTF8))  # rumoca refuses a byte order mark
+    return folder / robot.target.package.partition(".")[0]

@@ -1,0 +1,163 @@
+"""Runs native code (a compiler, a reference) in a process of its own, with limits of time and memory.
+
+As a program it calls the function that is pickled on its stdin.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import faulthandler
+import os
+import pickle
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any, TypeVar
+
+import msgspec
+import psutil
+
+from urdfsync import processes
+from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
+
+T = TypeVar("T")
+
+_INTERVAL = 0.1
+"""Seconds between two looks at memory and clock."""
+
+
+class Limits(msgspec.Struct):
+    """The time and memory that all processes of one check may take together."""
+
+    owner: str
+    """The name of the check in messages."""
+    seconds: float
+    memory: float
+    """Bytes."""
+    deadline: float = 0.0
+    """By the monotonic clock of this process."""
+    peak: float = 0.0
+    """The most memory that was seen, in bytes."""
+
+    def __post_init__(self) -> None:
+        self.deadline = time.monotonic() + self.seconds
+
+
+def limits_of(owner: str, seconds: float, gigabytes: float | None) -> Limits:
+    """Return limits that begin now; None for all memory that is free."""
+    return Limits(owner, seconds, gigabytes * 1e9 if gigabytes else psutil.virtual_memory().available)
+
+
+class LimitError(UrdfsyncError):
+    """A process took more time or memory than it may; the code of the one diagnostic says which."""
+
+
+class BrokenProcessError(Exception):
+    """A process ended before it was done: the text is its exit code and its last words."""
+
+    def __init__(self, results: list[Any], code: int, words: str) -> None:
+        super().__init__(": ".join(filter(None, (processes.exit_cause(code), words))))
+        self.results, self.was_killed = results, code == -9
+
+
+def run(
+    function: Callable[..., Iterator[T]],
+    *arguments: Any,
+    limits: Limits,
+    environment: Mapping[str, str] | None = None,
+    progress: Callable[[], None] | None = None,
+) -> list[T]:
+    """Return all that a function yields in a process of its own, of which nothing is left in the end.
+
+    `progress` is called again and again until then.
+    Raises LimitError, BrokenProcessError, and the function's own UrdfsyncError or ImportError.
+    """
+    started = set[psutil.Process]()  # of a process that has ended, the system knows no children
+    with tempfile.TemporaryFile() as answers, tempfile.TemporaryFile() as errors:
+        with subprocess.Popen(  # noqa: S603 - a command of ours
+            processes.python_module("urdfsync.checks.process"),
+            stdin=subprocess.PIPE,
+            stdout=answers,
+            stderr=errors,
+            env={**os.environ, **processes.importable(), **(environment or {})},
+            start_new_session=True,  # an interruption from the keyboard is for the command, which ends this process
+        ) as process:
+            try:
+                if process.stdin is not None:
+                    with contextlib.suppress(OSError):  # it has ended, and its exit code says why
+                        process.stdin.write(pickle.dumps((limits.deadline - time.monotonic(), function, arguments)))
+                        process.stdin.flush()
+                _wait(process, limits, started, progress)
+            finally:
+                for child in started:
+                    with contextlib.suppress(psutil.Error):
+                        child.kill()
+                process.kill()
+        results = list(_loaded(answers))
+        if results and isinstance(results[-1], Exception):
+            raise results[-1]
+        if process.returncode or not results or results[-1] is not None:
+            errors.seek(0)
+            words = errors.read().decode(errors="replace").strip().splitlines()[-1:]
+            raise BrokenProcessError(results, process.returncode, "".join(words).strip())
+        return results[:-1]
+
+
+def _wait(
+    process: subprocess.Popen[bytes],
+    limits: Limits,
+    started: set[psutil.Process],
+    progress: Callable[[], None] | None,
+) -> None:
+    """Wait for the end of a process; `started` gets what it starts. Raises LimitError."""
+    while True:
+        if progress:
+            progress()
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            process.wait(_INTERVAL)
+            return
+        used = 0
+        with contextlib.suppress(psutil.Error):  # it has just ended
+            started.update(psutil.Process(process.pid).children(recursive=True))
+        for child in psutil.Process().children(recursive=True):  # what other threads have started counts as well
+            with contextlib.suppress(psutil.Error):
+                used += child.memory_info().rss
+        limits.peak = max(limits.peak, used)
+        if time.monotonic() >= limits.deadline:
+            message = f"{limits.owner} takes more than {limits.seconds:g} s"
+            hint = "allow more with `--timeout`"
+            raise LimitError(Diagnostic(Severity.ERROR, "out-of-time", message, hint=hint))
+        if used > limits.memory:
+            message = f"{limits.owner} takes more memory than its limit, {limits.memory / 1e9:.2g} GB"
+            hint = "allow more with `--memory`, if this machine has more"
+            raise LimitError(Diagnostic(Severity.ERROR, "out-of-memory", message, hint=hint))
+
+
+def _loaded(answers: Any) -> Iterator[Any]:
+    answers.seek(0)
+    with contextlib.suppress(EOFError, pickle.UnpicklingError):  # it ended while it wrote
+        while True:
+            yield pickle.load(answers)  # noqa: S301 - written by a process of ours
+
+
+def main() -> None:
+    """Do what is asked on stdin, and write each result, then None or an error, to stdout."""
+    with processes.reserve_stdout() as answers:
+        seconds, function, arguments = pickle.load(sys.stdin.buffer)  # noqa: S301 - from a process of ours
+        # If nobody is left to end this one: native code may keep all threads of Python from running.
+        faulthandler.dump_traceback_later(max(seconds, 0.01) + 1, exit=True)
+        processes.end_with_parent(lambda: os.read(0, 1))  # not by sys.stdin, whose lock would disturb Python at its end
+        last = None
+        try:
+            for result in function(*arguments):
+                answers.write(pickle.dumps(result))
+                answers.flush()  # a crash leaves what was done until then
+        except (UrdfsyncError, ImportError) as error:
+            last = error
+        answers.write(pickle.dumps(last))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,331 @@
+"""Results of checks in words, a line for each robot and what belongs to it indented below; and as JSON."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Collection, Iterator, Sequence
+from typing import Any
+
+import msgspec
+
+from urdfsync.checks.results import (
+    KINDS,
+    TOLERANCE,
+    CheckResult,
+    CheckStatus,
+    EditEffect,
+    ToolResult,
+    agrees,
+    listed,
+    relative,
+    worst,
+)
+from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.domain import Deviation, Part, Quantity
+from urdfsync.output.console import StyledLine, line
+from urdfsync.output.markdown import Mark, Section, Table
+from urdfsync.output.phrases import counted
+
+_STYLES = {
+    "right": ("✓", "green"),
+    "incomplete": ("?", "magenta"),
+    "out of step": ("!", "yellow"),
+    "not built": ("!", "yellow"),
+    "differs": ("≠", "bold red"),
+    "failed": ("✗", "bold red"),
+}
+_STATED = {
+    Quantity.WARNING: "the warning “{detail}” does not come where it should, or comes elsewhere",
+    Quantity.CONNECTION: "{detail} is not connected as it should be",
+}
+"""Differences that are no amounts."""
+
+
+def robot_lines(result: CheckResult, *, strict: bool, verbose: bool, marks: bool) -> Iterator[StyledLine]:
+    """Yield all lines about one robot alone."""
+    mark, style = _STYLES[verdict(result, strict)]
+    sign = f"{mark} " if marks else ""
+    yield line((sign, style), (result.robot, "bold"), (f": {summary(result, strict)}", ""))
+    sentences = _sentences(result, strict=strict)
+    if verbose:
+        sentences += [(sentence, "dim") for sentence in _details(result)]
+    yield from (line(("  ", ""), sentence) for sentence in sentences)
+
+
+def _sentences(result: CheckResult, *, strict: bool) -> list[tuple[str, str]]:
+    """Return the sentences below the first line, with their styles."""
+    sentences = list(_two_tools(result)) if len(result.tools) > 1 else []
+    if result.between is None:
+        sentences += _differences(result)
+    for effect in result.effects:
+        changed = "; ".join(_change(*each) for each in _by_kind(effect.deviations, effect.owners))
+        style = "dim" if not changed else "bold red" if strict else "cyan"
+        sentences.append((f"{_edited(effect)} {changed or 'nothing that is compared'}", style))
+    sentences += [(gap, "magenta") for gap in result.gaps]
+    if not result.built:
+        sentences.append(("there is no package yet, so what `urdfsync build` would write was checked", "yellow"))
+    elif result.conflicting:
+        sentences.append(("files are in conflict; settle that with `urdfsync resolve`", "yellow"))
+    elif not result.in_step:
+        sentences.append(("the package is out of step; run `urdfsync build`", "yellow"))
+    return sentences
+
+
+def _differences(result: CheckResult) -> Iterator[tuple[str, str]]:
+    """Yield how the package differs from the reference, by the first compiler that could move it."""
+    advice = "; your edits are not the cause: check your own `templates`, or report a bug, with the source"
+    reference = result.reference or "the reference"
+    deviations = next((tool.deviations for tool in result.tools if tool.deviations), ())
+    for deviation, others in _by_kind([deviation for deviation in deviations if not agrees(deviation)]):
+        what, amount = _amount(deviation)
+        by = "its own numbers" if deviation.part is Part.CONTACTS else reference
+        fault = f"{what} differs from {by} by {amount}"
+        if stated := _STATED.get(deviation.quantity):
+            fault = stated.format(detail=deviation.detail)
+        yield f"{deviation.element}: {fault}{others}{advice}", "bold red"
+        if deviation.unit in ("N·m", "N", "kg"):
+            yield f"  its largest {what} by {by} is {_digits(deviation.value)} {deviation.unit}", "dim"
+        advice = ""
+
+
+def _details(result: CheckResult) -> Iterator[str]:
+    """Yield each model, and each number that was compared."""
+    for tool in result.tools:
+        by = f" by {tool.tool}" if len(result.tools) > 1 else ""
+        for model in tool.compiled:
+            yield f"{model.model}: compiles{by}"
+        for part, deviation in worst(tool.deviations or ()).items():
+            place = f"{deviation.element}, {deviation.quantity}"
+            most = f"relative differences of up to {deviation.relative:.1e} ({place})"
+            yield f"{part}: {most if deviation.relative else 'no difference'}{by}"
+        for trial in tool.times:
+            yield f"{trial.name}: {trial.seconds:.1f} s{by}"
+        for deviation in tool.deviations or ():
+            if deviation.quantity in _STATED:
+                continue
+            what, amount = _amount(deviation)
+            yield f"{deviation.element}: {what} differs by {amount} ({deviation.relative:.1e}){by}"
+    for deviation in result.between or ():
+        what, amount = _amount(deviation)
+        yield f"{deviation.element}: {what} differs by {amount} between the compilers"
+    for effect in result.effects:
+        yield from (f"{_edited(effect)} {_change(deviation)}" for deviation in effect.deviations)
+
+
+def _two_tools(result: CheckResult) -> Iterator[tuple[str, str]]:
+    """Yield how far two compilers agree, who stands alone where they or the reference differ, and what they took."""
+    first, second = result.tools
+    if result.between is not None:
+        outliers: dict[str, list[Deviation]] = {}
+        reference = result.reference or "the reference"
+        by_second = {deviation.key: deviation for deviation in second.deviations or ()}
+        between = {deviation.key: deviation for deviation in result.between}
+        for deviation in first.deviations or ():
+            if deviation.key not in by_second or deviation.key not in between:
+                continue  # by one compiler alone, or without any
+            three = deviation, by_second[deviation.key], between[deviation.key]
+            if not all(map(agrees, three)):
+                outlier = _outlier(first.tool, second.tool, reference, *three)
+                outliers.setdefault(outlier, []).append(max(three, key=relative))
+        for name, deviations in outliers.items():
+            for deviation, others in _by_kind(deviations):
+                what, amount = _amount(deviation)
+                who = f"{name} stands alone, by {amount}" if name else f"all three differ, by up to {amount}"
+                yield f"{deviation.element}: {what}: {who}{others}", "bold red"
+        for deviation, others in _by_kind([deviation for deviation in result.between_edited if not agrees(deviation)]):
+            what, amount = _amount(deviation)
+            sentence = (
+                f"{deviation.element}: with your edits, the {what} by {second.tool} differs from that by {first.tool}"
+            )
+            yield f"{sentence} by {amount}{others}", "bold red"
+        largest_difference = max(map(relative, result.between), default=0.0)
+        if all(map(agrees, result.between)):
+            agreement = f"to {largest_difference:.1e}" if largest_difference else "exactly"
+            yield f"{first.tool} and {second.tool} agree {agreement}", ""
+    yield "; ".join(f"{tool.tool}: {tool.seconds:.1f} s, {tool.megabytes:.0f} MB" for tool in result.tools), "dim"
+
+
+def _outlier(first: str, second: str, reference: str, *deviations: Deviation) -> str:
+    """Return which of three stands alone; empty if no two agree.
+
+    The deviations are those of the first and of the second from the reference, then of the second from the first.
+    """
+    for name, agreeing in ((second, deviations[0]), (first, deviations[1]), (reference, deviations[2])):
+        if agrees(agreeing):
+            return name
+    return ""
+
+
+def closing_lines(results: Sequence[CheckResult], *, strict: bool) -> Iterator[StyledLine]:
+    """Yield the sentences about several robots, each once."""
+    for label, field in (("not compared", "unchecked"), ("for the comparison", "notes")):
+        robots: dict[str, list[str]] = {}
+        for result in results:
+            for sentence in dict.fromkeys(getattr(result, field)):
+                robots.setdefault(sentence, []).append(result.robot)
+        for sentence, names in robots.items():
+            who = "all robots" if len(names) == len(results) else listed(names)
+            which = "" if len(results) == 1 else f" ({who})"
+            yield line((f"{label}: ", "bold"), (f"{sentence}{which}", ""))
+    if len(results) > 1:
+        verdicts = [verdict(result, strict) for result in results]
+        tally = ", ".join(f"{verdicts.count(word)} {word}" for word in _STYLES if word in verdicts)
+        yield line((f"{counted(len(results), 'robot')}: {tally}", "bold"))
+
+
+def to_section(result: CheckResult, strict: bool) -> Section:
+    """Return a result for a comment: its sentences, and how far each part agrees with the reference."""
+    status, sentences = result.status(strict), [sentence.strip() for sentence, _ in _sentences(result, strict=strict)]
+    rows = [
+        (part, f"{_word(each)}, to {each.relative:.1e}", f"{each.element}, {each.quantity}")
+        for part, each in worst(result.deviations).items()
+    ]
+    finding = None
+    if status in (CheckStatus.DIFFERS, CheckStatus.INCOMPLETE):
+        file = f"{result.folder}/package.mo" if result.folder else ""
+        told = next(iter(sentences), summary(result, strict))
+        severity = Severity.NOTE if status is CheckStatus.INCOMPLETE else Severity.WARNING
+        finding = Diagnostic(severity, str(status), f"{result.package}: {told}", file)
+    marks = {CheckStatus.RIGHT: Mark.FINE, CheckStatus.FAILED: Mark.WRONG}
+    points = [*sentences, *(f"not compared: {sentence}" for sentence in dict.fromkeys(result.unchecked))]
+    table = Table(f"Compared with {result.reference}", ("", "", "Worst"), rows)
+    mark = marks.get(status, Mark.OPEN)
+    return Section(result.robot, summary(result, strict), mark, points, [table], result.diagnostics, finding)
+
+
+def to_json(result: CheckResult, strict: bool) -> dict[str, Any]:
+    """Return what was checked of a robot as plain data; with `strict`, what an edit does is a difference as well."""
+    same = ("package", "failed", "built", "in_step", "conflicting", "reference", "seconds", "megabytes")
+    lists = ("notes", "unchecked", "gaps")
+    return {
+        "name": result.robot,
+        **{name: getattr(result, name) for name in same},
+        **{name: list(getattr(result, name)) for name in lists},
+        "standing": result.status(strict),
+        "summary": summary(result, strict),
+        "degrees_of_freedom": result.freedoms,
+        "tolerance": TOLERANCE,
+        "parts": [
+            {"verdict": _word(each).partition(" ")[0], "worst": _values(each), "part": part}
+            for part, each in worst(result.deviations).items()
+        ],
+        "agrees": None if all(tool.deviations is None for tool in result.tools) else not result.differs,
+        "tools": list(map(_tool_values, result.tools)),
+        "between": _all_values(result.between),
+        "between_edited": _all_values(result.between_edited),
+        "diagnostics": list(map(msgspec.structs.asdict, result.diagnostics)),
+    }
+
+
+def _tool_values(tool: ToolResult) -> dict[str, Any]:
+    """Return the answers of one compiler as plain data."""
+    return {
+        "tool": tool.tool,
+        "compiled": [
+            {"model": model.model, "unknowns": model.unknowns or None, "yours": model.is_users}
+            for model in tool.compiled
+        ],
+        "failing": list(tool.failing),
+        "deviations": _all_values(tool.deviations),
+        "edits": [
+            {**msgspec.structs.asdict(effect), "deviations": _all_values(effect.deviations)} for effect in tool.effects
+        ],
+        "seconds": tool.seconds,
+        "times": [{"trial": trial.name, "seconds": trial.seconds} for trial in tool.times],
+        "megabytes": tool.megabytes,
+    }
+
+
+def _all_values(deviations: Sequence[Deviation] | None) -> list[dict[str, Any]] | None:
+    """Return deviations as plain data; JSON has no infinite numbers."""
+    return None if deviations is None else list(map(_values, deviations))
+
+
+def _values(deviation: Deviation) -> dict[str, Any]:
+    values = {**msgspec.structs.asdict(deviation), "relative": deviation.relative}
+    for name, value in values.items():
+        values[name] = None if isinstance(value, float) and not math.isfinite(value) else value
+    return {**values, "reason": "" if values["difference"] is not None else "the simulation gave no number"}
+
+
+def summary(result: CheckResult, strict: bool) -> str:
+    """Return the verdict, what compiles, and how far it agrees with the reference, in one line."""
+    errors = sum(finding.severity is Severity.ERROR for finding in result.diagnostics)
+    facts = [counted(errors, "error")] if errors else []
+    if result.compiled:
+        own = [model for model in result.compiled if not model.is_users]
+        count, users = len(own), len(result.compiled) - len(own)
+        yours = f", and {users} of yours" if users else ""
+        if failing := len({name for tool in result.tools for name in tool.failing}):
+            yours += f"; {failing} of yours {'does' if failing == 1 else 'do'} not"
+        facts.append(f"1 model compiles{yours}" if count == 1 else f"{count} models compile{yours}")
+        if result.freedoms is not None:
+            facts.append(f"{counted(result.freedoms, 'degree')} of freedom")
+    elif not errors:
+        facts.append("syntax and layout")
+    facts += [f"{part} {_word(deviation)}" for part, deviation in worst(result.deviations).items()]
+    return f"{verdict(result, strict)}: {'; '.join(facts)}; {result.seconds:.1f} s"
+
+
+def _word(deviation: Deviation) -> str:
+    """Return the verdict on a part of the model by its greatest deviation."""
+    if agrees(deviation):
+        return "plausible" if deviation.part is Part.CONTACTS else "right"
+    return f"differ ({deviation.element})"
+
+
+def verdict(result: CheckResult, strict: bool) -> str:
+    """Return the status in a word or two."""
+    status = result.status(strict)
+    if status is not CheckStatus.DIFFERS or result.differs or (strict and result.is_changed_by_edits):
+        return str(status)
+    return "out of step" if result.built else "not built"
+
+
+def _by_kind(deviations: Sequence[Deviation], owners: Collection[str] = ()) -> Iterator[tuple[Deviation, str]]:
+    """Yield one deviation of each kind, and which other elements differ; `owners` are the elements that were edited.
+
+    The element nearest to the cause comes first: an edited one. Else it is the first from the root, since a displaced
+    link takes along all that hangs on it; of efforts it is the last joint, since each joint carries all behind it.
+    """
+    for is_free, quantities in itertools.product((False, True), KINDS):
+        own = (each for each in deviations if (each.part is Part.FREE_MOTION) == is_free)
+        kind = [each for each in own if each.quantity in quantities]
+        if Quantity.EFFORT in quantities:
+            kind.reverse()
+        kind.sort(key=lambda deviation: (deviation.element not in owners, deviation.quantity is Quantity.REACTION))
+        if names := list(dict.fromkeys(deviation.element for deviation in kind)):
+            yield kind[0], f" (also {listed(names[1:])})" if names[1:] else ""
+
+
+def _edited(effect: EditEffect) -> str:
+    return f"{listed(effect.files)} (edited) {'changes' if len(effect.files) == 1 else 'change'}"
+
+
+def _change(deviation: Deviation, others: str = "") -> str:
+    what, amount = _amount(deviation)
+    by = "" if deviation.quantity in _STATED else f" by {amount}"
+    return f"the {what} of {deviation.element}{by}{others}"
+
+
+def _amount(deviation: Deviation) -> tuple[str, str]:
+    """Return the quantity that differs, and by how much: `torque`, `0.4 N·m`.
+
+    Lengths are in mm; elements of a rotation matrix are told as the angle that they show.
+    """
+    what, unit, value = str(deviation.quantity), deviation.unit, deviation.difference
+    if deviation.quantity in _STATED:
+        return f"{what} “{deviation.detail}”", "more than nothing"
+    if deviation.quantity in (Quantity.EFFORT, Quantity.REACTION):
+        what = f"{'reaction ' if deviation.quantity is Quantity.REACTION else ''}{'force' if unit == 'N' else 'torque'}"
+    if deviation.quantity is Quantity.ORIENTATION:
+        value, unit = math.degrees(2 * math.asin(min(value / 2, 1))), "°"
+    elif unit == "m":
+        value, unit = 1000 * value, "mm"
+    return what, f"{_digits(value)} {unit}" if math.isfinite(deviation.difference) else "more than any number"
+
+
+def _digits(value: float) -> str:
+    """Return a number with three significant digits."""
+    return f"{float(f'{value:.3g}'):.10g}"

@@ -1,0 +1,237 @@
+"""Options and results of checks: plain data."""
+
+from __future__ import annotations
+
+import enum
+import math
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+
+import msgspec
+
+from urdfsync.checks.compilers.compiler import Tool
+from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.domain import Deviation, Part, Quantity
+from urdfsync.engine.result import Exit
+
+TOLERANCE = 1e-10
+"""The greatest difference that counts as agreement, relative to the greatest value of its kind or 1."""
+_TOLERANCES = {
+    Quantity.ACCELERATION: 1e-7,  # equations are solved for them, where digits are lost
+    Quantity.GROUND: 1e-2,  # without a reference, and stiff: 1 % of the depth makes 1 % of the force
+}
+
+MOST_SINGLE_EDITS = 6
+"""The most edited files that are tried one by one; the effects of more are measured together."""
+
+KINDS = (
+    (Quantity.POSITION, Quantity.ORIENTATION),
+    (Quantity.EFFORT, Quantity.REACTION),
+    (Quantity.MASS, Quantity.CENTRE),
+    *((quantity,) for quantity in list(Quantity)[6:]),
+)
+"""Quantities that are told together."""
+
+
+class CheckOptions(msgspec.Struct, frozen=True):
+    """How to check."""
+
+    physics: bool = False
+    """Whether poses, efforts and masses are compared with the domain's reference."""
+    strict: bool = False
+    """Whether a difference that comes from an edit counts as one."""
+    tools: tuple[Tool, ...] = (Tool(),)
+    """The compilers, one or both."""
+    jobs: int | None = None
+    """How many robots may be checked at the same time; None for what cores and memory allow."""
+    timeout: float = 600.0
+    """Seconds per robot."""
+    memory: float | None = None
+    """Gigabytes for all processes together; None for what is free."""
+    wait: float = 60.0
+    """Seconds to wait for a build that is writing."""
+    package_paths: tuple[Path, ...] = ()
+    """Where to look for packages after the configured folders."""
+    compilers: int = 1
+    """How many compilers may run at the same time for one robot."""
+    executor: str = ""
+    """Address of a Dask scheduler whose workers check robots; empty for processes of this machine."""
+    fresh: bool = False
+    """Whether what was right before is checked again."""
+
+
+class CheckStatus(enum.StrEnum):
+    """The verdict on a robot in one word."""
+
+    RIGHT = "right"
+    INCOMPLETE = "incomplete"
+    """Nothing is wrong as far as it was checked, but something could not be that should have been."""
+    DIFFERS = "differs"
+    FAILED = "failed"
+
+
+class CompiledModel(msgspec.Struct, frozen=True):
+    """A model of the package that compiles and is balanced."""
+
+    model: str
+    """Name below the package."""
+    unknowns: int
+    """Scalar unknowns, and so many equations; 0 if the compiler does not say."""
+    is_users: bool = False
+    """Whether it is the user's, outside of the package; then `model` is its full name."""
+
+
+class EditEffect(msgspec.Struct, frozen=True):
+    """The effect of edits of the user on the robot, compared with what is generated."""
+
+    files: tuple[str, ...]
+    """The edited files that it comes from, below the package's folder; several if they work together."""
+    deviations: tuple[Deviation, ...]
+    """Those beyond the tolerance, from the root outwards; none if the edits change nothing that is compared."""
+    owners: tuple[str, ...] = ()
+    """The elements that the files belong to, in the domain's words."""
+
+
+class TrialTime(msgspec.Struct, frozen=True):
+    """The CPU time of one simulation with its compiling."""
+
+    name: str
+    seconds: float
+
+
+class ToolResult(msgspec.Struct):
+    """The answers of one compiler about a package."""
+
+    tool: str = ""
+    """The compiler with its version."""
+    compiled: tuple[CompiledModel, ...] = ()
+    failing: tuple[str, ...] = ()
+    """Full names of the user's models outside of the package that do not compile by themselves."""
+    deviations: tuple[Deviation, ...] | None = None
+    """Of the package as it is generated, without edits, from the reference; None if that was not compared."""
+    effects: tuple[EditEffect, ...] = ()
+    """The effects of the user's edits, each apart where that can be told."""
+    seconds: float = 0.0
+    megabytes: float = 0.0
+    """The most memory that its processes took together, looked at ten times a second."""
+    times: tuple[TrialTime, ...] = ()
+    """Those of the comparison, if the compiler tells them."""
+
+
+class CheckResult(msgspec.Struct):
+    """The result for one robot. The check alone fills it."""
+
+    robot: str
+    package: str
+    built: bool = True
+    """False if there is no package on disk yet: what would be generated was checked."""
+    in_step: bool = True
+    """Whether the package on disk is what a build would leave."""
+    conflicting: bool = False
+    """Whether it is out of step because edits and new texts contradict each other."""
+    freedoms: int | None = None
+    """Degrees of freedom; None if the domain does not say."""
+    tools: tuple[ToolResult, ...] = ()
+    """One for each compiler, in the order in which they were asked; none if nothing was compiled."""
+    between: tuple[Deviation, ...] | None = None
+    """Of the second compiler from the first, for the package as it is generated; None if one could not move it."""
+    between_edited: tuple[Deviation, ...] = ()
+    """The same for the package with the edits of the user; none if there are none."""
+    notes: tuple[str, ...] = ()
+    """Made up or completed for the comparison, and why: one sentence each, without a full stop."""
+    unchecked: tuple[str, ...] = ()
+    """Not covered by a check like this, and why: one sentence each, without a full stop."""
+    gaps: tuple[str, ...] = ()
+    """Should have been covered and could not be, and why: one sentence each, without a full stop."""
+    diagnostics: tuple[Diagnostic, ...] = ()
+    seconds: float = 0.0
+    """From beginning to end."""
+    megabytes: float = 0.0
+    """The most memory that its processes took together, looked at ten times a second."""
+    folder: str = ""
+    """The package's folder, as people see it; empty if the check did not come that far."""
+    reference: str = ""
+    """The reference of `deviations`, for example `Pinocchio 3.4`; empty if nothing was compared."""
+
+    @property
+    def failed(self) -> bool:
+        """Whether something could not be checked, or does not compile."""
+        return any(finding.severity is Severity.ERROR for finding in self.diagnostics)
+
+    @property
+    def compiled(self) -> tuple[CompiledModel, ...]:
+        """The models that compile and are balanced, by the first compiler."""
+        return self.tools[0].compiled if self.tools else ()
+
+    @property
+    def deviations(self) -> list[Deviation]:
+        """The deviations from the reference, by all compilers."""
+        return [deviation for tool in self.tools for deviation in tool.deviations or ()]
+
+    @property
+    def effects(self) -> tuple[EditEffect, ...]:
+        """The effects of the user's edits, by the first compiler that measured them."""
+        return next((tool.effects for tool in self.tools if tool.effects), ())
+
+    @property
+    def differs(self) -> bool:
+        """Whether the generated package is not as the reference says, whoever edited it, or two compilers disagree."""
+        return not all(map(agrees, (*self.deviations, *(self.between or ()), *self.between_edited)))
+
+    @property
+    def is_changed_by_edits(self) -> bool:
+        """Whether edits of the user change what is compared."""
+        return any(effect.deviations for effect in self.effects)
+
+    def add(self, diagnostics: Iterable[Diagnostic]) -> None:
+        """Add findings, each once."""
+        self.diagnostics = tuple(dict.fromkeys((*self.diagnostics, *diagnostics)))
+
+    def status(self, strict: bool) -> CheckStatus:
+        """Return the verdict; with `strict`, a difference that comes from an edit counts as well."""
+        if self.failed:
+            return CheckStatus.FAILED
+        if self.differs or not self.in_step or (strict and self.is_changed_by_edits):
+            return CheckStatus.DIFFERS
+        return CheckStatus.INCOMPLETE if self.gaps else CheckStatus.RIGHT
+
+
+def agrees(deviation: Deviation) -> bool:
+    """Whether a difference is within the tolerance; one that is no number is not."""
+    return deviation.relative <= tolerance(deviation)
+
+
+def tolerance(deviation: Deviation) -> float:
+    """Return the greatest relative difference that counts as agreement."""
+    return _TOLERANCES.get(deviation.quantity, TOLERANCE)
+
+
+def relative(deviation: Deviation) -> float:
+    """Return the relative difference; what is no number is infinitely far."""
+    return math.inf if math.isnan(deviation.relative) else deviation.relative
+
+
+def worst(deviations: Iterable[Deviation]) -> dict[Part, Deviation]:
+    """Return the deviation of each part that is greatest against its tolerance, in the order of the parts."""
+    greatest = dict[Part, Deviation]()
+    for part in Part:
+        own = [deviation for deviation in deviations if deviation.part is part]
+        if own:
+            greatest[part] = max(own, key=lambda deviation: relative(deviation) / tolerance(deviation))
+    return greatest
+
+
+def exit_code(results: Iterable[CheckResult], strict: bool) -> Exit:
+    """Return 2 if anything failed, 1 if anything differs or, with `strict`, is incomplete, else 0."""
+    verdicts = {result.status(strict) for result in results}
+    if CheckStatus.FAILED in verdicts:
+        return Exit.ERROR
+    wrong = {CheckStatus.DIFFERS, CheckStatus.INCOMPLETE} if strict else {CheckStatus.DIFFERS}
+    return Exit.OUT_OF_STEP if verdicts & wrong else Exit.IN_STEP
+
+
+def listed(names: Sequence[str]) -> str:
+    """Return names in words: `a`, `a and b`, `a, b and c`, `a, b and 5 more`."""
+    if len(names) > 3:
+        names = [*names[:2], f"{len(names) - 2} more"]
+    return f"{', '.join(names[:-1])} and {names[-1]}" if len(names) > 1 else "".join(names)

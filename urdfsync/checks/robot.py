@@ -1,0 +1,149 @@
+"""The check of one robot: files, then names, then compiling and balance, then the comparison with a reference."""
+
+from __future__ import annotations
+
+import tempfile
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import msgspec
+
+from urdfsync import registry
+from urdfsync.checks import compilers, process, texts
+from urdfsync.checks.cache import UserCache
+from urdfsync.checks.compilation import Compilation
+from urdfsync.checks.fingerprint import fingerprint
+from urdfsync.checks.libraries import Libraries, find_libraries
+from urdfsync.checks.names import check_names
+from urdfsync.checks.package import RobotPackage, read_package, users_models
+from urdfsync.checks.process import Limits, limits_of
+from urdfsync.checks.results import CheckOptions, CheckResult, listed
+from urdfsync.checks.two_tools import run_compilations
+from urdfsync.config import Config, RobotConfig
+from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError, findings_of
+from urdfsync.domain import Experiment
+from urdfsync.engine.options import BuildOptions
+from urdfsync.files import shown
+from urdfsync.workers import tell
+
+
+def check_robot(config: Config, robot: RobotConfig, options: CheckOptions, folder: Path | None = None) -> CheckResult:
+    """Check one robot; copies of its package are made in `folder`, or where there is place if that is None.
+
+    A package in step that was right is not checked again until its fingerprint is another one.
+    """
+    begin, cache = time.monotonic(), UserCache.default()
+    result = CheckResult(robot.name, robot.target.package)
+    limits = limits_of(f"the check of robot `{robot.name}`", options.timeout, options.memory)
+    try:
+        tell(f"{robot.name}: reading the source and the package")
+        key = fingerprint(config, robot, options)
+        request = BuildOptions(dry=True, package_paths=options.package_paths, wait=options.wait, jobs=1)
+        package = read_package(config, robot, request)
+        earlier = cache.load(key, CheckResult) if key and package.in_step and not options.fresh else None
+        if earlier is None:
+            if folder:
+                _check(config, package, options, result, limits, folder)
+            else:
+                with tempfile.TemporaryDirectory(prefix="urdfsync-", ignore_cleanup_errors=True) as place:
+                    _check(config, package, options, result, limits, Path(place))
+            result.megabytes = limits.peak / 1e6
+            is_same = key == fingerprint(config, robot, options)  # else somebody has saved meanwhile
+            if key and package.in_step and is_same:
+                cache.save(key, None if result.failed or result.differs else result)
+        result = earlier or result
+        result.folder = shown(robot.folder)  # of this project, whichever was checked before
+        result.add(texts.missing_resources(package))  # files that no fingerprint knows of
+    except (UrdfsyncError, OSError) as error:
+        result.add(findings_of(error))
+    result.diagnostics = robot.without_ignored(result.diagnostics)
+    result.seconds = time.monotonic() - begin
+    return result
+
+
+def _check(
+    config: Config, package: RobotPackage, options: CheckOptions, result: CheckResult, limits: Limits, folder: Path
+) -> None:
+    """Check a package as far as this machine can; all that is found goes into the result."""
+    robot, inputs = package.robot, package.generation.inputs
+    result.built, result.in_step, result.conflicting = bool(package.on_disk), package.in_step, package.conflicting
+    result.freedoms = package.bench.freedoms if package.bench else None
+    tell(f"{robot.name}: checking files and names")
+    result.add(package.errors)
+    contradictions = inputs.domain.cross_check(inputs.source.content, shown(robot.source))
+    result.add(map(inputs.source.locate, contradictions))
+    faults = [*texts.check_layout(package.files), *texts.check_around(robot.output, package.around)]
+    result.add(faults)
+    if any(finding.severity is Severity.ERROR for finding in faults):
+        result.gaps = ("nothing was compiled, since files have errors",)
+        return
+    contents = [*package.files.texts.values(), *package.generated.values(), *package.around.values()]
+    uses = [name for name, _ in inputs.domain.uses(robot.options)]
+    needed = find_libraries(config, robot, contents, uses)
+    names = check_names(package, needed.standard)
+    result.add([*names.package, *names.users])
+    if any(finding.severity is Severity.ERROR for finding in names.package):
+        result.gaps = ("nothing was compiled, since names in the package do not exist",)
+        return
+    if problem := _find_missing(config, options, needed, result):
+        result.gaps = (f"nothing was compiled: {problem.message}; {problem.hint}",)
+        return
+    users = users_models(robot, names.users_files, names.uses)
+    if users.left_out:
+        files = listed([shown(path) for path in users.left_out])
+        result.gaps += (f"{files} outside of the package: nothing there was compiled",)
+    every = find_libraries(config, robot, [*contents, *names.users_files.values()], uses)
+    every = msgspec.structs.replace(every, others={**every.others, **users.libraries})
+    experiment = _experiment(package, options, result, limits)
+    compilations = [
+        Compilation(package, tool, needed, users, every, limits, folder / robot.name / tool.name, options.compilers)
+        for tool in options.tools
+    ]
+    run_compilations(compilations, experiment, result, limits)
+
+
+def _find_missing(config: Config, options: CheckOptions, needed: Libraries, result: CheckResult) -> Diagnostic | None:
+    """Return why nothing can be compiled; it is an error, too, if the user asked for more than the default."""
+    missing = next(filter(None, map(compilers.find_missing, options.tools)), None)
+    lacks_library = any(not compilers.COMPILERS[tool.name].HAS_STANDARD_LIBRARY for tool in options.tools)
+    problem = missing or (needed.problem if lacks_library else None)
+    is_wanted = options.tools != CheckOptions().tools if missing else config.check.library
+    if problem and (options.physics or is_wanted):
+        result.add([problem])
+    return problem
+
+
+def _experiment(package: RobotPackage, options: CheckOptions, result: CheckResult, limits: Limits) -> Experiment | None:
+    """Return the experiment for the package; None if there is none, and the result says why."""
+    robot = package.robot
+    if not options.physics:
+        result.unchecked += ("poses and efforts were not compared; `--physics` compares them",)
+        return None
+    tell(f"{robot.name}: asking the reference")
+    try:
+        generation, file = package.generation, shown(robot.source)
+        content, imports = generation.inputs.source.content, generation.now.imports
+        arguments = robot.domain, content, file, robot.target, robot.options, imports
+        (experiment,) = process.run(_experiments, *arguments, limits=limits)
+    except UrdfsyncError as error:
+        result.add(error.diagnostics)
+        return None
+    except process.BrokenProcessError as error:
+        message, hint = f"the reference crashed: {error}", "check without `--physics`"
+        result.add([Diagnostic(Severity.ERROR, "reference-crashed", message, shown(robot.source), hint=hint)])
+        return None
+    if not isinstance(experiment, Experiment):
+        result.gaps += (f"poses, efforts and masses were not compared: {experiment}",)
+        return None
+    result.notes, result.reference = experiment.notes, experiment.reference
+    result.unchecked += experiment.unchecked
+    if package.on_disk and not package.in_step:
+        result.unchecked += ("the effect of your edits was not measured: the package is not in step with its source",)
+    return experiment
+
+
+def _experiments(domain: str, *arguments: Any) -> Iterator[Experiment | str]:
+    """Yield the experiment of a domain, in a process of its own."""
+    yield registry.domain(domain).experiment(*arguments)

@@ -1,0 +1,78 @@
+"""Checks many robots: as many at a time as cores and memory allow, or by the workers of a Dask cluster."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Iterator, Sequence
+from concurrent.futures import Future, wait
+from pathlib import Path
+
+import msgspec
+import psutil
+
+from urdfsync import machine
+from urdfsync.checks.cache import UserCache
+from urdfsync.checks.results import CheckOptions, CheckResult
+from urdfsync.checks.robot import check_robot
+from urdfsync.config import Config, RobotConfig
+from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.engine.options import Progress
+from urdfsync.workers import Workers, workers
+
+_EXPECTED_MEMORY = 1.5e9  # bytes that the check of a robot usually takes, at most
+_SHARE_OF_FREE_MEMORY = 0.9
+_PAUSE = 0.1  # s between two reports of progress
+
+
+def check_robots(
+    config: Config, robots: Sequence[RobotConfig], options: CheckOptions, progress: Progress
+) -> Iterator[CheckResult]:
+    """Check robots; the results come in their order, each as soon as it and those before it are known.
+
+    `progress` is told what is being done, and how many robots are done. Raises CacheError if there is no place for the
+    cache, ConfigError if no cluster answers.
+    """
+    if not robots:
+        return
+    cache = UserCache.default()
+    cache.prepare()
+    cache.trim()
+    budget = options.memory or _SHARE_OF_FREE_MEMORY * psutil.virtual_memory().available / 1e9
+    jobs = min(options.jobs or machine.cores(), len(robots))
+    count = max(1, min(jobs, int(budget * 1e9 // _EXPECTED_MEMORY)))
+    if options.executor:  # other workers may share a machine
+        count, share = 1, options
+    else:
+        each = max(1, machine.cores() // jobs)
+        share = msgspec.structs.replace(options, compilers=each, memory=budget / count)
+    # cleaned up here: processes that check may be ended
+    with (
+        tempfile.TemporaryDirectory(prefix="urdfsync-", ignore_cleanup_errors=True) as folder,
+        workers(count, options.executor) as pool,
+    ):
+        place = None if options.executor else Path(folder)
+        futures = {each.name: pool.submit(check_robot, config, each, share, place) for each in robots}
+        for robot in robots:
+            result = _result(robot, futures, pool, progress)
+            if count > 1 and any(finding.code == "out-of-memory" for finding in result.diagnostics):
+                wait(futures.values())  # alone it may take all that there is
+                whole = msgspec.structs.replace(share, memory=budget)
+                futures[robot.name] = pool.submit(check_robot, config, robot, whole, place)
+                result = _result(robot, futures, pool, progress)
+            cache.trim()
+            yield result
+
+
+def _result(
+    robot: RobotConfig, futures: dict[str, Future[CheckResult]], pool: Workers, progress: Progress
+) -> CheckResult:
+    """Wait for the check of one robot, and tell how far all are."""
+    future, what = futures[robot.name], "checking"
+    while wait([future], _PAUSE).not_done:
+        *_, what = [what, *pool.steps()]
+        progress(what, sum(each.done() for each in futures.values()), len(futures))
+    if (error := future.exception()) is None:
+        return future.result()
+    message = f"the check of robot `{robot.name}`: its process ended unexpectedly: {error or type(error).__name__}"
+    lost = Diagnostic(Severity.ERROR, "check-crashed", message, hint="try again with `--jobs 1`")
+    return CheckResult(robot.name, robot.target.package, diagnostics=(lost,))

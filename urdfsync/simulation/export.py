@@ -1,0 +1,142 @@
+"""Exports a model with the package of a robot as FMU, by OpenModelica."""
+
+from __future__ import annotations
+
+import io
+import re
+import time
+import zipfile
+import zlib
+from collections.abc import Sequence
+from pathlib import Path
+
+import msgspec
+
+from urdfsync import __version__
+from urdfsync.checks import compilers
+from urdfsync.checks.compilers.compiler import CompileTask, Export
+from urdfsync.config import Config, RobotConfig
+from urdfsync.diagnostics import Diagnostic
+from urdfsync.engine.options import Progress
+from urdfsync.simulation.models import Input
+from urdfsync.simulation.motion import read_motion
+from urdfsync.simulation.package import extension, prepare, run_task
+from urdfsync.simulation.results import STOP, SimulateOptions
+from urdfsync.simulation.values import modifiers
+
+TOLERANCE = 1e-10
+"""The tolerance of the integration inside of an FMU for co-simulation, which importers can't change."""
+_DESCRIPTION = "modelDescription.xml"
+_BY_URDFSYNC = "exported by urdfsync"
+_BEGINNING = 2**16
+"""Bytes of a description that have the attributes of its root element, where that stands."""
+_MOST_BYTES = 2**28
+"""Of an FMU whose list of contents is read; such a list may be nearly all of a file."""
+_HIGHER_DERIVATIVE = re.compile(rb'(?<=name=")((?:der\(){2,})([^"()]*)\)+(?=")')
+_MODEL_EXCHANGE = re.compile(rb"[ \t]*<ModelExchange\b[^>]*?(?:/>|>.*?</ModelExchange>)\s*", re.DOTALL)
+
+
+class Exported(msgspec.Struct, frozen=True):
+    """An FMU, and what it was made of."""
+
+    content: bytes
+    model: str
+    """The full name of the model."""
+    name: str
+    """The model's name in the FMU."""
+    inputs: tuple[Input, ...]
+    """The inputs that a trial drives; none without a trial."""
+    stop: float
+    step: float
+    tolerance: float
+    tool: str
+    """The compiler with its version."""
+    diagnostics: tuple[Diagnostic, ...]
+    seconds: float
+
+
+def export(
+    config: Config,
+    robot: RobotConfig,
+    options: SimulateOptions,
+    kind: Export,
+    progress: Progress,
+    *,
+    for_trial: bool = False,
+) -> Exported:
+    """Export a model as FMU. Writes nothing but the cache.
+
+    Raises UrdfsyncError for whatever is wrong with the model or the compiler, and with `for_trial` for inputs that no
+    motion could drive; OSError for what can't be read.
+    """
+    begin = time.monotonic()
+    prepared = prepare(config, robot, options, for_export=True)
+    model = prepared.model
+    inputs = tuple(model.inputs()) if for_trial else ()
+    if for_trial and options.motion:
+        read_motion(options.motion, inputs)  # what is wrong with it is said before the export, which takes minutes
+    stop = options.stop or model.settings.get("StopTime", STOP)
+    step, tolerance = model.step(stop, options.step), options.tolerance or TOLERANCE
+    name = re.sub(r"\W", "_", model.name)
+    name = f"{name}_FMU" if name == model.name else name  # a model can't extend one of its name
+
+    def text(changes: Sequence[str]) -> str:
+        # a model of its own, since the tolerance inside of an FMU is that of the annotation
+        times = f"StopTime = {stop!r}, Interval = {step!r}, Tolerance = {tolerance!r}"
+        description = f"{model.name}, {_BY_URDFSYNC} {__version__}"
+        return extension(name, model.name, changes, [f"  annotation (experiment({times}));"], description)
+
+    def tell() -> None:
+        progress(f"{robot.name}: compiling, {time.monotonic() - begin:.0f} s", 0, 1)
+
+    task = CompileTask(
+        name,
+        text(modifiers(prepared.values)),
+        parameters=tuple(prepared.values),
+        title=model.name,
+        # of co-simulation alone OpenModelica 1.27 reduces the index in another way, and fails with floating bases
+        export=msgspec.structs.replace(kind, kind="me_cs") if kind.kind == "cs" else kind,
+    )
+    result = run_task(prepared, options, "export", task, text([]), tell)
+    return Exported(
+        content=_corrected(result.fmu, with_model_exchange=kind.kind != "cs"),
+        model=model.name,
+        name=name,
+        inputs=inputs,
+        stop=stop,
+        step=step,
+        tolerance=tolerance,
+        tool=f"{compilers.COMPILERS[options.tool.name].TITLE} {result.version}".rstrip(),
+        diagnostics=robot.without_ignored(prepared.warnings),
+        seconds=time.monotonic() - begin,
+    )
+
+
+def _corrected(content: bytes, *, with_model_exchange: bool) -> bytes:
+    """Write higher derivatives as FMI has them, `der(x,2)`, where OpenModelica 1.27 has `der(der(x))`."""
+    corrected = io.BytesIO()
+    with zipfile.ZipFile(io.BytesIO(content)) as exported, zipfile.ZipFile(corrected, "w", zipfile.ZIP_DEFLATED) as fmu:
+        for member in exported.infolist():
+            data = exported.read(member)
+            if member.filename == _DESCRIPTION:
+                data = _HIGHER_DERIVATIVE.sub(lambda name: b"der(%b,%d)" % (name[2], name[1].count(b"(")), data)
+                data = data if with_model_exchange else _MODEL_EXCHANGE.sub(b"", data, count=1)
+            fmu.writestr(member, data)
+    return corrected.getvalue()
+
+
+def is_exported(file: Path) -> bool:
+    """Whether a file is an FMU that urdfsync exported.
+
+    It may be a stranger's: no more is read than the beginning of its description, whatever that unpacks to.
+    """
+    try:
+        if not file.is_file() or file.stat().st_size > _MOST_BYTES:
+            return False
+        with zipfile.ZipFile(file) as fmu:
+            if fmu.getinfo(_DESCRIPTION).compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
+                return False  # as others unpack whole blocks
+            with fmu.open(_DESCRIPTION) as description:
+                return _BY_URDFSYNC.encode() in description.read(_BEGINNING)
+    except (OSError, KeyError, ValueError, EOFError, RuntimeError, zipfile.BadZipFile, zlib.error):
+        return False

@@ -1,0 +1,100 @@
+"""Files that the user asks for: series as CSV and Parquet, plots. Each is written as a whole or not at all."""
+
+from __future__ import annotations
+
+import importlib.util
+import io
+import os
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
+from urdfsync.extras import install_command
+from urdfsync.files import kind_of, put, shown
+from urdfsync.simulation.results import SimulateResult
+
+if TYPE_CHECKING:
+    from urdfsync.simulation.results import Series
+
+
+PLOTS = (".png", ".svg")
+_MODULES = {"parquet": "pyarrow", "plot": "matplotlib"}
+
+
+def check_outputs(files: Mapping[str, Path], inputs: Mapping[str, Path]) -> None:
+    """Raise an error for a file that can't be written, before the simulation. `inputs` must not be replaced.
+
+    The kinds of `files` are `csv`, `parquet` and `plot`.
+    """
+    for kind, file in files.items():
+        module = _MODULES.get(kind)
+        if module and importlib.util.find_spec(module) is None:
+            message = f"`--{kind}` needs {module}, which is not installed"
+            raise ConfigError(Diagnostic(Severity.ERROR, "no-plot", message, hint=install_command("plot")))
+        if kind == "plot" and file.suffix.lower() not in PLOTS:
+            raise not_writable(file, f"a plot is one of {', '.join(PLOTS)}", "name a file that ends so")
+        check_file(file, inputs)
+    if len({file.resolve() for file in files.values()}) < len(files):
+        raise not_writable(next(iter(files.values())), "two outputs have this name", "name two files")
+
+
+def check_file(file: Path, inputs: Mapping[str, Path]) -> None:
+    """Raise OutputError for a file that can't be written, or is one of `inputs`."""
+    if file.exists() and not file.is_file():
+        raise not_writable(file, f"{kind_of(file.stat().st_mode)} is in its place", "name a file")
+    if not file.resolve().parent.is_dir():
+        raise not_writable(file, "there is no such folder", "make it first")
+    target = file if file.exists() else file.resolve().parent
+    if not os.access(target, os.W_OK) or not os.access(file.resolve().parent, os.W_OK):
+        raise not_writable(file, "the file can't be written: no permission", "name a file elsewhere")
+    for what, other in inputs.items():
+        if file.exists() and file.samefile(other):
+            raise not_writable(file, f"{what} has this name", "name another file")
+
+
+def write_file(file: Path, content: bytes) -> None:
+    """Write a file. Raises OutputError."""
+    try:
+        put(file.resolve(), content)
+    except OSError as error:
+        hint = "check that its folder may be written to, and that there is space on the disk"
+        raise not_writable(file, f"the file can't be written: {error.strerror}", hint) from None
+
+
+def write_outputs(files: Mapping[str, Path], result: SimulateResult) -> None:
+    """Write the files. Raises OutputError."""
+    for kind, file in files.items():
+        write_file(file, _content(kind, file, result))
+
+
+def _content(kind: str, file: Path, result: SimulateResult) -> bytes:
+    if kind == "csv":
+        return "".join(_csv_lines(result.series)).encode()
+    if kind == "parquet":
+        return _parquet(result.series)
+    from urdfsync.simulation.plot import draw  # matplotlib takes 0.5 s, and is an extra
+
+    return draw(result, file.suffix.lower().removeprefix("."))
+
+
+def _csv_lines(series: Series) -> Iterator[str]:
+    """Yield the lines of a CSV file, all digits of each number in it; names with commas are quoted."""
+    names = (f'"{name}"' if "," in name else name for name in series)
+    yield ",".join(names) + "\n"
+    for row in zip(*series.values(), strict=True):
+        yield ",".join(map(repr, row)) + "\n"
+
+
+def _parquet(series: Series) -> bytes:
+    import pyarrow.parquet  # an optional extra
+
+    content, arrow = io.BytesIO(), pyarrow
+    table: Any = arrow.table({name: arrow.array(values, arrow.float64()) for name, values in series.items()})
+    arrow.parquet.write_table(table, content)
+    return content.getvalue()
+
+
+def not_writable(file: Path, message: str, hint: str) -> OutputError:
+    """Return the error for a file that can't be written."""
+    return OutputError(Diagnostic(Severity.ERROR, "output-not-writable", message, shown(file), hint=hint))

@@ -1,0 +1,125 @@
+"""Joints over a simulation: their places in a model, their motion, and the limits that they passed."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, TypeAlias
+
+from urdfsync.domain import Axis, Signal
+from urdfsync.simulation.results import JointResult, PassedLimit, Range, Series
+
+_ENDLESS = 1e300
+"""From here on a limit is none: compilers write infinity as the greatest number that they have."""
+_ROUNDING = 1e-6
+"""As `UrdfSync.Functions.isAtMost` has it: in the unit of a quantity, and as a share of it."""
+_INTEGRATION = 1e-4
+"""The share of the way that a quantity goes in all which counts as an error of the integration.
+
+Sources that follow a motion begin up to 2e-5 rad below 0 on a way of 1 rad, with the tolerance of Test, 1e-6: a joint
+whose lower limit is 0 passes nothing by that.
+"""
+
+
+Layouts: TypeAlias = Sequence[Sequence[Axis]]
+"""See `Bench.layouts`."""
+
+
+def pattern(layouts: Layouts) -> str:
+    """Return a regular expression for the variables of joints, wherever in a model the robot is."""
+    axes = [axis for layout in layouts for axis in layout]
+    names = dict.fromkeys(name for axis in axes for _, signal in _signals(axis) for name in _names(signal))
+    return rf"(?:.*\.)?(?:{'|'.join(map(re.escape, names))})" if names else ""
+
+
+def joint_results(layouts: Layouts, series: Series, parameters: Mapping[str, float]) -> list[JointResult]:
+    """Return the result of each joint of each robot in a model, in the order of its layout."""
+    results = []
+    for place, layout in robots(layouts, series):
+        for axis in layout:
+            quantities, passed = dict[str, Range](), list[PassedLimit]()
+            for name, signal in _signals(axis):
+                values = _values(signal, place, series, parameters)
+                if signal is axis.acceleration and values is not None:
+                    values = _by_direction(values, _values(axis.velocity, place, series, parameters))
+                if values is not None:
+                    quantities[name] = _quantity(signal, place, values, parameters, signal is axis.acceleration)
+                    passed += _passed(name, quantities[name], series["time"], values)
+            if quantities:
+                results.append(JointResult(axis.element, place, **quantities, passed=tuple(passed)))
+    return results
+
+
+def robots(layouts: Layouts, series: Series) -> list[tuple[str, Sequence[Axis]]]:
+    """Return the components that are robots, with their layouts: those below which most of the positions are.
+
+    A joint may have been exchanged for another model, and parts of something else may have the name of a joint.
+    """
+    shares: dict[tuple[str, int], float] = {}
+    for number, layout in enumerate(layouts):
+        for axis in layout:
+            for name in series:
+                if name == axis.position.variable or name.endswith(f".{axis.position.variable}"):
+                    place = name.removesuffix(axis.position.variable).removesuffix(".")
+                    shares[place, number] = shares.get((place, number), 0.0) + 1 / len(layout)
+    most = max(shares.values(), default=0.0)
+    return [(place, layouts[number]) for (place, number), share in sorted(shares.items()) if math.isclose(share, most)]
+
+
+def _signals(axis: Axis) -> Iterator[tuple[str, Signal]]:
+    signals = {"position": axis.position, "speed": axis.velocity, "effort": axis.effort}
+    yield from ((name, signal) for name, signal in (*signals.items(), ("acceleration", axis.acceleration)) if signal)
+
+
+def _names(signal: Signal) -> Iterator[str]:
+    yield from (signal.variable, *signal.limits, *(signal.added or ()))
+
+
+def _values(signal: Signal, place: str, series: Series, parameters: Mapping[str, float]) -> Any:
+    """Return the numbers of a signal as an array; None if the model does not have it."""
+    name, *added = (_below(place, name) for name in (signal.variable, *(signal.added or ())))
+    if name not in series:
+        return None
+    import numpy as np  # 100 ms, which go by while the compiler is at work if there is a plot
+
+    values = np.array(series[name])
+    if added and added[0] in parameters and added[1] in series:
+        values += parameters[added[0]] * np.array(series[added[1]])
+    return values
+
+
+def _by_direction(accelerations: Any, speeds: Any) -> Any:
+    """Return the sizes of accelerations, below 0 where they slow a joint down."""
+    import numpy as np  # see above
+
+    sizes = np.abs(accelerations)
+    return sizes if speeds is None else np.where(accelerations * speeds < 0, -sizes, sizes)
+
+
+def _quantity(signal: Signal, place: str, values: Any, parameters: Mapping[str, float], is_acceleration: bool) -> Range:
+    limits = [parameters.get(_below(place, limit), math.inf) for limit in signal.limits] or [math.inf]
+    if len(limits) == 1 or is_acceleration:
+        limits = [-limits[0], limits[-1]]
+    lower, upper = (limit if abs(limit) < _ENDLESS else None for limit in limits)
+    name = _below(place, signal.variable)
+    return Range(name, signal.unit, float(values.min()), float(values.max()), lower, upper)
+
+
+def _passed(name: str, quantity: Range, times: Sequence[float], values: Any) -> Iterator[PassedLimit]:
+    """Yield the limits that a quantity passes by more than rounding and the integration make."""
+    import numpy as np  # see above
+
+    for limit, sign in ((quantity.lower, -1), (quantity.upper, 1)):
+        if limit is not None:
+            excess = sign * (values - limit)
+            rounding = _ROUNDING * (1 + abs(limit))
+            is_beyond = excess > rounding + _INTEGRATION * (quantity.greatest - quantity.least)
+            if is_beyond.any():
+                seconds = float(np.diff(times)[is_beyond[:-1]].sum())
+                first = float(times[int(is_beyond.argmax())])
+                yield PassedLimit(name, limit, first, float(excess.max()), seconds)
+
+
+def _below(place: str, name: str) -> str:
+    return f"{place}.{name}" if place else name

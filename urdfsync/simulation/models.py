@@ -1,0 +1,154 @@
+"""The model that is simulated: its file, its base classes, its inputs and the settings of its annotation."""
+
+from __future__ import annotations
+
+import functools
+import re
+from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path
+
+import msgspec
+
+from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
+from urdfsync.files import shown
+from urdfsync.modelica.classes import OPAQUE, Node, Type
+from urdfsync.modelica.files import text_of
+from urdfsync.modelica.scopes import Scopes
+from urdfsync.modelica.syntax import Component
+from urdfsync.simulation.results import STEPS
+from urdfsync.spelling import nearest
+
+_EXPERIMENT = re.compile(r"\bexperiment\s*\(((?:[^()]|\([^()]*\))*)\)")
+_SETTING = re.compile(r"\b(StopTime|Interval|Tolerance|NumberOfIntervals)\s*=\s*(\d[.\deE+-]*)\s*(?=,|$)")
+_SIZE = re.compile(r"\s*\[\s*(\d+)\s*\]")
+_ARRAY = re.compile(r"\s*\[")
+_UNIT = re.compile(r"\bunit\s*=\s*(\"[^\"]*\"|\{[^{}]*\})")
+_KINDS = ("model", "block", "class")
+_FILTERED = (("Sources", "Position"), ("Sources", "Speed"))
+"""Ends of the names of drives of the Modelica Standard Library that have a filter."""
+
+
+class Input(msgspec.Struct, frozen=True):
+    """An input of a model; of a vector one element."""
+
+    name: str
+    unit: str
+    """As Modelica writes it; empty if it is unknown."""
+
+
+class Driven(msgspec.Struct, frozen=True):
+    """The changes to a model by which its inputs can follow a table."""
+
+    changed: Mapping[Path, bytes]
+    """Contents in which the inputs are outputs, by file: the model's own equations may then set them."""
+    modifiers: tuple[str, ...]
+    """Modifiers that switch the filters of drives off."""
+
+
+class Model:
+    """A class that can be simulated, with those that it extends."""
+
+    def __init__(self, scopes: Scopes, node: Node, content: Callable[[str], bytes]) -> None:
+        """`content` reads a file of Modelica."""
+        self.node, self.name = node, str(node)
+        # as the parser had it, since components say where they begin
+        self._text = functools.cache(lambda file: text_of(content(file)))
+        self._nodes = [base for base in _with_bases(scopes, node) if base.file]
+
+    @functools.cached_property
+    def settings(self) -> dict[str, float]:
+        """The numbers in the annotation `experiment` of the model, by the names of Modelica."""
+        name = self.node.definition.name
+        text = self._text(self.node.file)[name.starts[0] :] if self.node.file and name.starts else ""
+        experiment = _EXPERIMENT.search(re.split(rf"\bend\s+{re.escape(str(name))}\s*;", text)[0])
+        numbers = {name: float(number) for name, number in _SETTING.findall(experiment[1])} if experiment else {}
+        return {name: number for name, number in numbers.items() if number > 0}
+
+    def step(self, stop: float, wanted: float | None) -> float:
+        """Return the interval of results of a simulation until `stop`, in s, if no other is wanted."""
+        return wanted or self.settings.get("Interval") or stop / self.settings.get("NumberOfIntervals", STEPS)
+
+    def inputs(self) -> list[Input]:
+        """Return all inputs, those of base classes first. Raises ConfigError for one that can't be driven."""
+        inputs: list[Input] = []
+        for node, component in self._components():
+            if component.type.parts[-1] != "RealInput" and "input" not in component.prefixes:
+                continue
+            name, text = str(component.name), self._text(node.file)
+            after = text[component.name.starts[0] + len(name) :].split(";", 1)[0]
+            size = _SIZE.match(after)
+            if component.type.parts[-1] != "RealInput" or (_ARRAY.match(after) and not size):
+                message = f"the input `{name}` can't be driven: it is no RealInput, or the text does not say its size"
+                file, line = shown(Path(node.file)), component.name.line
+                raise ConfigError(Diagnostic(Severity.ERROR, "inputs", message, file, line))
+            units = re.findall(r'"([^"]*)"', unit[1]) if (unit := _UNIT.search(after)) else []
+            count = int(size[1]) if size else 1
+            units = units if len(units) == count else units[:1] * count or [""] * count
+            names = [f"{name}[{number}]" for number in range(1, count + 1)] if size else [name]
+            inputs += map(Input, names, units)
+        return inputs
+
+    def driven(self, package: str) -> Driven:
+        """Return the changes by which inputs follow a table, and drives of the package their inputs without a filter.
+
+        Drives of the user's own models keep theirs: without it, start values may contradict the motion there.
+        """
+        changed: dict[str, list[int]] = {}
+        modifiers = []
+        for node, component in self._components():
+            if component.type.parts[-1] == "RealInput":
+                changed.setdefault(node.file, []).append(component.type.starts[-1])
+            elif str(node).startswith(f"{package}.") and component.type.parts[-2:] in _FILTERED:
+                start = component.name.starts[0] + len(str(component.name))
+                each = "each " if _ARRAY.match(self._text(node.file), start) else ""
+                modifiers.append(f"{component.name}({each}exact = true)")
+        texts = {}
+        for file, places in changed.items():
+            text = self._text(file)
+            for place in sorted(set(places), reverse=True):
+                text = f"{text[:place]}RealOutput{text[place + len('RealInput') :]}"
+            texts[Path(file)] = text.encode(errors="surrogateescape")
+        return Driven(texts, tuple(modifiers))
+
+    def _components(self) -> Iterator[tuple[Node, Component]]:
+        for node in reversed(self._nodes):
+            for component in node.components.values():
+                yield node, component
+
+
+def find_model(scopes: Scopes, package: str, name: str, content: Callable[[str], bytes]) -> Model:
+    """Return the model that a user means, by its full name or by that below the package. Raises ConfigError."""
+    for full in dict.fromkeys((f"{package}.{name}", name)):
+        node = scopes.node(full.split("."))
+        if node is not None:
+            kind = node.definition.kind
+            if kind not in _KINDS or "partial" in node.definition.prefixes:
+                what = "partial: other models extend it" if kind in _KINDS else f"a {kind}"
+                message = f"`{name}` can't be simulated: it is {what}"
+                raise ConfigError(Diagnostic(Severity.ERROR, "no-model", message, shown(Path(node.file))))
+            return Model(scopes, node, content)
+    near = _near(scopes, package, name)
+    hint = f"did you mean `{near}`?" if near else "give its full name; libraries are found beside the package, "
+    hint = hint if near else f"{hint}in the folders of `users` and on MODELICAPATH"
+    raise ConfigError(Diagnostic(Severity.ERROR, "no-model", f"there is no model `{name}`", hint=hint))
+
+
+def _near(scopes: Scopes, package: str, name: str) -> str:
+    """Return the name most like one that there is not, in the deepest package that there is; empty for none."""
+    around, _, last = name.rpartition(".")
+    for place in dict.fromkeys((around or package, package)):
+        node = scopes.node(place.split("."))
+        if node is not None and (near := nearest(last, scopes.names_in((Type(node),)))):
+            return f"{place}.{near}" if place != package else near
+    return ""
+
+
+def _with_bases(scopes: Scopes, node: Node) -> Iterator[Node]:
+    """Yield a class, and then those that it extends, each once."""
+    waiting, seen = [node], {OPAQUE}
+    while waiting:
+        current = waiting.pop(0)
+        if current not in seen:
+            seen.add(current)
+            yield current
+            waiting += [base.node for base in scopes.bases(current)]

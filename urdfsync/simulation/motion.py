@@ -1,0 +1,243 @@
+"""A motion from a CSV file: its columns by the inputs of a model, and the Modelica text that follows it.
+
+Positions and speeds are joined by a cubic spline, so that they can be differentiated; other inputs by straight lines.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+import re
+from collections.abc import Sequence
+from pathlib import Path
+from typing import NoReturn
+
+import msgspec
+
+from urdfsync.dependencies import read_unrecorded
+from urdfsync.diagnostics import Diagnostic, Severity, SourceError
+from urdfsync.files import shown
+from urdfsync.simulation.models import Input
+from urdfsync.spelling import nearest
+
+MOST_ROWS = 10_000
+
+_UNITS = {
+    "rad": {"rad": 1.0, "deg": math.pi / 180},
+    "m": {"m": 1.0, "mm": 1e-3},
+    "rad/s": {"rad/s": 1.0, "deg/s": math.pi / 180},
+    "m/s": {"m/s": 1.0, "mm/s": 1e-3},
+    "N.m": {"N.m": 1.0, "N·m": 1.0},
+    "N": {"N": 1.0},
+    "s": {"s": 1.0, "ms": 1e-3},
+}
+"""By unit of an input, the units that a column may have, and what they are in that of the input."""
+_SMOOTH = ("rad", "m", "rad/s", "m/s")
+_HEADER = re.compile(r"\s*(?P<name>.*?)\s*(?:\[(?P<unit>[^\[\]\d][^\[\]]*)\])?\s*")
+
+
+class Motion(msgspec.Struct, frozen=True):
+    """Times in s, from 0 on, and the value of each input at each of them, in the unit of the input."""
+
+    times: tuple[float, ...]
+    values: tuple[tuple[Input, tuple[float, ...]], ...]
+
+
+def read_motion(file: Path, inputs: Sequence[Input]) -> Motion:
+    """Read a CSV file whose first column is `time` and which has one for each input. Raises SourceError."""
+    if not inputs:
+        _refuse(file, "the model has no inputs that a motion could drive", hint="leave `--input` out")
+    (line, header), *rows = _read_rows(file)
+    factors = _columns(file, line, header, inputs)
+    columns: dict[str, list[float]] = {name: [] for name in factors}
+    for line, row in rows:
+        if len(row) != len(header):
+            _refuse(file, f"the row has {len(row)} cells, the header {len(header)}", line)
+        for cell, (name, factor) in zip(row, factors.items(), strict=True):
+            columns[name].append(factor * _number(file, line, cell))
+        before, time = columns["time"][-2:] if len(columns["time"]) > 1 else (-math.inf, columns["time"][-1])
+        if time <= before:
+            hint = "sort the rows by time"
+            _refuse(file, f"the time does not go on: {before:g} s, then {time:g} s", line, hint)
+    if (start := columns["time"][0]) != 0:
+        _refuse(file, f"the time begins at {start:g} s", rows[0][0], "let it begin at 0")
+    return Motion(tuple(columns["time"]), tuple((signal, tuple(columns[signal.name])) for signal in inputs))
+
+
+def _read_rows(file: Path) -> list[tuple[int, list[str]]]:
+    """Return the rows that are not empty, with their lines: a header, and two or more."""
+    try:
+        text = read_unrecorded(file).decode("utf-8-sig")  # waits for no pipe, and reads no device, which may not end
+    except OSError as error:
+        _refuse(file, f"the file can't be read: {error.strerror}", hint="name a CSV file")
+    except UnicodeDecodeError as error:
+        line = error.object.count(b"\n", 0, error.start) + 1
+        _refuse(file, "the file is not in UTF-8", line, "save it as UTF-8")
+    reader, rows = csv.reader(io.StringIO(text, newline=""), strict=True), list[tuple[int, list[str]]]()
+    try:
+        for row in reader:
+            if any(cell.strip() for cell in row):
+                rows.append((reader.line_num, row))
+            if len(rows) > MOST_ROWS + 1:
+                hint = "leave out rows: what is between is interpolated"
+                _refuse(file, f"the file has more than {MOST_ROWS} rows", hint=hint)
+    except csv.Error as error:
+        _refuse(file, f"the file is no CSV: {error}", reader.line_num)
+    if len(rows) < 3:
+        _refuse(file, "the file has no motion", hint="write a header, `time` and the inputs, and two rows or more")
+    return rows
+
+
+def at_rest(inputs: Sequence[Input], stop: float) -> Motion:
+    """Return a motion in which all inputs stay at 0 until `stop`."""
+    return Motion((0.0, stop), tuple((signal, (0.0, 0.0)) for signal in inputs))
+
+
+def sampled(motion: Motion, times: Sequence[float]) -> dict[str, list[float]]:
+    """Return the value of each input at other times, as the functions of `in_modelica` have it."""
+    from scipy.interpolate import CubicSpline, make_interp_spline
+
+    samples = {}
+    for signal, values in motion.values:
+        curve = (
+            CubicSpline(motion.times, values) if signal.unit in _SMOOTH else make_interp_spline(motion.times, values, 1)
+        )
+        samples[signal.name] = [float(value) for value in curve(times)]
+    return samples
+
+
+def _columns(file: Path, line: int, header: Sequence[str], inputs: Sequence[Input]) -> dict[str, float]:
+    """Return the columns in their order, each with what its unit is in that of the input."""
+    factors: dict[str, float] = {}
+    units = {"time": "s", **{signal.name: signal.unit for signal in inputs}}
+    for cell in header:
+        match = _HEADER.fullmatch(cell)
+        name, unit = (match["name"], match["unit"]) if match else (cell, None)
+        if not factors and name != "time":
+            _refuse(file, f"the first column is `{name}`, not `time`", line, "separate columns by commas, `time` first")
+        if name not in units:
+            near = nearest(name, units)
+            others = f"the inputs are {', '.join(list(units)[1:])}"
+            _refuse(file, f"the model has no input `{name}`", line, f"did you mean `{near}`?" if near else others)
+        if name in factors:
+            _refuse(file, f"the column `{name}` is there twice", line)
+        possible = _UNITS.get(units[name], {units[name]: 1.0})
+        if unit is not None and unit not in possible:
+            hint = f"give it in {' or '.join(filter(None, possible))}"
+            _refuse(file, f"`{name}` can't be given in {unit}", line, hint)
+        factors[name] = possible[unit] if unit is not None else 1.0
+    if missing := [name for name in units if name not in factors]:
+        _refuse(file, f"columns are missing: {', '.join(missing)}", line)
+    return factors
+
+
+def _number(file: Path, line: int, cell: str) -> float:
+    try:
+        number = float(cell)
+    except ValueError:
+        number = math.nan
+    if not math.isfinite(number):
+        _refuse(file, f"{cell.strip()!r} is no number", line)
+    return number
+
+
+def _refuse(file: Path, message: str, line: int = 0, hint: str = "") -> NoReturn:
+    raise SourceError(Diagnostic(Severity.ERROR, "motion", message, shown(file), line, hint=hint))
+
+
+_FUNCTION = """
+  function {name}{number}
+    input Real t;{inputs}
+    output Real y;
+  protected
+    Integer k;
+    Integer top;
+    Integer middle;
+    Real h;
+    Real a;
+    Real b;
+  algorithm
+    k := 1;
+    top := {count};
+    middle := 1;
+    for i in 1:{halvings} loop
+      middle := div(k + top, 2);
+      if t >= times[middle] then
+        k := middle;
+      else
+        top := middle;
+      end if;
+    end for;
+    h := times[k + 1] - times[k];
+    a := (times[k + 1] - t)/h;
+    b := (t - times[k])/h;
+    y := {value};{annotation}
+  end {name}{number};
+"""
+_KINDS = (
+    (
+        "course",
+        "",
+        "a*q{0}[k] + b*q{0}[k + 1] + ((a^3 - a)*m{0}[k] + (b^3 - b)*m{0}[k + 1])*h^2/6",
+        "(derivative = slope{0})",
+    ),
+    (
+        "slope",
+        "\n    input Real t1;",
+        "t1*((q{0}[k + 1] - q{0}[k])/h + ((1 - 3*a^2)*m{0}[k] + (3*b^2 - 1)*m{0}[k + 1])*h/6)",
+        "(derivative(order = 2) = bend{0})",
+    ),
+    ("bend", "\n    input Real t1;\n    input Real t2;", "a*m{0}[k] + b*m{0}[k + 1]", ""),
+)
+"""Value, first and second derivative of a spline through the points `times`, `q`, with second derivatives `m`."""
+
+
+class ModelicaMotion(msgspec.Struct, frozen=True):
+    """A motion in Modelica."""
+
+    functions: str = ""
+    """Of a package."""
+    declarations: tuple[str, ...] = ()
+    equations: tuple[str, ...] = ()
+    """Of a model whose inputs follow the motion."""
+
+    def held(self, motion: Motion, step: float) -> ModelicaMotion:
+        """Return the motion as an FMU for co-simulation gets it, whose inputs change at each step alone."""
+        declarations, whens, equations = [], [], []
+        for number, (signal, values) in enumerate(motion.values, 1):
+            declarations.append(f"discrete Real held{number}(start = {values[0]!r}, fixed = true);")
+            whens.append(f"held{number} = course{number}(time);")
+            equations.append(f"{signal.name} = held{number};")
+        when = [f"when sample(0, {step!r}) then", *whens, "end when;"]
+        return ModelicaMotion(self.functions, tuple(declarations), (*when, *equations))
+
+
+def in_modelica(motion: Motion) -> ModelicaMotion:
+    """Return functions of a package, and an equation for each input that calls them."""
+    count, lines, equations = len(motion.times), [_constant("times", motion.times)], []
+    halvings = max(1, math.ceil(math.log2(count - 1)))
+    for number, (signal, values) in enumerate(motion.values, 1):
+        bends = second_derivatives(motion.times, values) if signal.unit in _SMOOTH else [0.0] * count
+        lines += [_constant(f"q{number}", values), _constant(f"m{number}", bends)]
+        for name, inputs, value, derivative in _KINDS:
+            annotation = f"\n    annotation {derivative.format(number)};" if derivative else ""
+            words = {"inputs": inputs, "value": value.format(number), "annotation": annotation}
+            text = _FUNCTION.format(name=name, number=number, count=count, halvings=halvings, **words)
+            lines.append(text)
+        equations.append(f"{signal.name} = course{number}(time);")
+    return ModelicaMotion("".join(lines), (), tuple(equations))
+
+
+def _constant(name: str, values: Sequence[float]) -> str:
+    return f"  constant Real {name}[{len(values)}] = {{{', '.join(map(repr, values))}}};\n"
+
+
+def second_derivatives(times: Sequence[float], values: Sequence[float]) -> list[float]:
+    """Return the second derivatives of the cubic spline through points that has no seam at its second and last but one.
+
+    Such a spline is exact for a cubic; through three points it is a parabola, through two a straight line.
+    """
+    from scipy.interpolate import CubicSpline  # half a second, which no other simulation needs
+
+    return [float(number) for number in CubicSpline(times, values)(times, 2)]

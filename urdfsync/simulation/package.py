@@ -1,0 +1,153 @@
+"""The model that is simulated or exported, with the package of the robot on disk; and the compiler's answers."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from pathlib import Path
+
+import msgspec
+
+from urdfsync.checks import compilers, libraries
+from urdfsync.checks.cache import UserCache
+from urdfsync.checks.compilation import explain
+from urdfsync.checks.compilers.compiler import CompileResult, CompileTask
+from urdfsync.checks.jobs import Jobs
+from urdfsync.checks.package import RobotPackage, read_package
+from urdfsync.checks.process import limits_of
+from urdfsync.checks.texts import check_around, check_layout
+from urdfsync.config import Config, RobotConfig, find_own_library
+from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, UrdfsyncError
+from urdfsync.domain import Bench
+from urdfsync.engine.options import BuildOptions
+from urdfsync.files import shown
+from urdfsync.modelica.files import StoredClasses
+from urdfsync.modelica.names import STANDARD_LIBRARIES
+from urdfsync.modelica.scopes import Scopes
+from urdfsync.simulation.models import Model, find_model
+from urdfsync.simulation.results import SimulateOptions
+from urdfsync.simulation.values import find_unknown, read_values
+from urdfsync.spelling import nearest
+
+
+class Prepared(msgspec.Struct, frozen=True):
+    """A model, and all that it needs."""
+
+    package: RobotPackage
+    bench: Bench
+    """Empty if the domain does not say how a package is simulated."""
+    model: Model
+    needed: libraries.Libraries
+    values: Mapping[str, str]
+    """Other values of parameters, in Modelica."""
+    warnings: tuple[Diagnostic, ...]
+
+
+def prepare(config: Config, robot: RobotConfig, options: SimulateOptions, *, for_export: bool = False) -> Prepared:
+    """Find the model, and read the package. Raises UrdfsyncError for whatever is wrong with these or the compiler."""
+    _check_compiler(options)
+    request = BuildOptions(dry=True, package_paths=options.package_paths, wait=options.wait, jobs=1)
+    package = read_package(config, robot, request)
+    place = shown(robot.folder)
+    if not package.on_disk:
+        message, hint = f"the package of robot `{robot.name}` is not built", "run `urdfsync build`"
+        raise ConfigError(Diagnostic(Severity.ERROR, "not-built", message, place, hint=hint))
+    message, hint = "the package is out of step with its source; it is taken as it is", "run `urdfsync build`"
+    late = Diagnostic(Severity.WARNING, "out-of-step", message, place, hint=hint)
+    bench = package.bench or Bench("", "", ())
+    name = options.model or (bench.run if for_export or options.motion else "")
+    name = name or ("" if options.motion else bench.test)
+    if not name:
+        what = "has inputs" if options.motion else "can be simulated"
+        message = f"the package of robot `{robot.name}` has no model that {what}"
+        raise ConfigError(Diagnostic(Severity.ERROR, "no-model", message, hint="name one of yours with `--model`"))
+    model, needed = _find_model(config, options, name, package)
+    return Prepared(package, bench, model, needed, read_values(options.values), () if package.in_step else (late,))
+
+
+def _check_compiler(options: SimulateOptions) -> None:
+    """Raise ConfigError for a compiler that can't do this, UrdfsyncError for one that is not there."""
+    compiler = compilers.COMPILERS[options.tool.name]
+    if missing := compilers.find_missing(options.tool):
+        raise UrdfsyncError(missing)
+    if options.method and options.method not in compiler.METHODS:
+        near = nearest(options.method, compiler.METHODS)
+        hint = f"did you mean `{near}`?" if near else f"use one of {', '.join(compiler.METHODS)}"
+        message = f"{compiler.TITLE} has no method `{options.method}`"
+        raise ConfigError(Diagnostic(Severity.ERROR, "method", message, hint=hint))
+
+
+def _find_model(
+    config: Config, options: SimulateOptions, name: str, package: RobotPackage
+) -> tuple[Model, libraries.Libraries]:
+    """Return the model of a name, and the libraries that it and the package need. Raises UrdfsyncError."""
+    robot, texts = package.robot, package.files.texts
+    needed = libraries.find_libraries(config, robot, [*texts.values(), *package.around.values()])
+    if needed.problem and not compilers.COMPILERS[options.tool.name].HAS_STANDARD_LIBRARY:
+        raise UrdfsyncError(needed.problem)
+    target = robot.target.package
+    around = {robot.output / path: content for path, content in package.around.items() if path.endswith(".mo")}
+    places = list(dict.fromkeys([robot.output, config.root, *robot.users, *libraries.search_path(robot)]))
+    find = libraries.class_finder(target, needed.standard, places)
+    sources = StoredClasses(target, robot.folder, texts, {**around, **package.users_files}, find)
+    model = find_model(Scopes(sources), target, name, sources.content)
+    library, top = model.name.partition(".")[0], target.partition(".")[0]
+    if library != top and library not in STANDARD_LIBRARIES:
+        file = Path(model.node.file)
+        own = [package.users_files[file]] if file in package.users_files else []
+        others = libraries.needed_libraries([*texts.values(), *package.around.values(), *own], top, places, [library])
+        if library not in others and find_own_library(library, target) is None:
+            others[library] = file  # a file of another name than its class
+        needed = msgspec.structs.replace(needed, others={**needed.others, **others})
+    return model, needed
+
+
+def extension(name: str, model: str, modifiers: Sequence[str], lines: Iterable[str] = (), description: str = "") -> str:
+    """Return the text of a model that extends another one."""
+    modified = f"({', '.join(modifiers)})" if modifiers else ""
+    first = f'model {name} "{description}"' if description else f"model {name}"
+    return "".join(f"{line}\n" for line in (first, f"  extends {model}{modified};", *lines, f"end {name};"))
+
+
+def run_task(
+    prepared: Prepared,
+    options: SimulateOptions,
+    kind: str,
+    task: CompileTask,
+    plain: str,
+    progress: Callable[[], None],
+    changed: Mapping[Path, bytes] | None = None,
+) -> CompileResult:
+    """Do a task, which is a simulation or an export; `plain` is its text without other values of parameters.
+
+    For `changed` see `Jobs.run`. Raises UrdfsyncError if the model does not compile, or has no such parameters.
+    """
+    package, model = prepared.package, prepared.model
+    limits = limits_of(f"the {kind} of `{model.name}`", options.timeout, options.memory)
+    UserCache.default().prepare()
+    with tempfile.TemporaryDirectory(prefix="urdfsync-", ignore_cleanup_errors=True) as folder:
+        jobs = Jobs(package.robot, options.tool, prepared.needed, package.around, limits, Path(folder), progress)
+        (result,) = jobs.run(kind, package.files.texts, [task], changed)
+        if result.problem and task.parameters:  # perhaps since there is no such parameter
+            names = msgspec.structs.replace(task, source=plain, runs=(), export=None)
+            (answer,) = jobs.run("plain", package.files.texts, [names], changed)
+            result = answer if answer.parameters else result
+    faults = find_unknown(model.name, task.parameters, result.parameters)
+    for name in result.without_effect:
+        message = f"`{name}` can't be changed: nothing in the compiled model depends on it"
+        faults.append(Diagnostic(Severity.ERROR, "set", message, hint="change what its value is made from"))
+    if result.problem:
+        # of files that it can't read a compiler says little; to look at them first takes 0.2 s of each simulation
+        unread = [*check_layout(package.files), *check_around(package.robot.output, package.around)]
+        if errors := [finding for finding in unread if finding.severity is Severity.ERROR]:
+            raise UrdfsyncError(*errors)
+        file = Path(model.node.file)
+        outside = None if package.files.folder in file.parents else file
+        complaints = explain(result.problem, compilers.COMPILERS[options.tool.name], package.files, file=outside)
+        if names_set := ", ".join(task.parameters):
+            hint = f"look whether one of these is final, or gets the wrong kind of value: {names_set}"
+            complaints = [msgspec.structs.replace(finding, hint=hint) for finding in complaints]
+        faults += complaints
+    if faults:
+        raise UrdfsyncError(*faults)
+    return result

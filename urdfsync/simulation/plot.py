@@ -1,0 +1,80 @@
+"""Positions, speeds and efforts of joints against their limits, drawn with matplotlib: a column for each six joints."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from matplotlib import rc_context
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
+from urdfsync.simulation.results import JointResult, Range, SimulateResult
+
+_ROWS = ("position", "speed", "effort")
+_PER_COLUMN = 6
+_WIDTH, _HEIGHT = 6.4, 2.6
+"""Of a panel, in inches."""
+_COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
+"""Those of Okabe and Ito, which the colour-blind tell apart."""
+
+
+def draw(result: SimulateResult, kind: str) -> bytes:
+    """Return a picture, `png` or `svg`; the same result gives the same bytes."""
+    # names without dates: of elements in SVG, and none in the metadata; names of joints are no formulas, `$` or not
+    plain = {"svg.hashsalt": "urdfsync", "text.parse_math": False, "text.usetex": False}
+    with rc_context({**plain, "font.size": 9, "axes.grid": True, "grid.alpha": 0.3}):
+        columns = list(_columns(result.joints)) or [()]
+        figure = Figure(figsize=(_WIDTH * len(columns), _HEIGHT * len(_ROWS)), layout="constrained")
+        FigureCanvasAgg(figure)
+        panels: Any = figure.subplots(len(_ROWS), len(columns), sharex=True, squeeze=False)
+        figure.suptitle(result.model)
+        for column, joints in enumerate(columns):
+            last = panels[0][column]
+            for row, name in enumerate(_ROWS):
+                if joints and not any(getattr(joint, name) for joint in joints):
+                    panels[row][column].set_visible(False)  # joints that follow another one have no effort
+                    continue
+                last = panels[row][column]
+                _draw_panel(last, name, joints, result)
+            last.set_xlabel("time [s]")
+            last.tick_params(labelbottom=True)
+            if joints:
+                panels[0][column].legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False)
+        content = io.BytesIO()
+        metadata = {"Date": None} if kind == "svg" else {"Software": None}
+        figure.savefig(content, format=kind, dpi=120, metadata=metadata)
+    return content.getvalue()
+
+
+def _columns(joints: Sequence[JointResult]) -> Iterator[Sequence[JointResult]]:
+    """Yield the joints of each column: those of one robot and one unit, six at most."""
+    groups: dict[tuple[str, str], list[JointResult]] = {}
+    for joint in joints:
+        groups.setdefault((joint.robot, joint.position.unit if joint.position else ""), []).append(joint)
+    for group in groups.values():
+        for start in range(0, len(group), _PER_COLUMN):
+            yield group[start : start + _PER_COLUMN]
+
+
+def _draw_panel(panel: Any, name: str, joints: Sequence[JointResult], result: SimulateResult) -> None:
+    """Draw one quantity of some joints; limits are dashed in the colour of the joint, as far as they are near."""
+    units = []
+    times, drawn = result.series["time"], [getattr(joint, name) for joint in joints]
+    for joint, quantity, colour in zip(joints, drawn, _COLOURS, strict=False):
+        label = f"{joint.robot}: {joint.element}" if joint.robot not in ("", "robot") else joint.element
+        values = result.series[quantity.variable] if quantity else [float("nan")] * len(times)
+        panel.plot(times, values, color=colour, label=label, linewidth=1.3)
+        if quantity:
+            units.append(quantity.unit)
+    low, high = panel.get_ylim()
+    for quantity, colour in zip(drawn, _COLOURS, strict=False):
+        for limit in _limits(quantity):
+            if low - 0.5 * (high - low) <= limit <= high + 0.5 * (high - low):  # others would flatten the curves
+                panel.axhline(limit, color=colour, linestyle="--", linewidth=0.8)
+    panel.set_ylabel(f"{name} [{', '.join(dict.fromkeys(units))}]" if units else name)
+
+
+def _limits(quantity: Range | None) -> list[float]:
+    return [limit for limit in (quantity.lower, quantity.upper) if limit is not None] if quantity else []

@@ -1,0 +1,126 @@
+"""A simulation in words: what was simulated, a row for each joint, and where the results went; and as JSON."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import msgspec
+
+from urdfsync.checks.compilers.compiler import Export
+from urdfsync.diagnostics import Diagnostic
+from urdfsync.output.console import StyledLine, line
+from urdfsync.simulation.export import Exported
+from urdfsync.simulation.fmu import AGREEMENT, KINDS, Trial
+from urdfsync.simulation.results import JointResult, Range, SimulateResult
+
+_HEADER = ("joint", "position", "limits", "speed/limit", "effort/limit")
+_WORDS = {"me": "model exchange", "cs": "co-simulation"}
+_NOTHING = 5e-7
+"""Smaller numbers are shown as 0: they come from rounding."""
+
+
+def result_lines(result: SimulateResult, files: Mapping[str, Path]) -> Iterator[StyledLine]:
+    """Yield the lines about a simulation, without its diagnostics."""
+    took = "as simulated before" if result.is_known else f"{result.seconds:.1f} s"
+    about = f": {result.model}, {result.stop:g} s in steps of {result.step:g} s; {took}"
+    yield line((result.robot, "bold"), (about, ""))
+    robots = list(dict.fromkeys(joint.robot for joint in result.joints))
+    for robot in robots:
+        if robots != ["robot"]:
+            yield line((f"  {robot or 'the model itself'}", "bold"))
+        rows = [_row(joint) for joint in result.joints if joint.robot == robot]
+        widths = [max(map(len, column)) for column in zip(_HEADER, *(cells for cells, _ in rows), strict=True)]
+        yield line((_aligned(_HEADER, widths), "dim"))
+        for cells, style in rows:
+            yield line((_aligned(cells, widths), style))
+    for name, file in files.items():
+        yield line((f"  {name}: ", ""), (str(file), "bold"))
+
+
+def _aligned(cells: tuple[str, ...], widths: list[int]) -> str:
+    return ("  " + "  ".join(cell.ljust(width) for cell, width in zip(cells, widths, strict=True))).rstrip()
+
+
+def _row(joint: JointResult) -> tuple[tuple[str, ...], str]:
+    """Return the cells of a joint, and their style."""
+    position, limits = "-", "-"
+    if joint.position:
+        position = f"{_digits(joint.position.least)} … {_digits(joint.position.greatest)} {joint.position.unit}"
+        ends = joint.position.lower, joint.position.upper
+        if ends != (None, None):
+            limits = " … ".join("-" if end is None else _digits(end) for end in ends)
+    name = joint.element.partition(" ")[2] or joint.element
+    return (name, position, limits, _size(joint.speed), _size(joint.effort)), "bold yellow" if joint.passed else ""
+
+
+def _size(quantity: Range | None) -> str:
+    """Return the greatest absolute value, and its limit: `0.31/5 rad/s`."""
+    if quantity is None:
+        return "-"
+    size = max(abs(quantity.least), abs(quantity.greatest))
+    limit = "" if quantity.upper is None else f"/{_digits(quantity.upper)}"
+    return f"{_digits(size)}{limit} {quantity.unit}"
+
+
+def _digits(number: float) -> str:
+    return f"{0 if abs(number) < _NOTHING else number:.3g}"
+
+
+def to_json(result: SimulateResult, files: Mapping[str, Path]) -> dict[str, Any]:
+    """Return a simulation as plain data, without its series."""
+    return {
+        "name": result.robot,
+        "model": result.model,
+        "stop": result.stop,
+        "step": result.step,
+        "tolerance": result.tolerance,
+        "points": len(result.series["time"]),
+        "seconds": result.seconds,
+        "known": result.is_known,
+        "joints": list(map(msgspec.to_builtins, result.joints)),
+        "files": {name: str(file) for name, file in files.items()},
+        "diagnostics": list(map(msgspec.structs.asdict, result.diagnostics)),
+    }
+
+
+def fmu_lines(robot: str, exported: Exported, kind: Export, trial: Trial | None, file: Path) -> Iterator[StyledLine]:
+    """Yield the lines about an FMU, without its diagnostics."""
+    kinds = " and ".join(name for short, name in _WORDS.items() if short in kind.kind)
+    size = len(exported.content) / 1e6
+    about = (
+        f": {exported.model} by {exported.tool}, FMI {kind.version}, {kinds}; {size:.1f} MB; {exported.seconds:.1f} s"
+    )
+    yield line((robot, "bold"), (about, ""))
+    if trial:
+        if not trial.findings and not trial.problems:
+            yield line(("  FMPy finds nothing wrong", "green"))
+        for short, difference in trial.agreement.items():
+            verdict = "agree with `simulate` to" if difference <= AGREEMENT else "differ from `simulate` by up to"
+            yield line((f"  {_WORDS[short]}: {trial.compared} variables {verdict} {difference:.1e}", ""))
+    yield line(("  fmu: ", ""), (str(file), "bold"))
+
+
+def fmu_to_json(
+    robot: str,
+    exported: Exported,
+    kind: Export,
+    trial: Trial | None,
+    file: Path,
+    diagnostics: Sequence[Diagnostic],
+) -> dict[str, Any]:
+    """Return an FMU as plain data; `diagnostics` are of the export and of the trial."""
+    return {
+        "name": robot,
+        "model": exported.model,
+        "fmu": str(file),
+        "tool": exported.tool,
+        "fmi": kind.version,
+        "kinds": [short for short in KINDS if short in kind.kind],
+        "tolerance": exported.tolerance,
+        "bytes": len(exported.content),
+        "seconds": exported.seconds,
+        "trial": trial and msgspec.structs.asdict(trial),
+        "diagnostics": list(map(msgspec.structs.asdict, diagnostics)),
+    }

@@ -1,0 +1,189 @@
+"""Simulates one model with the package of one robot, as it is on disk."""
+
+from __future__ import annotations
+
+import fnmatch
+import math
+import re
+import threading
+import time
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+
+import msgspec
+
+from urdfsync.checks.cache import UserCache
+from urdfsync.checks.compilers.compiler import CompileTask, Simulation, SimulationResult, one_line
+from urdfsync.checks.fingerprint import result_key
+from urdfsync.config import Config, RobotConfig
+from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, UrdfsyncError
+from urdfsync.engine.options import Progress
+from urdfsync.files import shown
+from urdfsync.simulation import joints
+from urdfsync.simulation.models import Model
+from urdfsync.simulation.motion import ModelicaMotion, at_rest, in_modelica, read_motion
+from urdfsync.simulation.package import Prepared, extension, prepare, run_task
+from urdfsync.simulation.results import STOP, TOLERANCE, JointResult, PassedLimit, SimulateOptions, SimulateResult
+from urdfsync.simulation.values import modifiers
+
+_LATER = 1.5
+"""Seconds until the compiler is at work."""
+_LONGEST_MESSAGE = 200
+_ROUNDING = 1e-9
+"""Of a quotient of two times."""
+_TIME = re.compile(r"\bt(?:ime)?(?: ?= ?| )([-+.\deE]*\d)")
+_OWN = r"[^.]+"
+"""Matches the variables of a model itself, its inputs and outputs among them."""
+
+
+def simulate(config: Config, robot: RobotConfig, options: SimulateOptions, progress: Progress) -> SimulateResult:
+    """Simulate a model with the package of a robot. Writes nothing but the cache.
+
+    Raises UrdfsyncError for whatever is wrong with the model, its inputs or the compiler, OSError for what can't be
+    read.
+    """
+    begin = time.monotonic()
+    prepared = prepare(config, robot, options)
+    layouts, model = prepared.bench.layouts, prepared.model
+    simulation, run, is_known = _run(options, prepared, progress)
+    results = joints.joint_results(layouts, simulation.values, simulation.parameters)
+    diagnostics = [
+        *prepared.warnings,
+        *_end(model, options, simulation),
+        *(_warning(joint, passed) for joint in results for passed in joint.passed),
+    ]
+    if not results and any(layouts):
+        message = f"`{model.name}` has no joint of {robot.target.package}, so none is shown"
+        diagnostics.append(Diagnostic(Severity.NOTE, "no-joints", message))
+    return SimulateResult(
+        robot=robot.name,
+        model=model.name,
+        stop=run.stop,
+        step=run.step,
+        tolerance=run.tolerance or TOLERANCE,
+        joints=tuple(results),
+        series=simulation.values,
+        diagnostics=robot.without_ignored(diagnostics),
+        seconds=time.monotonic() - begin,
+        is_known=is_known,
+    )
+
+
+def _run(options: SimulateOptions, prepared: Prepared, progress: Progress) -> tuple[SimulationResult, Simulation, bool]:
+    """Return a simulation, its settings, and whether it is that of an earlier one. Raises UrdfsyncError."""
+    cache, begin, package, model = UserCache.default(), time.monotonic(), prepared.package, prepared.model
+    task, plain, changed = _task(options, prepared)
+    (run,) = task.runs
+    facts = task, *(sorted(files.items()) for files in (package.files.texts, package.around, changed))
+    key = result_key(package.robot, [options.tool], prepared.needed, *facts)
+    if key and (earlier := cache.load(key, SimulationResult)):
+        return earlier, run, True
+    later = threading.Timer(_LATER, cache.trim)  # 200 ms, which go by while the compiler is at work
+    later.daemon = True
+    later.start()
+
+    def tell() -> None:
+        progress(f"{package.robot.name}: compiling and integrating, {time.monotonic() - begin:.0f} s", 0, 1)
+
+    (simulation,) = run_task(prepared, options, "simulation", task, plain, tell, changed).runs
+    if shorter := _until(run, simulation):  # a compiler hands back nothing of a run that stops
+        part_task = msgspec.structs.replace(task, runs=(shorter,))
+        (part,) = run_task(prepared, options, "simulation", part_task, plain, tell, changed).runs
+        simulation = msgspec.structs.replace(part, problem=simulation.problem)
+    if not simulation.values:
+        raise UrdfsyncError(*_end(model, options, simulation))
+    is_same = key == result_key(package.robot, [options.tool], prepared.needed, *facts)  # else somebody has saved
+    if key and is_same:
+        cache.save(key, None if simulation.problem else simulation)
+    return simulation, run, False
+
+
+def _until(run: Simulation, simulation: SimulationResult) -> Simulation | None:
+    """Return a run to the last result before one stopped; None if it did not, or does not say when."""
+    moment = _TIME.search(simulation.problem)
+    if simulation.values or moment is None:
+        return None
+    last = run.step * (math.ceil(float(moment[1]) / run.step - _ROUNDING) - 1)
+    return msgspec.structs.replace(run, stop=last) if 0 < last < run.stop else None
+
+
+def _task(options: SimulateOptions, prepared: Prepared) -> tuple[CompileTask, str, Mapping[Path, bytes]]:
+    """Return the compiler's task, its text without other values of parameters, and the files that change for it."""
+    robot, model, values = prepared.package.robot, prepared.model, prepared.values
+    inputs, changes, changed = model.inputs(), modifiers(values), dict[Path, bytes]()
+    stop = options.stop or model.settings.get("StopTime", STOP)
+    course = ModelicaMotion()
+    if options.motion or (inputs and options.as_exported):
+        motion = read_motion(options.motion, inputs) if options.motion else at_rest(inputs, stop)
+        if options.motion and options.stop and options.stop > motion.times[-1]:
+            message = f"the motion ends at {motion.times[-1]:g} s, before the stop time, {options.stop:g} s"
+            raise ConfigError(Diagnostic(Severity.ERROR, "motion", message, shown(options.motion)))
+        stop, course = options.stop or motion.times[-1], in_modelica(motion)
+        if options.motion and options.as_exported:
+            course = course.held(motion, model.step(stop, options.step))
+        driven = model.driven(robot.target.package)
+        changed = dict(driven.changed)
+        if not options.as_exported:
+            changes = [
+                *(modifier for modifier in driven.modifiers if modifier.partition("(")[0] not in values),
+                *changes,
+            ]
+    elif inputs:
+        names = ",".join(["time", *(signal.name for signal in inputs)])
+        hint = f"give a CSV file with `--input`; its first line is {names}"
+        raise ConfigError(Diagnostic(Severity.ERROR, "inputs", f"`{model.name}` has inputs", hint=hint))
+    tolerance = options.tolerance or model.settings.get("Tolerance", TOLERANCE)
+    wanted = [_OWN, joints.pattern(prepared.bench.layouts), *(_glob(variable) for variable in options.variables)]
+    task = CompileTask(
+        "Probe_.Probe",
+        _probe(robot, model.name, course, changes),
+        (Simulation(stop, model.step(stop, options.step), tolerance=tolerance, method=options.method),),
+        pattern="|".join(f"(?:{pattern})" for pattern in wanted if pattern),
+        parameters=tuple(values),
+        title=model.name,
+    )
+    return task, _probe(robot, model.name, course, []), changed
+
+
+def _probe(robot: RobotConfig, model: str, course: ModelicaMotion, changes: list[str]) -> str:
+    """Return a package with a model that extends another one; it names the libraries, or rumoca loads none."""
+    names = dict.fromkeys(("Modelica", robot.target.package.partition(".")[0], model.partition(".")[0]))
+    imports = "".join(f"  import {name};\n" for name in names)
+    lines = [*course.declarations, *(("equation", *course.equations) if course.equations else ())]
+    return f"package Probe_\n{imports}{course.functions}{extension('Probe', model, changes, lines)}end Probe_;\n"
+
+
+def _glob(text: str) -> str:
+    """Return a regular expression for a pattern of variables, in which brackets are those of Modelica."""
+    return fnmatch.translate(text.replace("[", "[[]"))
+
+
+def _end(model: Model, options: SimulateOptions, run: SimulationResult) -> Iterator[Diagnostic]:
+    """Yield the reasons why a simulation did not reach its end."""
+    file = shown(Path(model.node.file))
+    if run.termination:
+        message = f"`{model.name}` ends the simulation at {run.values['time'][-1]:g} s: {_shortened(run.termination)}"
+        yield Diagnostic(Severity.NOTE, "terminated", message, file)
+    if run.problem:
+        words = _shortened(run.problem)
+        moment = _TIME.search(words)
+        what = f"stops at {float(moment[1]):g} s" if moment else "stops before its end"
+        if "initial" in words or (moment and float(moment[1]) == 0):
+            what = "does not initialise"
+        part = f"; results until {run.values['time'][-1]:g} s are kept" if run.values else ""
+        # an FMU is compared with the reference by a command that chooses no method
+        hint = "" if options.as_exported else "try another `--method` or `--tolerance`"
+        message = f"the simulation of `{model.name}` {what}: {words}{part}"
+        yield Diagnostic(Severity.ERROR, "no-simulation", message, file, hint=hint)
+
+
+def _shortened(text: str) -> str:
+    return one_line(text)[:_LONGEST_MESSAGE]
+
+
+def _warning(joint: JointResult, passed: PassedLimit) -> Diagnostic:
+    where = "" if joint.robot in ("", "robot") else f"{joint.robot}: "
+    unit = getattr(joint, passed.quantity).unit
+    message = f"{where}{joint.element}: {passed.quantity} passes its limit, {passed.limit:.4g} {unit}, "
+    message += f"at {passed.time:.4g} s; by up to {passed.excess:.3g} {unit}, for {passed.seconds:.3g} s"
+    return Diagnostic(Severity.WARNING, "limit-passed", message)

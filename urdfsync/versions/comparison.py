@@ -1,0 +1,255 @@
+"""Compare sources with the last build, or with another version of them. Writes nothing, and locks nothing for writing.
+
+Against the last build the answer is that of a dry run: its changes, its plan. Another version is read as the
+source itself is, with the files that it refers to as they are in that version.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import tempfile
+from collections.abc import Collection, Iterator, Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+import msgspec
+
+from urdfsync import changes, registry
+from urdfsync.changes import Changes
+from urdfsync.config import Config, RobotConfig
+from urdfsync.diagnostics import Diagnostic, SourceError, UrdfsyncError
+from urdfsync.domain import ChangeClass, Domain, Effect, Lookup, Role, Target, Version
+from urdfsync.engine import imports
+from urdfsync.engine import source as source_files
+from urdfsync.engine.actions import Action, Actions, Reason
+from urdfsync.engine.build import build
+from urdfsync.engine.generate import Package, generate
+from urdfsync.engine.inputs import inspect
+from urdfsync.engine.last_build import NO_MODEL
+from urdfsync.engine.options import BuildOptions
+from urdfsync.engine.renames import find_renames
+from urdfsync.engine.result import Exit, Result
+from urdfsync.engine.result import exit_code as exit_code_of
+from urdfsync.engine.source import Source
+from urdfsync.files import shown
+from urdfsync.modelica.names import class_name
+from urdfsync.state import expansion
+from urdfsync.state.store import Store
+from urdfsync.versions.revisions import Revision
+
+_DOMAIN = "urdf"
+"""Domain of a source that no robot of the configuration has."""
+
+
+class Comparison(msgspec.Struct, frozen=True):
+    """A source as it is now, compared with an older version of it."""
+
+    result: Result
+    """Result of a dry run; against another version than the last build, an action for each file that differs."""
+    source: str
+    """The source, as people see it."""
+    against: str | None = None
+    """The other version, as the user named it; None for the last build."""
+    missing: str = ""
+    """Why there is no older version to compare with; empty if there is one."""
+    effects: tuple[Effect, ...] = ()
+    """Properties of the model as a whole that the changes concern."""
+
+    @property
+    def change_class(self) -> ChangeClass:
+        """Return how far the changes reach."""
+        return self.result.changes.change_class if self.result.changes else ChangeClass.NONE
+
+    @property
+    def in_step(self) -> bool:
+        """Return whether both versions give the same package, and the package on disk needs nothing."""
+        return self.result.in_step and self.change_class in (ChangeClass.NONE, ChangeClass.UNMODELLED)
+
+
+def exit_code(comparisons: Sequence[Comparison]) -> Exit:
+    """Return the worst of all: an error, a lock, being out of step; a conflict is no more than that."""
+    code = exit_code_of(comparison.result for comparison in comparisons)
+    if code in (Exit.ERROR, Exit.LOCKED):
+        return code
+    return Exit.IN_STEP if all(comparison.in_step for comparison in comparisons) else Exit.OUT_OF_STEP
+
+
+def robot_of_file(path: Path) -> RobotConfig:
+    """Return a robot for a source that is in no configuration, with default settings; what can be left out is."""
+    name = class_name(path.name.partition(".")[0])
+    options = registry.domain(_DOMAIN).permissive_options()
+    return RobotConfig(
+        name=path.name,
+        source=path,
+        source_text=path.name,
+        output=Path(),
+        target=Target(name, name),
+        domain=_DOMAIN,
+        options=options,
+    )
+
+
+def compare_sources(
+    robots: Sequence[RobotConfig], against: str | None, config: Config | None, options: BuildOptions, folder: Path
+) -> Iterator[Comparison]:
+    """Compare each source with the last build, or with `against`: a file, counted from `folder`, or a git revision.
+
+    One that fails does not stop the others. Without a configuration there has to be another version.
+    """
+    for count, robot in enumerate(robots):
+        options.progress(robot.name, count, len(robots))
+        try:
+            if against is not None:
+                yield _with_version(robot, against, config, options, folder)
+            elif config is not None:
+                yield _with_last_build(robot, config, options)
+        except UrdfsyncError as error:
+            failed = msgspec.structs.replace(_result(robot, config), failed=True, diagnostics=error.diagnostics)
+            yield Comparison(failed, shown(robot.source), against)
+
+
+def _result(robot: RobotConfig, config: Config | None) -> Result:
+    """Return an empty result; the paths of a robot that is in no configuration count from its package."""
+    if config is None:
+        return Result(robot.name, robot.target.package, Path(), Path(), dry=True)
+    return Result(robot.name, robot.target.package, robot.folder, config.root, dry=True)
+
+
+def _with_last_build(robot: RobotConfig, config: Config, options: BuildOptions) -> Comparison:
+    (result,) = build(config, [robot], msgspec.structs.replace(options, dry=True))
+    if result.failed:
+        return Comparison(result, shown(robot.source))
+    inputs = inspect(config, robot, options)
+    last, differences = inputs.last.version, result.changes
+    missing = "" if last else "the record of the last build is lost" if inputs.last.record.files else "never built"
+    effects: tuple[Effect, ...] = ()
+    if last is not None and differences is not None and (differences.changes or differences.generator):
+        snapshot, _ = source_files.read(inputs.domain, robot.options, inputs.source.content, shown(robot.source))
+        with contextlib.suppress(*NO_MODEL):  # what is recorded may be no model of the domain
+            effects = _effects(inputs.domain, last, Version(snapshot), differences, robot)
+    return Comparison(result, shown(robot.source), None, missing, effects)
+
+
+class _VersionedSource(NamedTuple):
+    """The content of a source in one version."""
+
+    text: Source
+    places: tuple[Path, ...]
+    """The files from which references count, best first; absolute."""
+    revision: Revision | None = None
+    scratch: Path = Path()
+    """With a revision: a folder for other files of it."""
+
+
+def _with_version(
+    robot: RobotConfig, against: str, config: Config | None, options: BuildOptions, folder: Path
+) -> Comparison:
+    """Compare a source with another version of it; the actions are those of a package that nobody edited."""
+    domain, result = registry.domain(robot.domain), _result(robot, config)
+    with tempfile.TemporaryDirectory(prefix="urdfsync-") as scratch:
+        source, file = robot.source, folder / against
+        arguments, folders = robot.arguments or {}, (*robot.package_paths, *options.package_paths)
+        if file.is_file():
+            other = _VersionedSource(source_files.read_file_source(file, arguments, folders), (file, source))
+        else:
+            revision = Revision(source.parent, against)
+            text = _in_revision(revision, robot, config)
+            other = _VersionedSource(text, (source,), revision, Path(scratch))
+        if config and not robot.command:  # it may be expanded already
+            text = source_files.read_source(config, robot, Store(config.root), options)
+        else:
+            text = source_files.read_file_source(source, arguments, folders)
+        current = _VersionedSource(text, (source,))
+        new, imported, told = _read(domain, robot, current, imports.Imported(), options)
+        old, _, told_before = _read(domain, robot, other, imported, options)
+    before = {(finding.code, finding.message) for finding in told_before}
+    new_findings = tuple(finding for finding in told if (finding.code, finding.message) not in before)
+    result = msgspec.structs.replace(result, diagnostics=robot.without_ignored(new_findings))
+    renames = find_renames(domain, old.snapshot, new.snapshot, robot.renamed)
+    differences = changes.compare(old, new, domain, robot.options, renames)
+    if not differences.changes:
+        return Comparison(result, shown(robot.source), against)
+    templates = source_files.templates(config, robot, domain) if config else source_files.domain_templates(domain)
+    packages = [
+        generate(domain, version.snapshot, version.imports or {}, robot.target, robot.options, templates)
+        for version in (old, new)
+    ]
+    changed = packages[1].changed_since(packages[0])
+    older, newer = (_files_of(*pair, changed) for pair in zip(packages, (old, new), strict=True))
+    actions = []
+    for path, (role, owner, _) in (older | newer).items():
+        if path in older and path in newer and older[path][2] == newer[path][2]:
+            continue
+        kind = Reason.CREATE if path not in older else Reason.DELETE if path not in newer else Reason.UPDATE
+        place = Path(os.path.relpath(result.folder / path, result.root)).as_posix()
+        actions.append(Action(place, kind, role, owner))
+    result = msgspec.structs.replace(result, actions=Actions(actions), changes=differences)
+    return Comparison(result, shown(robot.source), against, effects=_effects(domain, old, new, differences, robot))
+
+
+def _in_revision(revision: Revision, robot: RobotConfig, config: Config | None) -> Source:
+    """Return a source in a revision; that of xacro as it was expanded then. Raises SourceError."""
+    label = revision.label(robot.source)
+    # the source may have had another name then, its expansion has that of the robot
+    if config is None or not (robot.arguments is not None or source_files.is_xacro(robot.source, b"")):
+        content = revision.read(robot.source)
+        if config is None or not source_files.is_xacro(robot.source, content):
+            return Source(content, label)
+    path = Store(config.root).expansion(robot.name)
+    if (recorded := expansion.loads(revision.read(path))) is None:
+        message, hint = "the expanded source can't be read", "name a revision with a complete build"
+        raise SourceError.of("broken-state", message, revision.label(path), hint=hint)
+    return Source(recorded.text.encode(), label)
+
+
+def _files_of(
+    package: Package, version: Version, changed: Collection[str]
+) -> dict[str, tuple[Role, str, bytes | tuple[str, ...] | str | None]]:
+    """Return role, owner and content of each file of a package; texts are rendered only if they are `changed`."""
+    texts = {
+        path: (artifact.role, artifact.owner, package.content(path) if path in changed else None)
+        for path, artifact in package.artifacts.items()
+    }
+    orders = {path: (Role.ORDER, "package", names) for path, names in package.orders.items()}
+    imported = {file.target: (Role.IMPORT, key, file.target_hash) for key, file in (version.imports or {}).items()}
+    return {**texts, **orders, **imported}
+
+
+def _effects(
+    domain: Domain, old: Version, new: Version, differences: Changes, robot: RobotConfig
+) -> tuple[Effect, ...]:
+    return (*domain.effects(old, new), *domain.interface(old, new, differences.renames, robot.target, robot.options))
+
+
+def _read(
+    domain: Domain, robot: RobotConfig, version: _VersionedSource, known: imports.Imported, options: BuildOptions
+) -> tuple[Version, imports.Imported, tuple[Diagnostic, ...]]:
+    """Read a version and the files that it refers to; imports that are `known` are not converted again.
+
+    Raises SourceError for a source that can't be read.
+    """
+    text = version.text
+    with text.locating():
+        snapshot, reading = source_files.read(domain, robot.options, text.content, text.name)
+    found_files = []
+    for place in version.places:
+        lookup = Lookup(place, robot.package_paths + options.package_paths)
+        found_files.append(imports.find_dependencies(domain, snapshot, lookup, robot.options, reading.lines))
+    joined = []
+    for same in zip(*found_files, strict=True):  # one file, looked for from several places
+        candidates = dict.fromkeys(path for dependency in same for path in dependency.candidates)
+        joined.append(msgspec.structs.replace(same[0], candidates=tuple(candidates)))
+    dependencies = version.revision.locate(joined, version.scratch) if version.revision else joined
+    recorded = imports.RecordedImports({key: (file,) for key, file in known.imports.items()}, known.contents.get, {})
+    imported = imports.import_files(
+        domain,
+        dependencies,
+        recorded,
+        text.name,
+        lambda done, total: options.progress(f"{robot.name}: imports", done, total),
+        is_anew=False,
+        has_moved=False,
+    )
+    diagnostics = (*text.diagnostics, *map(text.locate, (*reading.diagnostics, *imported.diagnostics)))
+    return Version(snapshot, imported.imports), imported, diagnostics
