@@ -11,8 +11,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from urdfsync.checks.report import closing_lines
 from urdfsync.checks.results import CheckResult, CompiledModel, EditEffect, ToolResult
-from urdfsync.commands.check import show_results
+from urdfsync.commands.check import show_result
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Deviation, Part, Quantity
 from urdfsync.output.console import Console
@@ -88,7 +89,10 @@ ALL = (RIGHT, EDITED, INCOMPLETE, WRONG, FAILED, ABSENT, STALE, TORN)
 def shown(capsys: Capture, *results: CheckResult, strict: bool = False, **options: bool) -> list[str]:
     """The lines on the output stream."""
     capsys.readouterr()
-    show_results(Console(**options), results, strict)  # type: ignore[arg-type]
+    console = Console(**options)  # type: ignore[arg-type]
+    for result in results:
+        show_result(console, result, strict=strict)
+    console.tell(closing_lines(results, strict=strict))
     return capsys.readouterr().out.splitlines()
 
 
@@ -244,7 +248,7 @@ def test_any_number_can_be_told(difference: float, value: float, quantity: Quant
     result = CheckResult(
         "arm", "Arm", tools=(ToolResult(deviations=(Deviation(quantity, "it", difference, value, value, "N"),)),)
     )
-    show_results(Console(verbose=True), [result], strict=False)
+    show_result(Console(verbose=True), result, strict=False)
 
 
 CHANGED = ToolResult(effects=(EditEffect(("a.mo",), (ELBOW,)),))

@@ -10,9 +10,10 @@ import pytest
 from urdfsync.checks.compilation import compare_all
 from urdfsync.checks.compilers.compiler import Tool
 from urdfsync.checks.process import Limits
+from urdfsync.checks.report import closing_lines
 from urdfsync.checks.results import CheckResult, CheckStatus, CompiledModel, ToolResult
 from urdfsync.checks.two_tools import run_compilations
-from urdfsync.commands.check import show_results
+from urdfsync.commands.check import show_result
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Compared, Experiment, Probe, Quantity, Trial
 from urdfsync.output.console import Console
@@ -82,7 +83,8 @@ def check(
 
 
 def lines(result: CheckResult, capsys: pytest.CaptureFixture[str]) -> list[str]:
-    show_results(Console(), [result], strict=False)
+    show_result(Console(), result, strict=False)
+    Console().tell(closing_lines([result], strict=False))
     return capsys.readouterr().out.splitlines()
 
 

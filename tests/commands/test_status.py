@@ -11,10 +11,10 @@ from support.files import unchanged
 from support.networks import LADDER, configure, edit
 
 from urdfsync.changes import Change, Changes
-from urdfsync.commands.status import lines, summary
 from urdfsync.domain import ChangeClass, ChangeKind, Role
 from urdfsync.engine.actions import Action, Actions, FileStatus, Kind, Reason
 from urdfsync.engine.result import Result
+from urdfsync.output.status import lines, summary
 from urdfsync.state.lock import build_lock
 
 

@@ -6,10 +6,9 @@ import argparse
 from collections.abc import Iterator
 from pathlib import Path
 
+from urdfsync.api import builds
 from urdfsync.commands import arguments
-from urdfsync.commands.edits import edit_lines
 from urdfsync.config import Config, RobotConfig
-from urdfsync.engine.build import build
 from urdfsync.engine.edits import find_edited
 from urdfsync.engine.generation import generate_robot
 from urdfsync.engine.inputs import inspect
@@ -19,6 +18,7 @@ from urdfsync.engine.result import Result, exit_code
 from urdfsync.modelica.files import modelica_files
 from urdfsync.output.conflicts import shown_path
 from urdfsync.output.console import Console, StyledLine
+from urdfsync.output.edits import edit_lines
 from urdfsync.output.results import file_line, show_result
 
 _EDITS = 5
@@ -45,15 +45,15 @@ def run(args: argparse.Namespace, console: Console) -> int:
     """Build the robots for the first time, and show what differs from the generated package."""
     configuration = arguments.configuration(args)
     robots = {robot.name: robot for robot in configuration.select(args.robots)}
-    request = arguments.request(args, console, dry=args.dry_run, adopts=True)
     looking = arguments.request(args, console, dry=True, adopts=args.dry_run)
-    results = []
-    for result in build(configuration, list(robots.values()), request):
-        results.append(result)
+
+    def show(result: Result) -> None:
         show_result(console, result)
         if not (result.failed or result.conflicts):
             console.tell(_lines(configuration, robots[result.robot], result, looking, verbose=console.verbose))
-    return console.end(exit_code(results))
+
+    options = {"dry_run": args.dry_run, "trust": args.trust, "wait": args.wait, "progress": console.progress}
+    return console.end(exit_code(builds.adopt(*robots, config=configuration, on_result=show, **options)))
 
 
 def _lines(

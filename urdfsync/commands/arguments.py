@@ -5,18 +5,16 @@ from __future__ import annotations
 import argparse
 import itertools
 import math
-import os
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NoReturn, TypeAlias, TypeVar
 
-import msgspec
-
-from urdfsync import config
+from urdfsync.api import load
+from urdfsync.api.builds import build_options
 from urdfsync.config import Config, RobotConfig
 from urdfsync.dependencies import read_unrecorded
-from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, UrdfsyncError
+from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.engine.options import BuildOptions
 from urdfsync.output.console import Console, Format
 
@@ -51,7 +49,7 @@ class Parser(argparse.ArgumentParser):
         return [name for action in self._actions for name in action.option_strings]
 
 
-Options = TypeVar("Options", bound=msgspec.Struct)
+Value = TypeVar("Value")
 Commands: TypeAlias = "argparse._SubParsersAction[Parser]"
 
 
@@ -89,7 +87,6 @@ _SHARED: Mapping[str, dict[str, Any]] = {
     },
     "--wait": {"type": float, "default": 60, "metavar": "S", "help": "seconds to wait for another build (default: 60)"},
     "--trust": {
-        "dest": "trusted",
         "action": "store_true",
         "help": "write to an `output` outside of the configuration's folder, run a robot's `command`, and start "
         "OpenModelica though the configuration chooses it, or names its program with `omc`",
@@ -153,7 +150,7 @@ def add_tool(parser: Parser, tools: Sequence[str]) -> None:
 
 def configuration(args: argparse.Namespace) -> Config:
     """Return the configuration that the arguments name, or the nearest one. Raises ConfigError."""
-    return config.load(args.config or config.find(config.working_folder()))
+    return load(args.config)
 
 
 def select_robots(args: argparse.Namespace, configuration: Config, console: Console) -> Sequence[RobotConfig]:
@@ -165,27 +162,22 @@ def select_robots(args: argparse.Namespace, configuration: Config, console: Cons
     return robots
 
 
-def select_robot(args: argparse.Namespace, configuration: Config, console: Console) -> RobotConfig:
-    """Return the robot that the arguments name, or the only one. Raises ConfigError for several."""
-    robots = select_robots(args, configuration, console)
-    if len(robots) > 1:
-        names = ", ".join(robot.name for robot in robots)
-        message = f"{len(robots)} robots are meant; `{args.parser.prog}` takes one at a time"
-        raise ConfigError.of("robots", message, hint=f"name one: {names}")
-    return robots[0]
+def call(function: Callable[..., Value], args: argparse.Namespace, console: Console, **others: Any) -> Value:
+    """Call a function of the API for the robots that are meant; tell settings without effect before.
+
+    Its options are arguments of the same name, or `others`.
+    """
+    loaded = configuration(args)
+    robots = select_robots(args, loaded, console)
+    chosen = {name: value for name, value in vars(args).items() if name in (function.__kwdefaults__ or ())}
+    others |= {"config": loaded, "progress": console.progress}
+    return function(*(robot.name for robot in robots), **chosen | others)
 
 
 def request(args: argparse.Namespace, console: Console, **options: Any) -> BuildOptions:
     """Return how to build, as the arguments and `options` say."""
-    return options_of(args, BuildOptions, progress=console.progress, **options)
-
-
-def options_of(args: argparse.Namespace, kind: type[Options], **others: Any) -> Options:
-    """Return options of a `kind`: its fields are arguments of the same name, or `others`."""
-    fields = kind.__struct_fields__
-    given = {name: tuple(value) if isinstance(value, list) else value for name, value in vars(args).items()}
-    chosen = {name: value for name, value in given.items() if name in fields}
-    return kind(**{"package_paths": config.ros_package_path(os.environ), **chosen, **others})
+    given = {"trusted": getattr(args, "trust", False), "wait": args.wait, "jobs": getattr(args, "jobs", None)}
+    return build_options(progress=console.progress, **given | options)
 
 
 def split_sources(texts: Sequence[str], parser: argparse.ArgumentParser) -> tuple[list[Path], dict[str, str]]:

@@ -7,17 +7,12 @@ import os
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-import msgspec
-
-from urdfsync import dependencies
+from urdfsync.api import builds
 from urdfsync.commands import arguments
-from urdfsync.config import Config, RobotConfig
-from urdfsync.engine.build import build
-from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Result, exit_code
 from urdfsync.files import shown
 from urdfsync.output.console import Console, StyledLine, line
-from urdfsync.output.results import show_results
+from urdfsync.output.results import show_result
 
 _NEXT_COMMANDS = {
     "library": "prints how these tools find the library UrdfSync",
@@ -40,9 +35,7 @@ def add(commands: arguments.Commands) -> None:
     mode = parser.add_mutually_exclusive_group()
     mode.add_argument("--dry-run", action="store_true", help="say what would be done, write nothing")
     mode.add_argument("--check", action="store_true", help="write nothing; exit with 1 if out of step")
-    mode.add_argument(
-        "--svg", dest="draw", action="store_true", help="also draw each robot's diagram, to .urdfsync/svg/"
-    )
+    mode.add_argument("--svg", action="store_true", help="also draw each robot's diagram, to .urdfsync/svg/")
     parser.add_argument(
         "--merge",
         action="store_true",
@@ -58,26 +51,13 @@ def add(commands: arguments.Commands) -> None:
 
 def run(args: argparse.Namespace, console: Console) -> int:
     """Build the robots, one after the other, and show each as soon as it is built."""
-    configuration = arguments.configuration(args)
-    robots = arguments.select_robots(args, configuration, console)
-    if args.merge:
-        robots = [msgspec.structs.replace(robot, on_conflict="merge") for robot in robots]
-    dry = args.dry_run or args.check
-    request = arguments.request(args, console, dry=dry)
-    results = show_results(console, build_and_check(configuration, robots, request), explain=args.explain)
+
+    def show(result: Result) -> None:
+        show_result(console, result, explain=args.explain)
+
+    results = arguments.call(builds.build, args, console, dry_run=args.dry_run or args.check, on_result=show)
     console.tell(_next_steps(results))
     return console.end(exit_code(results, args.check))
-
-
-def build_and_check(config: Config, robots: Sequence[RobotConfig], request: BuildOptions) -> Iterator[Result]:
-    """Build robots, and check the packages of those with `on_build = "check"`; a dry run checks nothing."""
-    results = build(config, robots, request)
-    if request.dry or not any(robot.checking for robot in robots):
-        return results
-    dependencies.mark_incomplete()  # checks look at more
-    from urdfsync.checks import afterbuild  # most configurations have no use for it
-
-    return afterbuild.with_checks(config, request, results)
 
 
 def _next_steps(results: Sequence[Result]) -> Iterator[StyledLine]:

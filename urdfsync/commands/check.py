@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Iterable
 
-from urdfsync.checks import run as run_checks
+from urdfsync.api import checks
 from urdfsync.checks.compilers import COMPILERS
 from urdfsync.checks.report import closing_lines, robot_lines, to_json, to_section
-from urdfsync.checks.results import CheckOptions, CheckResult, CheckStatus, exit_code
-from urdfsync.checks.tools import BOTH, chosen_tools
+from urdfsync.checks.results import CheckResult, CheckStatus, exit_code
+from urdfsync.checks.tools import BOTH
 from urdfsync.commands import arguments
 from urdfsync.output.console import Console, Format, has_marks
 
@@ -38,30 +37,27 @@ def add(commands: arguments.Commands) -> None:
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
-    """Check the packages of the robots, and show each as soon as it is checked."""
-    configuration = arguments.configuration(args)
-    robots = arguments.select_robots(args, configuration, console)
-    tools = chosen_tools(configuration, args.tool, trusted=args.trusted)
-    options = arguments.options_of(args, CheckOptions, tools=tools)
-    checks = run_checks.check_robots(configuration, robots, options, console.progress)
-    results = show_results(console, checks, args.strict)
+    """Check the packages of the robots, and show each as soon as it is checked; then what holds for all."""
+    results = list[CheckResult]()
+
+    def show(result: CheckResult) -> None:
+        results.append(result)
+        show_result(console, result, strict=args.strict)
+
+    try:
+        arguments.call(checks.check, args, console, on_result=show)
+    finally:
+        console.tell(closing_lines(results, strict=args.strict))
     return console.end(exit_code(results, args.strict))
 
 
-def show_results(console: Console, checks: Iterable[CheckResult], strict: bool) -> list[CheckResult]:
-    """Show each result as it comes, then what holds for all, as far as the command comes; returns them."""
-    results: list[CheckResult] = []
-    marks = has_marks(sys.stdout)
-    try:
-        for result in checks:
-            results.append(result)
-            if console.format is Format.JSON:
-                console.add_robot(to_json(result, strict))
-            elif console.json:
-                console.add_section(to_section(result, strict))
-            elif not console.quiet or result.status(strict) is not CheckStatus.RIGHT:
-                console.print(robot_lines(result, strict=strict, verbose=console.verbose, marks=marks))
-            console.findings(result.diagnostics)
-    finally:
-        console.tell(closing_lines(results, strict=strict))
-    return results
+def show_result(console: Console, result: CheckResult, *, strict: bool) -> None:
+    """Show the result of one robot."""
+    if console.format is Format.JSON:
+        console.add_robot(to_json(result, strict))
+    elif console.json:
+        console.add_section(to_section(result, strict))
+    elif not console.quiet or result.status(strict) is not CheckStatus.RIGHT:
+        marks = has_marks(sys.stdout)
+        console.print(robot_lines(result, strict=strict, verbose=console.verbose, marks=marks))
+    console.findings(result.diagnostics)

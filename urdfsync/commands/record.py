@@ -3,25 +3,17 @@
 from __future__ import annotations
 
 import argparse
-import os
 import sys
 from pathlib import Path
 
-import msgspec
-
-from urdfsync import config, registry
+from urdfsync.api.sources import record
 from urdfsync.commands import arguments
 from urdfsync.dependencies import read_unrecorded
-from urdfsync.diagnostics import ConfigError, OutputError
-from urdfsync.domain import Target
-from urdfsync.engine import source as sources
-from urdfsync.engine.generate import Package
+from urdfsync.diagnostics import OutputError
 from urdfsync.engine.result import Exit
 from urdfsync.files import normalised, put, shown
-from urdfsync.modelica.names import class_name, is_class_name, is_identifier, is_package_name
+from urdfsync.modelica.names import is_class_name
 from urdfsync.output.console import Console, line
-
-_SUFFIX = "Parameters"
 
 
 def add(commands: arguments.Commands) -> None:
@@ -56,43 +48,31 @@ def add(commands: arguments.Commands) -> None:
 def run(args: argparse.Namespace, console: Console) -> int:
     """Write the record to its file or to the standard output."""
     file = None if args.output == Path("-") else args.output
-    domain = registry.domain(args.domain)
     named, given = arguments.split_sources(args.source, args.parser)
     if len(named) != 1:
         raise arguments.UsageError(args.parser, f"name one source, not {len(named)}")
-    source, target = named[0], _target(args, named[0], file)
-    text = sources.read_file_source(source, given, config.ros_package_path(os.environ))
-    with text.locating():
-        snapshot, reading = sources.read(domain, domain.permissive_options(), text.content, text.name)
-    reading = msgspec.structs.replace(reading, snapshot=snapshot)
-    recorded = domain.record(reading, shown(source), target, domain.options())
-    if recorded is None:
-        message = f"the domain `{domain.name}` has no record of a whole model"
-        raise ConfigError.of("no-record", message, hint="use `urdfsync build`")
-    artifact, findings = recorded
-    generated = Package([artifact], sources.domain_templates(domain), target.package)
-    told = [*text.diagnostics, *map(text.locate, (*reading.diagnostics, *findings))]
-    console.warnings(sorted(told, key=lambda diagnostic: diagnostic.line))
-    record = generated.content(artifact.path).decode()
-    values = {"class": target.name, "within": target.package}
+    name = args.class_ or (file.stem if file is not None and is_class_name(file.stem) else "")
+    written = record(named[0], class_=name, within=args.within, domain=args.domain, arguments=given)
+    console.warnings(written.diagnostics)
+    values = {"class": written.class_, "within": written.within}
     if file is not None:
-        is_written = _write(record, source, file, force=args.force)
-        console.tell([line((f"{file} {'written' if is_written else 'unchanged'}: record {target.name}", ""))])
+        is_written = _write(written.text, named[0], file, force=args.force)
+        console.tell([line((f"{file} {'written' if is_written else 'unchanged'}: record {written.class_}", ""))])
         return console.end(Exit.IN_STEP, values=values | {"file": str(file), "written": is_written})
     if not console.json:
         if hasattr(sys.stdout, "reconfigure") and not sys.stdout.isatty():
             sys.stdout.reconfigure(encoding="utf-8", newline="\n")  # a file is what Modelica tools read
-        sys.stdout.write(record)
-    return console.end(Exit.IN_STEP, values=values | {"text": record})
+        sys.stdout.write(written.text)
+    return console.end(Exit.IN_STEP, values=values | {"text": written.text})
 
 
-def _write(record: str, source: Path, file: Path, *, force: bool) -> bool:
+def _write(text: str, source: Path, file: Path, *, force: bool) -> bool:
     """Write the record, as a whole or not at all; return whether that was necessary.
 
     A file that holds something else is replaced with `force` only, the source never. Raises OutputError for that, and
     for what can't be written.
     """
-    content = record.encode()
+    content = text.encode()
     try:
         if file.exists():
             if normalised(read_unrecorded(file)) == content:
@@ -112,15 +92,3 @@ def _write(record: str, source: Path, file: Path, *, force: bool) -> bool:
         message = f"it can't be written: {error.strerror}"
         raise OutputError.of("output-not-writable", message, shown(file), hint=hint) from None
     return True
-
-
-def _target(args: argparse.Namespace, source: Path, file: Path | None) -> Target:
-    """Return the class: the chosen one, else that of the file if its name can be a class, else one after the source."""
-    name, within = args.class_, args.within
-    if name and not is_class_name(name):
-        hint = "choose one that begins with a capital and is not reserved by Modelica or urdfsync"
-        raise ConfigError.of("modelica-name", f"{name!r} can't be a class", hint=hint)
-    if within and not all(is_identifier(part) and is_package_name(part) for part in within.split(".")):
-        raise ConfigError.of("modelica-name", f"{within!r} can't be a package", hint="name one like Plant.Robots")
-    stem = file.stem if file is not None and is_class_name(file.stem) else ""
-    return Target(within, name or stem or class_name(source.name.partition(".")[0]) + _SUFFIX)

@@ -6,17 +6,18 @@ import argparse
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
+from urdfsync.api import Results
+from urdfsync.api.builds import build_and_check
 from urdfsync.commands import arguments
-from urdfsync.commands.build import build_and_check
 from urdfsync.config.trust import find_untrusted_file, find_untrusted_output
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
 from urdfsync.engine.rename_uses import RenamedUses, rename_uses
-from urdfsync.engine.result import Exit, exit_code
+from urdfsync.engine.result import Exit, Result, exit_code
 from urdfsync.files import failure, shown
 from urdfsync.output.conflicts import difference_lines
 from urdfsync.output.console import Console, StyledLine, line
 from urdfsync.output.phrases import counted
-from urdfsync.output.results import show_results
+from urdfsync.output.results import all_lines, show_result
 from urdfsync.state.transaction import save
 
 
@@ -38,7 +39,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     console.tell(_lines(renamed))
     if not renamed.texts or args.dry_run:
         return console.end(code)
-    if not args.trusted:
+    if not args.trust:
         outputs = (find_untrusted_output(loaded, robot) for robot in renamed.robots)
         if untrusted := [*filter(None, (*outputs, *(find_untrusted_file(loaded, path) for path in renamed.texts)))]:
             raise ConfigError(*untrusted)
@@ -48,8 +49,12 @@ def run(args: argparse.Namespace, console: Console) -> int:
         return console.end(Exit.OUT_OF_STEP)
     _write(renamed.texts)
     console.tell([line((f"{count} written", ""))])
-    results = build_and_check(loaded, renamed.robots, arguments.request(args, console))
-    return console.end(exit_code(show_results(console, results)) or code)
+
+    def show(result: Result) -> None:
+        show_result(console, result)
+
+    results = Results(build_and_check(loaded, renamed.robots, arguments.request(args, console)), all_lines, show)
+    return console.end(exit_code(results) or code)
 
 
 def _pair(parser: argparse.ArgumentParser, text: str) -> tuple[str, str]:

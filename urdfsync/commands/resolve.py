@@ -11,8 +11,9 @@ from pathlib import Path
 import msgspec
 
 from urdfsync import config
+from urdfsync.api import Results
+from urdfsync.api.builds import build_and_check
 from urdfsync.commands import arguments, editor
-from urdfsync.commands.build import build_and_check
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Role
 from urdfsync.engine.actions import USERS, Action, Kind, Reason
@@ -21,7 +22,7 @@ from urdfsync.engine.package_files import key_of
 from urdfsync.engine.result import Exit, Result, exit_code
 from urdfsync.files import shown
 from urdfsync.output.console import Console
-from urdfsync.output.results import show_result, show_results
+from urdfsync.output.results import all_lines, show_result
 from urdfsync.state.record import Choice, UsersChoice
 
 
@@ -90,7 +91,11 @@ def run(args: argparse.Namespace, console: Console) -> int:
     for path, text in edited.items():
         choices[path] = msgspec.structs.replace(choices[path], text=text)
     request = arguments.request(args, console, dry=args.dry_run, choices=choices)
-    results = show_results(console, build_and_check(configuration, robots, request), named=targets)
+
+    def show(result: Result) -> None:
+        show_result(console, result, named=targets)
+
+    results = Results(build_and_check(configuration, robots, request), all_lines, show)
     accepted, problems = _compare(targets, results, choice)
     code = exit_code(results)
     if problems and code is Exit.IN_STEP:

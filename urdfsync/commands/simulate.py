@@ -5,17 +5,17 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from urdfsync.api.simulations import simulate
 from urdfsync.checks.compilers import COMPILERS
-from urdfsync.checks.tools import chosen_tools
 from urdfsync.commands import arguments
-from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Severity
 from urdfsync.engine.result import Exit
 from urdfsync.output.console import Console
-from urdfsync.simulation.files import check_outputs, write_outputs
 from urdfsync.simulation.report import result_lines, to_json
-from urdfsync.simulation.results import STEPS, STOP, TOLERANCE, SimulateOptions
-from urdfsync.simulation.run import simulate
+from urdfsync.simulation.results import STEPS, STOP, TOLERANCE
+
+FILES = ("csv", "parquet", "plot")
+"""The options that name a file to write."""
 
 
 def add(commands: arguments.Commands) -> None:
@@ -55,23 +55,10 @@ def add(commands: arguments.Commands) -> None:
 
 def run(args: argparse.Namespace, console: Console) -> int:
     """Simulate one robot, write what was asked for, and show what came out."""
-    configuration = arguments.configuration(args)
-    robot = arguments.select_robot(args, configuration, console)
-    chosen_files = {"csv": args.csv, "parquet": args.parquet, "plot": args.plot}
-    files = {kind: file for kind, file in chosen_files.items() if file is not None}
-    check_outputs(files, input_files(configuration, robot, args.motion))
-    tool, *_ = chosen_tools(configuration, args.tool, trusted=args.trusted)
-    options = arguments.options_of(args, SimulateOptions, tool=tool)
-    result = simulate(configuration, robot, options, console.progress)
-    write_outputs(files, result)
+    files = {kind: file for kind in FILES if (file := getattr(args, kind)) is not None}
+    result = arguments.call(simulate, args, console)
     console.add_robot(to_json(result, files))
     console.tell(result_lines(result, files))
     console.findings(result.diagnostics)
     stopped = any(finding.severity is Severity.ERROR for finding in result.diagnostics)
     return console.end(Exit.ERROR if stopped else Exit.IN_STEP)
-
-
-def input_files(configuration: Config, robot: RobotConfig, motion: Path | None) -> dict[str, Path]:
-    """Return the files that no output may replace, by what they are."""
-    files = {"the source of the robot": robot.source, "the configuration": configuration.file}
-    return files | ({"the file with the inputs": motion} if motion else {})

@@ -7,6 +7,7 @@ quotes from files can command a terminal: `visible` escapes it.
 from __future__ import annotations
 
 import enum
+import io
 import json
 import os
 import sys
@@ -133,6 +134,16 @@ def write_lines(lines: Iterable[StyledLine], stream: IO[str]) -> None:
     for text in lines:
         stream.write(f"{text}\n")
         stream.flush()
+
+
+def html(lines: Iterable[StyledLine]) -> str:
+    """Return lines as a paragraph of HTML, with their styles."""
+    from rich.console import Console
+
+    screen = Console(record=True, file=io.StringIO(), highlight=False)
+    for text in lines:
+        screen.print(text, soft_wrap=True)
+    return screen.export_html(inline_styles=True, code_format="<pre>{code}</pre>")
 
 
 class Console:

@@ -13,7 +13,7 @@ from urdfsync.engine.actions import Action, FileStatus, Kind, Reason
 from urdfsync.engine.result import Checked, Result
 from urdfsync.files import shown
 from urdfsync.output.conflicts import conflict_lines, describe, find_conflicts, saved_texts, shown_path
-from urdfsync.output.console import Console, Format, StyledLine, first_lines, has_marks, line
+from urdfsync.output.console import Console, Format, StyledLine, findings, first_lines, has_marks, line
 from urdfsync.output.phrases import change_lines, counted, reason, summary
 from urdfsync.output.repeated import show_findings
 from urdfsync.output.sections import build_section
@@ -59,19 +59,8 @@ def change_line(text: str) -> StyledLine:
     return line((f"  {element}{colon}", "bold" if colon else ""), (what, style))
 
 
-def show_results(
-    console: Console, results: Iterator[Result], *, explain: bool = False, named: Container[str] = ()
-) -> list[Result]:
-    """Show what was done with each robot as soon as it is done, and return it all; `named` files are listed."""
-    shown_results = []
-    for result in results:
-        show_result(console, result, explain=explain, named=named)
-        shown_results.append(result)
-    return shown_results
-
-
 def show_result(console: Console, result: Result, *, explain: bool = False, named: Container[str] = ()) -> None:
-    """Show what was done with one robot."""
+    """Show what was done with one robot; `named` files are listed."""
     if console.format is Format.JSON:
         console.add_robot(result_values(result))
         return
@@ -82,12 +71,24 @@ def show_result(console: Console, result: Result, *, explain: bool = False, name
     if console.quiet and not (result.conflicts or result.is_broken):
         console.stop_progress()
         return
-    lines = [headline(result, summary(result), is_fine=not (result.conflicts or result.is_broken))]
+    console.print(build_lines(result, console, explain=explain, named=named), error=result.failed)
+
+
+def all_lines(result: Result) -> Iterator[StyledLine]:
+    """Yield all that `urdfsync build` shows of a result, its findings first."""
+    yield from findings(result.diagnostics, quiet=False, verbose=False)
+    yield from build_lines(result, Console())
+
+
+def build_lines(
+    result: Result, console: Console, *, explain: bool = False, named: Container[str] = ()
+) -> Iterator[StyledLine]:
+    """Yield what was done with one robot, without its findings."""
+    yield headline(result, summary(result), is_fine=not (result.conflicts or result.is_broken))
     if not console.quiet:
-        lines += result_lines(result, verbose=console.verbose, explain=explain, named=named)
-    console.print(lines, error=result.failed)
+        yield from result_lines(result, verbose=console.verbose, explain=explain, named=named)
     if result.conflicts:
-        console.print(conflict_lines(result, console), error=result.failed)
+        yield from conflict_lines(result, console)
 
 
 def result_lines(

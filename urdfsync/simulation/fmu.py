@@ -11,12 +11,13 @@ from typing import Any
 import msgspec
 
 from urdfsync.checks import process
-from urdfsync.checks.compilers.compiler import one_line
+from urdfsync.checks.compilers.compiler import Export, one_line
 from urdfsync.checks.process import Limits, limits_of
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.engine.options import Progress
 from urdfsync.extras import install_command
+from urdfsync.files import shown
 from urdfsync.simulation.export import Exported
 from urdfsync.simulation.motion import at_rest, read_motion, sampled
 from urdfsync.simulation.results import Series, SimulateOptions
@@ -46,6 +47,40 @@ class Trial(msgspec.Struct, frozen=True):
     """Number of variables."""
     problems: Mapping[str, str] = {}
     """For each kind that FMPy can't simulate, why."""
+
+
+class WrittenFmu(msgspec.Struct, frozen=True):
+    """An FMU that was written to a file."""
+
+    robot: str
+    exported: Exported
+    kind: Export
+    file: Path
+    trial: Trial | None
+    """None if it was not tried out."""
+    warnings: tuple[Diagnostic, ...]
+    """Findings of the trial."""
+
+    @property
+    def diagnostics(self) -> tuple[Diagnostic, ...]:
+        """All findings, of the export and of the trial."""
+        return (*self.exported.diagnostics, *self.warnings)
+
+
+def find_faults(trial: Trial, file: Path) -> list[Diagnostic]:
+    """Return what a trial found, as warnings."""
+    warnings = [
+        Diagnostic(Severity.WARNING, "fmu-not-valid", f"FMPy: {words}", shown(file)) for words in trial.findings
+    ]
+    for kind, problem in trial.problems.items():
+        message = f"{KINDS[kind]}: FMPy can't simulate it: {problem}"
+        warnings.append(Diagnostic(Severity.WARNING, "fmu-not-simulated", message, shown(file)))
+    for kind, difference in trial.agreement.items():
+        if not difference <= AGREEMENT:
+            message = f"{KINDS[kind]}: `{trial.worst[kind]}` differs from `simulate` by {difference:.1e} of its size"
+            hint = "try a smaller `--tolerance`"
+            warnings.append(Diagnostic(Severity.WARNING, "fmu-differs", message, shown(file), hint=hint))
+    return warnings
 
 
 class _Request(msgspec.Struct, frozen=True):

@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 import msgspec
 
-from urdfsync.checks.compilers.compiler import Export
-from urdfsync.diagnostics import Diagnostic
 from urdfsync.output.console import StyledLine, line
-from urdfsync.simulation.export import Exported
-from urdfsync.simulation.fmu import AGREEMENT, KINDS, Trial
+from urdfsync.simulation.fmu import AGREEMENT, KINDS, WrittenFmu
 from urdfsync.simulation.results import JointResult, Range, SimulateResult
 
 _HEADER = ("joint", "position", "limits", "speed/limit", "effort/limit")
@@ -85,42 +82,37 @@ def to_json(result: SimulateResult, files: Mapping[str, Path]) -> dict[str, Any]
     }
 
 
-def fmu_lines(robot: str, exported: Exported, kind: Export, trial: Trial | None, file: Path) -> Iterator[StyledLine]:
+def fmu_lines(written: WrittenFmu) -> Iterator[StyledLine]:
     """Yield the lines about an FMU, without its diagnostics."""
+    exported, kind, trial = written.exported, written.kind, written.trial
     kinds = " and ".join(name for short, name in _WORDS.items() if short in kind.kind)
     size = len(exported.content) / 1e6
     about = (
         f": {exported.model} by {exported.tool}, FMI {kind.version}, {kinds}; {size:.1f} MB; {exported.seconds:.1f} s"
     )
-    yield line((robot, "bold"), (about, ""))
+    yield line((written.robot, "bold"), (about, ""))
     if trial:
         if not trial.findings and not trial.problems:
             yield line(("  FMPy finds nothing wrong", "green"))
         for short, difference in trial.agreement.items():
             verdict = "agree with `simulate` to" if difference <= AGREEMENT else "differ from `simulate` by up to"
             yield line((f"  {_WORDS[short]}: {trial.compared} variables {verdict} {difference:.1e}", ""))
-    yield line(("  fmu: ", ""), (str(file), "bold"))
+    yield line(("  fmu: ", ""), (str(written.file), "bold"))
 
 
-def fmu_to_json(
-    robot: str,
-    exported: Exported,
-    kind: Export,
-    trial: Trial | None,
-    file: Path,
-    diagnostics: Sequence[Diagnostic],
-) -> dict[str, Any]:
-    """Return an FMU as plain data; `diagnostics` are of the export and of the trial."""
+def fmu_to_json(written: WrittenFmu) -> dict[str, Any]:
+    """Return an FMU as plain data."""
+    exported = written.exported
     return {
-        "name": robot,
+        "name": written.robot,
         "model": exported.model,
-        "fmu": str(file),
+        "fmu": str(written.file),
         "tool": exported.tool,
-        "fmi": kind.version,
-        "kinds": [short for short in KINDS if short in kind.kind],
+        "fmi": written.kind.version,
+        "kinds": [short for short in KINDS if short in written.kind.kind],
         "tolerance": exported.tolerance,
         "bytes": len(exported.content),
         "seconds": exported.seconds,
-        "trial": trial and msgspec.structs.asdict(trial),
-        "diagnostics": list(map(msgspec.structs.asdict, diagnostics)),
+        "trial": written.trial and msgspec.structs.asdict(written.trial),
+        "diagnostics": list(map(msgspec.structs.asdict, written.diagnostics)),
     }
