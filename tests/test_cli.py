@@ -140,6 +140,30 @@ def test_bad_usage(arguments: list[str], execute: Execute) -> None:
     assert execute(*arguments, code=2).err.startswith(usage)
 
 
+@pytest.mark.parametrize(
+    "command", [["build"], ["adopt", "ladder"], ["remove", "ladder"], ["resolve", "--all", "--take"]]
+)
+def test_n_is_a_dry_run(
+    edited: Path, execute: Execute, snapshot_of: Callable[[Path], object], command: list[str]
+) -> None:
+    source('"R2"', '"R3"')
+    before = snapshot_of(edited)
+    code, *printed = execute(*command, "--dry-run", code=None)
+    assert execute(*command, "-n", code=code)[1:] == tuple(printed)
+    assert snapshot_of(edited) == before
+    assert any(printed)
+
+
+def test_python_runs_it_as_a_module(project: Path) -> None:
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)}
+    command = [sys.executable, "-m", "urdfsync"]
+    done = subprocess.run([*command, "build", "-n"], env=environment, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "ladder: 14 files to write\n", "")
+    helped = subprocess.run([*command, "--help"], env=environment, capture_output=True, text=True, check=True).stdout
+    assert helped.startswith("usage: urdfsync ")
+    assert "resolve" in helped
+
+
 def test_what_was_meant_is_said(execute: Execute) -> None:
     meant = {("biuld",): "build", ("build", "--dryrun"): "--dry-run", ("resolve", "--al", "--keep"): "--all"}
     for arguments, name in meant.items():

@@ -38,7 +38,7 @@ def add(commands: arguments.Commands) -> None:
         epilog="example: urdfsync adopt arm --dry-run",
     )
     parser.add_argument("robots", nargs="+", metavar="ROBOT", help="robots of urdfsync.toml")
-    parser.add_argument("--dry-run", action="store_true", help="say what would be done, write nothing")
+    arguments.add_dry_run(parser)
 
 
 def run(args: argparse.Namespace, console: Console) -> int:

@@ -142,6 +142,11 @@ def wants_json(given: Sequence[str]) -> bool:
     return "--json" in given or "--format=json" in given or ("--format", "json") in itertools.pairwise(given)
 
 
+def add_dry_run(container: argparse._ActionsContainer) -> None:
+    """Add the option for a run that writes nothing."""
+    container.add_argument("-n", "--dry-run", action="store_true", help="say what would be done, write nothing")
+
+
 def add_tool(parser: Parser, tools: Sequence[str]) -> None:
     """Add the option that chooses a compiler, or both."""
     which = "the compiler: rumoca, or omc for OpenModelica" + (", or both" if "both" in tools else "")

@@ -33,7 +33,7 @@ def add(commands: arguments.Commands) -> None:
         epilog="example: urdfsync build arm --dry-run --explain",
     )
     mode = parser.add_mutually_exclusive_group()
-    mode.add_argument("--dry-run", action="store_true", help="say what would be done, write nothing")
+    arguments.add_dry_run(mode)
     mode.add_argument("--check", action="store_true", help="write nothing; exit with 1 if out of step")
     mode.add_argument("--svg", action="store_true", help="also draw each robot's diagram, to .urdfsync/svg/")
     parser.add_argument(

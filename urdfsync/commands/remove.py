@@ -38,7 +38,7 @@ def add(commands: arguments.Commands) -> None:
     )
     parser.add_argument("robot", metavar="ROBOT", help="the robot of urdfsync.toml that leaves")
     mode = parser.add_mutually_exclusive_group()
-    mode.add_argument("--dry-run", action="store_true", help="say what would go, write nothing")
+    arguments.add_dry_run(mode)
     mode.add_argument("--yes", action="store_true", help="do not ask")
 
 

@@ -55,7 +55,7 @@ def add(commands: arguments.Commands) -> None:
     words = "with --merge: which side counts where both changed the same"
     parser.add_argument("--prefer", choices=["mine", "generated"], help=words)
     parser.add_argument("--yes", action="store_true", help="with --rename-uses: write without asking")
-    parser.add_argument("--dry-run", action="store_true", help="say what would be done, write nothing")
+    arguments.add_dry_run(parser)
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
