@@ -343,6 +343,8 @@ class Experiment(msgspec.Struct, frozen=True):
     """Name and version."""
     content: bytes
     """The source to generate the package from: the one given, or a copy that has what a comparison needs."""
+    options: Any
+    """The options to generate it with, likewise."""
     trials: tuple[Trial, ...]
     """They move a package that follows from `content`, and as well one that follows from the source.
 

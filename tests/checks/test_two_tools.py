@@ -23,6 +23,7 @@ TITLES = {"rumoca": "rumoca 0.10.2", "omc": "OpenModelica 1.27.0"}
 EXPERIMENT = Experiment(
     "Pinocchio 4.1.0",
     b"",
+    None,
     (
         Trial(
             "motion",

@@ -92,10 +92,11 @@ class Compilation:
         """Return jobs that move the generated package and the edited one, and each edit of the user by itself."""
         package = self._package
         move = [_task(trial) for trial in experiment.trials]
-        is_same = experiment.content == package.generation.inputs.source.content
-        completed = package.generated if is_same else generated_texts(package.generation, experiment.content)
-        jobs: dict[str, _Job] = {"completed": (with_flags(completed), move)}
-        if package.edits:
+        amended = experiment.content, experiment.options
+        is_same = amended == (package.generation.inputs.source.content, package.robot.options)
+        self._completed = package.generated if is_same else generated_texts(package.generation, amended)
+        jobs: dict[str, _Job] = {"completed": (with_flags(self._completed), move)}
+        if package.edits and experiment.options == package.robot.options:
             jobs["edited"] = with_flags(package.files.texts), move
             if not is_same:
                 jobs["generated"] = with_flags(package.generated), move
@@ -117,9 +118,9 @@ class Compilation:
             snapshot, domain = generation.now.snapshot, generation.inputs.domain
             # templates of the user's may connect benches in another way
             own = robot.templates is not None
-            wiring = () if own else domain.wiring(package.generated, snapshot, robot.target, robot.options)
+            wiring = () if own else domain.wiring(self._completed, snapshot, robot.target, experiment.options)
             self.result.deviations = (*compare_all(trials, self.generated), *wiring)
-        if not package.edits:
+        if "edited" not in done:
             return
         without_edits = self.generated
         if "generated" in done:

@@ -139,6 +139,8 @@ def _experiment(package: RobotPackage, options: CheckOptions, result: CheckResul
         return None
     result.notes, result.reference = experiment.notes, experiment.reference
     result.unchecked += experiment.unchecked
+    if package.edits and experiment.options != robot.options:
+        result.gaps += ("the effect of your edits was not measured, since the package that is compared is simpler",)
     if package.on_disk and not package.in_step:
         result.unchecked += ("the effect of your edits was not measured: the package is not in step with its source",)
     return experiment

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cached_property
+from typing import Any
 
 import msgspec
 
@@ -138,13 +139,13 @@ def _generate(inputs: Inputs) -> Generation:
     return Generation(inputs, Version(snapshot, imported.imports), reading.lines, tuple(findings), imported, package)
 
 
-def generated_texts(generation: Generation, content: bytes | None = None) -> Mapping[str, bytes]:
-    """Return the Modelica files of the package by path; `content` is an amended copy of the source, None for itself."""
+def generated_texts(generation: Generation, amended: tuple[bytes, Any] | None = None) -> Mapping[str, bytes]:
+    """Return the Modelica files of the package by path; `amended` are another source and other options."""
     inputs, package = generation.inputs, generation.package
-    if content is not None and content != inputs.source.content:
-        snapshot, _ = source.read(inputs.domain, inputs.robot.options, content, shown(inputs.robot.source))
-        imported = generation.imported.imports
-        options, templates = inputs.robot.options, inputs.templates
-        package = generate(inputs.domain, snapshot, imported, inputs.robot.target, options, templates)
+    if amended is not None:
+        content, options = amended
+        snapshot, _ = source.read(inputs.domain, options, content, shown(inputs.robot.source))
+        imported, target = generation.imported.imports, inputs.robot.target
+        package = generate(inputs.domain, snapshot, imported, target, options, inputs.templates)
     orders = {path: "".join(f"{name}\n" for name in names).encode() for path, names in package.orders.items()}
     return {path: package.content(path) for path in package.artifacts} | orders

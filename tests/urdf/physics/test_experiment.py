@@ -97,6 +97,17 @@ def test_a_robot_with_a_joint_that_nothing_drives_is_not_compared(kind: str, app
     )
 
 
+def test_laws_that_the_reference_does_not_have_are_named_and_made_simple() -> None:
+    laws = {"friction": {"elbow": "lugre"}, "elastic": "all"}
+    one = experiment(ARM, **laws)
+    assert one.options == Options()
+    assert one.trials == experiment(ARM).trials
+    assert one.unchecked[:2] == (
+        "friction of elbow (lugre): the package that is compared has a smooth one",
+        "drive of a slide, elbow (elastic): the package that is compared has a rigid one",
+    )
+
+
 def test_a_package_without_joints_is_moved_without_the_record_that_it_does_not_have() -> None:
     alone = robot(link("base", 1.0))
     assert not any("BotParameters" in trial.probe.source for trial in experiment(alone).trials)

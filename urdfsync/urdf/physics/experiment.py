@@ -12,7 +12,7 @@ import numpy as np
 
 from urdfsync.diagnostics import SourceError
 from urdfsync.domain import Compared, Experiment, Import, Part, Quantity, Target, Trial
-from urdfsync.urdf.drives import can_be_driven
+from urdfsync.urdf.drives import can_be_driven, driven_joints, friction_law, is_chosen
 from urdfsync.urdf.kinematics.poses import own_range, start_positions
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.model.tables import obstacles
@@ -47,15 +47,14 @@ def experiment(
     if left_out := [entry.message for entry in reading.diagnostics if entry.code in options.allow]:
         return left_out[0]
     robot = _robot(reading)
-    # the reference has the smooth law and rigid drives, and the embedded compiler starts no two joints that slide
-    if (options.friction, options.elastic, options.saturated) != ("smooth", "none", "none"):
-        return "friction or drives are other than smooth and rigid"
     if loose := obstacles(robot.joints):
         return f"joint {loose[0].name} is {loose[0].type}, and nothing prescribes how it moves"
     completed, notes = completion.completed_for_pinocchio(content)
     completed, made_up = completion.with_inertias(completed, KinematicTree.of(robot))
     tree = KinematicTree.of(_robot(read_robot(completed, file, options)), (target.name,))
-    trials = list[Trial]()
+    trials, chosen = list[Trial](), options
+    # the reference has the smooth law and rigid drives, and the embedded compiler starts no two joints that slide
+    options = msgspec.structs.replace(options, friction="smooth", elastic="none", saturated="none")
     with np.errstate(all="ignore"):  # numbers without end in the source
         subject = _Subject(completed, file, tree, target, options, imports)
         for approach in options.approach:
@@ -63,9 +62,10 @@ def experiment(
     return Experiment(
         reference=f"Pinocchio {pinocchio().__version__}",
         content=completed,
+        options=options,
         trials=tuple(trials),
         notes=(*notes, *made_up),
-        unchecked=tuple(_not_compared(options, len(subject.axes), subject.loose)),
+        unchecked=(*_simplified(tree, chosen), *_not_compared(options, len(subject.axes), subject.loose)),
     )
 
 
@@ -288,6 +288,22 @@ def _table(pairs: Iterable[_Pair], times: Sequence[float]) -> tuple[tuple[Compar
                 numbers.setdefault(value, {})[time] = float(number)
     series = {value: tuple(own.get(time, math.nan) for time in times) for value, own in numbers.items()}
     return tuple(every), {"time": tuple(times), **series}
+
+
+def _simplified(tree: KinematicTree, options: Options) -> Iterator[str]:
+    """Yield the laws of joints that the package which is compared does not have."""
+    driven = driven_joints(tree.joints, options)
+    drives = [joint for joint in tree.joints if joint.name in driven]
+    joints = {
+        **{law: [j.name for j in tree.joints if friction_law(j, options) == law] for law in ("stiction", "lugre")},
+        "elastic": [joint.name for joint in drives if is_chosen(joint, options.elastic)],
+        "saturated": [joint.name for joint in drives if is_chosen(joint, options.saturated)],
+    }
+    for law, names in joints.items():
+        if names:
+            part, plain = ("drive", "rigid") if law in ("elastic", "saturated") else ("friction", "smooth")
+            who = ", ".join(names) if len(names) <= 3 else f"{len(names)} joints"
+            yield f"{part} of {who} ({law}): the package that is compared has a {plain} one"
 
 
 def _not_compared(options: Options, axes: int, loose: str) -> Iterator[str]:
