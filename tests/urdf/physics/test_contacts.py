@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
 import pytest
 from support.urdfs import parsed, robot
 
@@ -54,15 +53,6 @@ def test_the_ground_brakes_resists_and_never_pulls() -> None:
     assert feet.force(slide=(30, 40)) == pytest.approx([-90, -120, WEIGHT])
     assert feet.force(rise=-0.01)[2] > 1.3 * WEIGHT
     assert feet.force(rise=1) == pytest.approx([0, 0, 0])
-
-
-def test_a_robot_tips_unless_its_centre_is_above_its_feet() -> None:
-    table, wheel = (standing(f"{shape} at 0 0 0") for shape in ('box size="2 2 1"', 'sphere radius="0.5"'))
-    assert table is not None
-    assert wheel is not None
-    assert not table.tips(np.array([0.9, 0.9, 3]))
-    assert table.tips(np.array([1.1, 0, 0]))
-    assert wheel.tips(np.zeros(3))
 
 
 def test_a_robot_that_touches_nothing_does_not_stand() -> None:

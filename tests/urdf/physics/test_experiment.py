@@ -97,6 +97,17 @@ def test_a_robot_with_a_joint_that_nothing_drives_is_not_compared(kind: str, app
     )
 
 
+def test_no_acceleration_follows_from_an_effort_on_no_mass() -> None:
+    """The arm weighs something, but all of it is on the axis: a compiler may give any acceleration."""
+    point = ELBOW.replace('value="2.5"', 'value="1"')
+    for name in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz"):
+        point = re.sub(rf'{name}="[^"]*"', f'{name}="0"', point)
+    point = point.replace('xyz="0.02 -0.05 0.1"', 'xyz="0 0 0"')
+    one = experiment(point)
+    assert [trial.name for trial in one.trials] == ["motion"]
+    assert any("moves no mass" in sentence for sentence in one.unchecked)
+
+
 def test_laws_that_the_reference_does_not_have_are_named_and_made_simple() -> None:
     laws = {"friction": {"elbow": "lugre"}, "elastic": "all"}
     one = experiment(ARM, **laws)

@@ -1,7 +1,7 @@
 """The force of the ground on a robot that stands, from the robot's own numbers: no reference has contacts.
 
-The base is held level, and the joints where the robot begins. The force on each point follows the law of the library's
-`Contacts.Functions.point`, written once more.
+The base is held level, so that no robot tips, and the joints where the robot begins. The force on each point follows
+the law of the library's `Contacts.Functions.point`, written once more.
 """
 
 from __future__ import annotations
@@ -62,12 +62,6 @@ class Stand(NamedTuple):
             total[:2] -= mu * normal / math.hypot(speed, slip) * np.array(slide)
             total[2] += normal
         return total
-
-    def tips(self, centre: Array) -> bool:
-        """Return whether a robot with its centre of mass there would tip: there is a side without a support."""
-        feet = [p.place - centre for p in self.points if p.place[2] < self.lowest + self.depth]
-        angles = np.sort([math.atan2(y, x) for x, y, _ in feet])
-        return bool(np.diff(angles, append=angles[0] + 2 * math.pi).max() > math.pi - 1e-6)
 
 
 def stand(tree: KinematicTree, imports: Mapping[str, Import], weight: float) -> Stand | None:

@@ -65,7 +65,7 @@ def experiment(
         options=options,
         trials=tuple(trials),
         notes=(*notes, *made_up),
-        unchecked=(*_simplified(tree, chosen), *_not_compared(options, len(subject.axes), subject.loose)),
+        unchecked=(*_simplified(tree, chosen), *_not_compared(options, len(subject.axes)), *set(subject.unchecked)),
     )
 
 
@@ -88,8 +88,8 @@ class _Subject:
         self.reference = Reference(read(content, file, sensed), [joint.name for joint in self.axes])
         self._base = motion.base_courses()
         self.stand: contacts.Stand | None = None
-        self.loose = ""
-        """Why the robot is not put on the ground."""
+        self.unchecked = list[str]()
+        """What is not compared of this robot."""
         self.starts = start_positions(tree)
         limits = [joint.limit.effort if joint.limit and joint.limit.effort else math.inf for joint in self.axes]
         courses = [motion.axis_courses(joint, self.starts[joint.name]) for joint in self.axes]
@@ -105,23 +105,21 @@ class _Subject:
             for n, joint in enumerate(self.axes)
         ]
         if options.base == "floating" and "package" in options.approach:
-            self.loose = self._put_down(imports)
+            self._put_down(imports)
         self.states = {float(instant): self._state(instant, self.courses) for instant in Instant}
         self.solved = {time: self.reference.solve(state) for time, state in self.states.items()}
 
     def _state(self, instant: Instant, courses: Sequence[Sequence[Course]]) -> Configuration:
         return self.reference.state([course[instant] for course in courses], [c[instant] for c in self._base])
 
-    def _put_down(self, imports: Mapping[str, Import]) -> str:
-        """Put the robot on the ground; returns why it can't be."""
-        mass, centre = self.reference.solve(self._state(Instant.STANDING, self.courses)).mass_and_centre()
-        stand = contacts.stand(self.tree, imports, mass * motion.GRAVITY)
-        if stand is None:
-            return "no shape of it touches the ground"
-        if stand.tips(centre):
-            return "it would tip: its centre of mass is not above its feet"
-        self.stand, self._base = stand, motion.base_courses(stand.depth)
-        return ""
+    def _put_down(self, imports: Mapping[str, Import]) -> None:
+        """Put the robot on the ground, if it can be."""
+        mass, _ = self.reference.solve(self._state(Instant.STANDING, self.courses)).mass_and_centre()
+        self.stand = contacts.stand(self.tree, imports, mass * motion.GRAVITY)
+        if self.stand is None:
+            self.unchecked.append("contacts, and the height at the beginning: no shape of the robot touches the ground")
+        else:
+            self._base = motion.base_courses(self.stand.depth)
 
     def trials(self, approach: str) -> Iterator[Trial]:
         """Yield the simulations for one approach, that of all instants first."""
@@ -145,7 +143,7 @@ class _Subject:
         trial = Trial(f"motion{label}", moving, *_table(pairs, [float(instant) for instant in Instant]))
         every = [trial]
         if approach == "record" or len(self.axes) <= _MOST_AXES:
-            every.append(self._free(names, f"free motion{label}"))
+            every += self._free(names, f"free motion{label}")
         for each in every:
             compared = tuple(msgspec.structs.replace(c, detail=c.detail or label) for c in each.compared)
             yield msgspec.structs.replace(each, compared=compared)
@@ -249,14 +247,18 @@ class _Subject:
             compared = Compared(Quantity.GROUND, "robot", "N", FORCE, times, Part.CONTACTS)
             yield compared, [force - weight for force in forces]
 
-    def _free(self, names: RobotVariables, name: str) -> Trial:
-        """Return the trial in which efforts are given, and accelerations follow."""
+    def _free(self, names: RobotVariables, name: str) -> Iterator[Trial]:
+        """Yield the trial in which efforts are given, and accelerations follow, if they do."""
         is_free, reference, time = self.options.base == "floating", self.reference, (0.0,)
         courses = [probe.free_course(joint, self.starts[joint.name], k) for k, joint in enumerate(self.axes)]
         state = reference.free_state(courses, motion.FREE_START if is_free else {})
         reference.model.gravity.linear = np.array([0, 0, -motion.BENCH_GRAVITY])
         efforts = reference.solve(state).efforts
         gains = reference.free_gains(state, efforts, is_free)
+        reference.model.gravity.linear = np.array([0, 0, -motion.GRAVITY])
+        if gains is None:
+            self.unchecked.append("free motion: some axis moves no mass, so that any acceleration goes with its effort")
+            return
         pairs = list(self._poses(names, [reference.solve(state)], time, Part.FREE_MOTION))
         rows = reference.coordinates()
         for k, joint in enumerate(self.axes, 1):
@@ -270,12 +272,11 @@ class _Subject:
             root = f"link {self.tree.links[0].name}"
             compared = Compared(Quantity.ACCELERATION, root, "m/s²", gained, time, Part.FREE_MOTION)
             pairs.append((compared, [reference.base_gain(state, gains)]))
-        reference.model.gravity.linear = np.array([0, 0, -motion.GRAVITY])
         table = _table(pairs, [0.0])
         values = [value for compared, _ in pairs for value in compared.values]
         pushed = [float(effort) for effort in efforts]
         free = probe.free_probe(self.tree, self.target, self.options, names, courses, pushed, values)
-        return Trial(name, free, *table)
+        yield Trial(name, free, *table)
 
 
 def _table(pairs: Iterable[_Pair], times: Sequence[float]) -> tuple[tuple[Compared, ...], dict[str, tuple[float, ...]]]:
@@ -306,13 +307,11 @@ def _simplified(tree: KinematicTree, options: Options) -> Iterator[str]:
             yield f"{part} of {who} ({law}): the package that is compared has a {plain} one"
 
 
-def _not_compared(options: Options, axes: int, loose: str) -> Iterator[str]:
+def _not_compared(options: Options, axes: int) -> Iterator[str]:
     """Yield what is not compared."""
     yield "shapes (they change no motion), the motion of benches, and models around the robot (they are only compiled)"
     if axes > _MOST_AXES:
         yield f"free motion of more than {_MOST_AXES} axes, which takes a compiler too much memory"
-    if loose:
-        yield f"contacts with the ground, and the height at which the robot begins: {loose}"
     if "record" in options.approach:
         yield "limits, sensors and contacts of the generic robot"
 

@@ -31,6 +31,8 @@ Array = NDArray[np.float64]
 TURNING_STEEPNESS, SLIDING_STEEPNESS = 100, 1000
 """Steepness s of the dry friction f·tanh(s·v/2) of generated joints, in s/rad and s/m."""
 
+_GREATEST_CONDITION = 1e12
+"""Condition of a mass matrix up to which accelerations follow from efforts; real robots have 1 to 1e8."""
 _SLIDING_JOINTS = ("JointModelPX", "JointModelPY", "JointModelPZ", "JointModelPrismatic")  # Pinocchio's names
 
 
@@ -200,10 +202,11 @@ class Reference:
         data, still = self.model.createData(), state.a.copy()
         still[6:] = 0
         load = self.pin.rnea(self.model, data, state.q, state.v, still) + self.losses(state.v)
-        return self._solved(self._mass(state.q), self.projection, efforts - self.projection.T @ load)
+        mass = self.projection.T @ self._mass(state.q) @ self.projection
+        return self._solved(mass, efforts - self.projection.T @ load)
 
-    def free_gains(self, state: Configuration, efforts: Array, is_free: bool) -> Array:
-        """Return the accelerations of all coordinates that follow from the efforts of the axes.
+    def free_gains(self, state: Configuration, efforts: Array, is_free: bool) -> Array | None:
+        """Return the accelerations of all coordinates that follow from the efforts of the axes; None if none do.
 
         The base rests, unless `is_free`: then nothing holds it.
         """
@@ -213,18 +216,20 @@ class Reference:
         if is_free:
             ways = np.column_stack([np.eye(nv, 6), ways])
             drives = np.concatenate([np.zeros(6), drives])
-        return np.asarray(ways @ self._solved(self._mass(state.q), ways, drives - ways.T @ load))
+        mass = ways.T @ self._mass(state.q) @ ways
+        if len(mass) and not (np.isfinite(mass).all() and np.linalg.cond(mass) < _GREATEST_CONDITION):
+            return None
+        return np.asarray(ways @ self._solved(mass, drives - ways.T @ load))
 
     def _mass(self, q: Array) -> Array:
         upper = np.triu(self.pin.crba(self.model, self.model.createData(), q))
         return np.asarray(upper + np.triu(upper, 1).T)
 
     @staticmethod
-    def _solved(mass: Array, ways: Array, efforts: Array) -> Array:
-        matrix = ways.T @ mass @ ways
-        if not len(efforts) or not np.isfinite(matrix).all() or not np.isfinite(efforts).all():
+    def _solved(mass: Array, efforts: Array) -> Array:
+        if not len(efforts) or not np.isfinite(mass).all() or not np.isfinite(efforts).all():
             return np.zeros(len(efforts))  # numbers without end in the source, which no simulation takes
-        return np.asarray(np.linalg.lstsq(matrix, efforts)[0])
+        return np.asarray(np.linalg.lstsq(mass, efforts)[0])
 
     def acceleration(self, state: Configuration, sensor: Sensor, root: Element) -> tuple[Array, Array]:
         """Return acceleration minus gravity and angular velocity at a place on a link, in the axes of the sensor."""
