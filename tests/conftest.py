@@ -97,6 +97,17 @@ def _no_reading_of_another_test() -> None:
         source._read_model.cache_clear()
 
 
+@pytest.fixture(autouse=True)
+def _schema_agrees() -> Iterator[None]:
+    """A test fails in which the schema of configurations takes what the program refuses, or the other way round."""
+    from support import configurations
+
+    differing: list[str] = []
+    with configurations.compared(differing):
+        yield
+    assert differing == []
+
+
 @pytest.fixture(scope="session")
 def corpus() -> Path:
     """The folder of real robots and histories."""

@@ -23,8 +23,8 @@ from urdfsync.output.console import Console, Format
 from urdfsync.spelling import nearest
 
 _COMMANDS = (
-    "init add remove adopt build diff status watch check simulate fmu resolve record hook merge-driver library".split()
-)
+    "init add remove adopt build diff status watch check simulate fmu resolve record hook merge-driver library schema"
+).split()
 """In the order of the help. Each is a module of `commands`, loaded if it may be the one."""
 
 

@@ -40,7 +40,8 @@ def test_files_for_git_gain_lines_and_keep_those_of_the_user(project: Path) -> N
     ignore.write_text("/*\n!/.gitignore\n!/robots/\n# mine\n!/notes.txt")
     attributes.write_text("/robots/*.state merge=union\nnotes.txt text\n")
     run()
-    assert ignore.read_text() == "/*\n!/.gitignore\n!/robots/\n# mine\n!/notes.txt\n!/.gitattributes\n!/bases/\n"
+    added = "!/.gitattributes\n!/schema.json\n!/bases/\n"
+    assert ignore.read_text() == f"/*\n!/.gitignore\n!/robots/\n# mine\n!/notes.txt\n{added}"
     assert attributes.read_text().startswith("/robots/*.state merge=union\nnotes.txt text\n")
     assert "/bases/** merge=union -diff -text linguist-generated\n" in attributes.read_text()
     before = ignore.read_bytes(), attributes.read_bytes()

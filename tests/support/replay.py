@@ -100,7 +100,7 @@ class Project:
         cloned.__dict__ |= self.__dict__ | {"root": root, "package": root / PACKAGE}
         shutil.copytree(self.root, root)
         for path in (root / ".urdfsync").glob("*"):
-            if path.name not in (".gitignore", ".gitattributes", "robots", "bases"):
+            if path.name not in (".gitignore", ".gitattributes", "schema.json", "robots", "bases"):
                 shutil.rmtree(path) if path.is_dir() else path.unlink()
         return cloned
 

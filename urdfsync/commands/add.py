@@ -6,7 +6,7 @@ import argparse
 
 from urdfsync import config, registry
 from urdfsync.commands import arguments
-from urdfsync.commands.init import guess_robots, robot_table, show_guesses, write_errors
+from urdfsync.commands.init import guess_robots, robot_table, show_guesses, write_errors, write_schema
 from urdfsync.diagnostics import ConfigError
 from urdfsync.files import shown
 from urdfsync.output.console import Console
@@ -53,5 +53,6 @@ def run(args: argparse.Namespace, console: Console) -> int:
     config.parse(plain, loaded.file, shown(loaded.file))  # which refuses what does not fit together
     with write_errors(loaded.file):
         save(loaded.file, content, new.encode())
+        write_schema(loaded.root)
     console.warnings(warnings)
     return show_guesses(console, loaded.file, "extended", guesses)

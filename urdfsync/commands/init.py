@@ -16,16 +16,18 @@ import tomli_w
 
 from urdfsync import config, registry
 from urdfsync.commands import arguments
+from urdfsync.config import schema
 from urdfsync.config.load import in_words
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError
 from urdfsync.domain import Domain, Proposal
 from urdfsync.engine import source as source_files
 from urdfsync.engine.result import Exit
-from urdfsync.files import put, shown
+from urdfsync.files import Tree, put, shown
 from urdfsync.modelica.names import class_name
 from urdfsync.output.console import Console, line
 
-_HEADER = """\
+_HEADER = f"""\
+#:schema {config.STATE_FOLDER}/{schema.SCHEMA_FILE}
 # Robots that urdfsync keeps in step with their Modelica packages.
 # Paths are relative to this file's folder. `urdfsync build` builds all of them.
 """
@@ -88,6 +90,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     _refuse_existing(file)
     with write_errors(file):
         put(file, configuration_text(domain, guesses, merges=args.merge).encode())
+        write_schema(file.parent)
     console.warnings(warnings)
     return show_guesses(console, file, "written", guesses)
 
@@ -210,6 +213,14 @@ def write_errors(file: Path) -> Iterator[None]:
         message, place = f"the configuration can't be written: {error.strerror}", shown(file)
         hint = "check the folder's permissions and the space on the disk, or name another file with --config"
         raise ConfigError.of("config-not-written", message, place, hint=hint) from None
+
+
+def write_schema(root: Path) -> None:
+    """Write the schema that editors read, beside the recorded state. Raises OSError, OutputError."""
+    folder = root / config.STATE_FOLDER
+    if not Tree(root).check_folder(folder):
+        folder.mkdir()
+    put(folder / schema.SCHEMA_FILE, schema.text().encode())
 
 
 def _refuse_existing(file: Path) -> None:

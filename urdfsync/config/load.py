@@ -13,13 +13,14 @@ import stat
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from pathlib import Path
 from types import NoneType, UnionType
-from typing import Any, Literal, NamedTuple, Union, get_args, get_origin
+from typing import Annotated, Any, Literal, NamedTuple, Union, get_args, get_origin
 
 import msgspec
 
 from urdfsync import dependencies, registry, tomlfile
 from urdfsync.config.names import find_name_problems, is_robot_name, model_class
 from urdfsync.config.settings import (
+    DEFAULT_DOMAIN,
     FILE_NAME,
     OWN_KEYS,
     STATE_FOLDER,
@@ -94,6 +95,8 @@ def parse(text: str, file: Path, name: str) -> Config:
 def in_words(kind: Any) -> str:
     """Return the values that a key may have in words: `a string`, `"fixed" or "floating"`, `a list of strings`."""
     origin, arguments = get_origin(kind), get_args(kind)
+    if origin is Annotated:
+        return in_words(arguments[0])
     if origin is Literal:
         return " or ".join(map(json.dumps, arguments))
     if origin in (Union, UnionType):  # `Literal[…] | tuple[…]` is the former, `tuple[…] | None` the latter
@@ -152,7 +155,7 @@ class _Reader:
                 self._report("robot-name", self._line("robots", name), message, hint)
                 continue
             try:
-                domain = registry.domain(str(values.get("domain", defaults.get("domain", "urdf"))))
+                domain = registry.domain(str(values.get("domain", defaults.get("domain", DEFAULT_DOMAIN))))
             except ConfigError as error:
                 line = self._line(*(("robots", name) if "domain" in values else ("defaults",)), "domain")
                 self.problems += [msgspec.structs.replace(d, file=self._file, line=line) for d in error.diagnostics]

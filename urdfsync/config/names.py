@@ -4,16 +4,36 @@ from __future__ import annotations
 
 import re
 
-from urdfsync.modelica.names import DEVICES, KEYWORDS, LIBRARY, class_name, is_class_name, is_identifier
+from urdfsync.modelica.names import (
+    DEVICES,
+    FUNCTIONS,
+    GENERATED_CLASSES,
+    KEYWORDS,
+    LIBRARY,
+    RESERVED_CLASSES,
+    any_case,
+    class_name,
+    is_class_name,
+    is_identifier,
+)
 from urdfsync.modelica.names import is_package_name as may_be_package
 
-_SAFE_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,99}", re.ASCII)
+ROBOT_PATTERN = rf"^(?!(?:{any_case(DEVICES)})(?:\.|$))(?=.{{1,100}}$)[A-Za-z0-9](?:[A-Za-z0-9_.-]*[A-Za-z0-9_-])?$"
+"""Matches a robot's name."""
+_RESERVED = any_case(RESERVED_CLASSES | DEVICES)
+_PART = rf"(?!(?:{'|'.join(sorted(KEYWORDS | FUNCTIONS))}|{_RESERVED})(?:\.|$))[A-Za-z_][A-Za-z0-9_]*"
+PACKAGE_PATTERN = rf"^(?:{LIBRARY}\.)?{_PART}(?:\.{_PART})*$"
+"""Matches what `package` may be."""
+_NO_CLASS = rf"(?!(?:{'|'.join(sorted(KEYWORDS))}|{_RESERVED}|{any_case(GENERATED_CLASSES)})$)"
+CLASS_PATTERN = rf"^{_NO_CLASS}[A-Z][A-Za-z0-9_]*$"
+"""Matches what `class` may be."""
+LAST_PATTERN = rf"(?:^|\.){_NO_CLASS}[A-Za-z][A-Za-z0-9_]*$"
+"""Matches a package whose last part names the class."""
 
 
 def is_robot_name(name: str) -> bool:
     """Whether a robot's name can be a file's name on every system."""
-    device = name.partition(".")[0].lower() in DEVICES
-    return bool(_SAFE_NAME.fullmatch(name)) and not device and not name.endswith(".")
+    return re.fullmatch(ROBOT_PATTERN, name, re.ASCII) is not None
 
 
 def model_class(package: str, chosen: str) -> str:

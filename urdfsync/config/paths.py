@@ -45,9 +45,9 @@ def templates_folder(domain: Domain) -> Path:
     return domain.templates or _data_folder("templates") / domain.name
 
 
-def findings_page() -> Path:
-    """Return the page that explains the codes of findings."""
-    return _data_folder("docs") / "findings.md"
+def docs_page(name: str) -> Path:
+    """Return a page of the documentation: what it explains, SARIF and the schema say in its words."""
+    return _data_folder("docs") / name
 
 
 def _data_folder(name: str) -> Path:

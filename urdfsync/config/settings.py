@@ -16,6 +16,7 @@ from urdfsync.files import shown
 from urdfsync.spelling import nearest
 
 FILE_NAME = "urdfsync.toml"
+DEFAULT_DOMAIN = "urdf"
 STATE_FOLDER = ".urdfsync"
 """Holds the recorded state; beside the configuration."""
 OWN_KEYS = ("source", "arguments", "command", "command_inputs", "package", "class", "renamed")
@@ -27,7 +28,7 @@ class SharedKeys(msgspec.Struct, frozen=True, kw_only=True):
 
     source: Path
     output: Path = Path("modelica")
-    domain: str = "urdf"
+    domain: str = DEFAULT_DOMAIN
     command: tuple[str, ...] = ()
     """The command that writes the source; empty for none."""
     command_inputs: tuple[Path, ...] = ()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Collection
 
 KEYWORDS = frozenset(
     """
@@ -42,10 +43,15 @@ FUNCTIONS = frozenset(
 DEVICES = frozenset(["con", "prn", "aux", "nul", *(f"{port}{n}" for port in ("com", "lpt") for n in range(10))])
 """Names, folded to lower case, that Windows gives to no file or folder, whatever its suffix."""
 
-_GENERATED_CLASSES = frozenset({"joints", "links", "package"})
+GENERATED_CLASSES = frozenset({"joints", "links", "package"})
 """Files and folders, folded to lower case, that stand beside a robot's model."""
 
 _IDENTIFIER = re.compile(r"[A-Za-z_][A-Za-z0-9_]*", re.ASCII)
+
+
+def any_case(words: Collection[str]) -> str:
+    """Return a regular expression, as JSON schemas have them, for any of some words in lower or upper case."""
+    return "|".join("".join(f"[{c}{c.upper()}]" if c.isalpha() else c for c in word) for word in sorted(words))
 
 
 def is_identifier(name: str) -> bool:
@@ -55,7 +61,7 @@ def is_identifier(name: str) -> bool:
 
 def is_class_name(name: str) -> bool:
     """Whether `name` can be the name of a robot's model: a capital first, since what begins small is a component."""
-    free = name.lower() not in RESERVED_CLASSES | DEVICES | _GENERATED_CLASSES
+    free = name.lower() not in RESERVED_CLASSES | DEVICES | GENERATED_CLASSES
     return free and is_identifier(name) and name[:1].isupper()
 
 

@@ -81,7 +81,7 @@ def log(sections: Iterable[Section], findings: Sequence[Diagnostic], code: int) 
 
 def read_meanings() -> dict[str, Meaning]:
     """Return the codes that docs/findings.md explains."""
-    page = config.findings_page().read_text(encoding="utf-8")
+    page = config.docs_page("findings.md").read_text(encoding="utf-8")
     return {
         code: Meaning(*(_LINK.sub(r"\1", cell).strip() for cell in (meaning, consequence)))
         for codes, meaning, consequence in _ROW.findall(page)

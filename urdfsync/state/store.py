@@ -20,10 +20,11 @@ from urdfsync.state.transaction import FileChange
 SUFFIX = ".state"
 _FOR_GIT = {
     ".gitignore": """\
-# Written by urdfsync. robots/ and bases/ belong into version control, everything else is safe to lose.
+# Written by urdfsync. robots/, bases/ and schema.json belong into version control, everything else is safe to lose.
 /*
 !/.gitignore
 !/.gitattributes
+!/schema.json
 !/robots/
 !/bases/
 """,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Literal, TypeAlias
+from typing import Annotated, Literal, TypeAlias
 
 import msgspec
 
@@ -32,7 +32,7 @@ class Options(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """Whether links have their collision shapes."""
     meshes: Literal["import", "skip"] = "import"
     """Whether mesh files are brought into the package, or left out."""
-    approach: tuple[Literal["package", "record"], ...] = ("package",)
+    approach: Annotated[tuple[Literal["package", "record"], ...], msgspec.Meta(min_length=1)] = ("package",)
     """`package`: a model per link and joint; `record`: a bench for the generic robot. Both have the robot's record."""
     driven: tuple[str, ...] | None = None
     """URDF names of the joints that Run and Test drive; None to go by the source: see `urdfsync.urdf.drives`."""
@@ -55,11 +55,6 @@ class Options(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
     allow: tuple[LeftOut, ...] = ()
     """Errors that are warnings: what they are about is left out."""
-
-    def __post_init__(self) -> None:
-        """Raise ValueError for a choice that leaves nothing to write."""
-        if not self.approach:
-            raise ValueError('`approach` is empty: name "package", "record" or both')
 
     @property
     def uses(self) -> tuple[tuple[str, str], ...]:

@@ -1,0 +1,65 @@
+"""Configurations held against their schema: it refuses what the program refuses, and takes what it takes."""
+
+from __future__ import annotations
+
+import functools
+import importlib
+import sys
+import tomllib
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from unittest import mock
+
+import jsonschema
+
+from urdfsync import config, registry
+from urdfsync.config import Config
+from urdfsync.config.schema import config_schema
+from urdfsync.dependencies import Dependencies
+from urdfsync.diagnostics import ConfigError, Diagnostic
+
+_BEYOND = {"clash", "wrong-rename", "toml-syntax"}
+"""Codes of mistakes that no schema can see: they are between tables, or there is no document."""
+
+
+def is_valid(text: str) -> bool:
+    """Whether a configuration is as the schema says."""
+    return bool(_validator(tuple(sys.path)).is_valid(tomllib.loads(text)))
+
+
+@functools.cache
+def _validator(path: tuple[str, ...]) -> jsonschema.Draft202012Validator:
+    """Return the validator for the domains that are installed on Python's path."""
+    with Dependencies():  # no answer of a command rests on these
+        schema = config_schema()
+    jsonschema.Draft202012Validator.check_schema(schema)
+    return jsonschema.Draft202012Validator(schema)
+
+
+def _is_beyond(problem: Diagnostic) -> bool:
+    """Whether no schema can see it: also an output in a state folder, and a code that is another domain's."""
+    others = registry.domain("urdf").warnings
+    is_others = problem.code == "unknown-code" and any(f"`{code}`" in problem.message for code in others)
+    return is_others or problem.code in _BEYOND or "`output` can't be in" in problem.message
+
+
+@contextmanager
+def compared(seen: list[str]) -> Iterator[None]:
+    """Hold each configuration that is read meanwhile against the schema; what differs is added to `seen`."""
+    module = importlib.import_module("urdfsync.config.load")
+    parse: Callable[[str, Path, str], Config] = module.parse
+
+    def hold(text: str, file: Path, name: str) -> Config:
+        try:
+            loaded = parse(text, file, name)
+        except ConfigError as error:
+            if not all(map(_is_beyond, error.diagnostics)) and is_valid(text):
+                seen.append(f"the schema takes:\n{text}\n{error}")
+            raise
+        if loaded.robots and not is_valid(text):  # defaults of no robot are not looked at
+            seen.append(f"the schema refuses:\n{text}")
+        return loaded
+
+    with mock.patch.object(module, "parse", hold), mock.patch.object(config, "parse", hold):
+        yield
