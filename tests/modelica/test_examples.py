@@ -82,6 +82,7 @@ def test_computed_torque_follows_the_motion(modelica_library: Path, model: str) 
     assert np.ptp(series.values["controller.tau[2]"]) > 10, "it takes torque"
 
 
+@LONG
 @pytest.mark.parametrize("model", ["ToolPath", pytest.param("ToolPathPackage", marks=LONG)])
 def test_the_tool_follows_the_circle(modelica_library: Path, model: str) -> None:
     """The first part of it, nearly a radius to the side; it keeps its attitude, and no axis swings."""

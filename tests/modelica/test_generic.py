@@ -174,6 +174,7 @@ def test_a_free_joint_without_inertia_is_named(modelica_library: Path, tmp_path:
     assert (with_inertia.error, with_mass.error) == ("", "")
 
 
+@pytest.mark.large  # the other tests of this file move the same equations
 def test_articulated_equations_refuse_a_joint_without_inertia_of_its_own(
     modelica_library: Path, tmp_path: Path
 ) -> None:
@@ -193,6 +194,7 @@ def test_articulated_equations_refuse_a_joint_without_inertia_of_its_own(
         assert "use GenericRobot" in articulated.error
 
 
+@pytest.mark.large  # the other tests of this file move the same equations
 def test_a_joint_that_the_next_one_can_undo_is_refused_and_can_be_driven_by_position(
     modelica_library: Path, tmp_path: Path
 ) -> None:
@@ -213,6 +215,7 @@ def test_a_joint_that_the_next_one_can_undo_is_refused_and_can_be_driven_by_posi
     assert moved[1].values["robot.q[1]"][-1] == pytest.approx(0.01)
 
 
+@pytest.mark.large  # the other tests of this file move the same equations
 def test_benches_of_records_can_be_simulated_at_once_or_say_why_not(modelica_library: Path, tmp_path: Path) -> None:
     """The generic robots can't take planar joints."""
     names = {"Bolted": "fixed", "Free": "floating"}
@@ -247,6 +250,7 @@ PULLS = {"wheel": "ArticulatedRobot", "sensor": "GenericRobot", "plate": "Generi
 """A link behind a moving joint, one behind a fixed joint of another body, and one that does not move."""
 
 
+@pytest.mark.large  # the other tests of this file move the same equations
 def test_a_force_at_the_tool_frame_accelerates_the_robot_as_pinocchio_says(
     modelica_library: Path, tmp_path: Path
 ) -> None:

@@ -130,6 +130,7 @@ def accelerations(urdf: str, axes: Sequence[str], courses: Sequence[Course]) -> 
     return generic.forward(reference, state, load)
 
 
+@pytest.mark.large  # as does the free motion of each check
 def test_free_joints_accelerate_as_pinocchio_says(modelica_library: Path, tmp_path: Path) -> None:
     """Without drives."""
     robots = {name: DRIVEN[name] for name in ("geared", "types", "massless", "gripper")}
@@ -189,6 +190,7 @@ def geared_task(name: str, courses: Sequence[Course]) -> Task:
     )
 
 
+@pytest.mark.large  # `check` compares rotors, see test_seen_faults
 def test_a_rotor_behind_a_gear_counts_as_the_armature_of_pinocchio(modelica_library: Path, tmp_path: Path) -> None:
     """Reduction 100 and others, to 1e-10, with armatures that are computed by hand.
 

@@ -133,6 +133,7 @@ def driven(robot: str, axes: Mapping[str, str], runs: Sequence[Run], package: st
     return bench("\n    ".join(body), runs, packages=[package], classes=DRIVES + classes)
 
 
+@pytest.mark.large  # `check` provokes each limit, see test_seen_faults
 def test_passing_a_limit_is_noticed_and_nothing_else(modelica_library: Path, tmp_path: Path) -> None:
     """If it is an error; warnings, and limits that are off, do not stop the simulation."""
     packages = [

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterable
 from random import Random
+from typing import Any
 
+import pytest
 from hypothesis import HealthCheck, settings
 from hypothesis import strategies as st
 
@@ -16,6 +19,11 @@ CASES = int(os.environ.get("URDFSYNC_CASES", "0"))
 def often(cases: int) -> settings:
     """Settings of a test that runs so many cases, or as many as the environment says."""
     return settings(max_examples=max(cases, CASES), suppress_health_check=list(HealthCheck))
+
+
+def sampled(cases: Iterable[Any], every: int) -> list[Any]:
+    """Cases that take long as parameters, of which CI runs one of so many: the others are marked as `large`."""
+    return [pytest.param(case, marks=[pytest.mark.large] if n % every else []) for n, case in enumerate(cases)]
 
 
 def seldom(draw: st.DrawFn) -> bool:

@@ -213,9 +213,9 @@ def compilers(watch: Watch) -> list[psutil.Process]:
 @pytest.mark.parametrize(
     ("signals", "code"),
     [
-        ([signal.SIGTERM], 0),
+        pytest.param([signal.SIGTERM], 0, marks=pytest.mark.large),
         ([signal.SIGKILL], -9),
-        ([signal.SIGINT], 130),
+        pytest.param([signal.SIGINT], 130, marks=pytest.mark.large),
         ([signal.SIGINT, signal.SIGINT], 130),
     ],
 )
