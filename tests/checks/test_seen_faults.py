@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import os
 import shutil
+import subprocess
+import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
@@ -10,6 +13,7 @@ from typing import NamedTuple
 import pytest
 from support import physics
 from support.cases import sampled
+from support.corpus import REPOSITORY
 from support.modelica import URDFSYNC
 from support.urdfs import dynamics, joint, limit, link, links, mimic, robot
 
@@ -188,3 +192,68 @@ def test_a_fault_in_the_library_is_seen(name: str, modelica_library: Path, tmp_p
     (own / fault.file).write_text(text.replace(fault.old, fault.new), "utf-8")
     (found,) = physics.compare(modelica_library, tmp_path, [prepared(fault, "Bot", base=base)], own)
     assert is_seen(fault, found)
+
+
+SMALL = robot(
+    *links(base=4.0, arm=2.5),
+    joint("elbow", "revolute", "base", "arm", axis="0.3 -0.4 1.2", inside=[limit(-1, 2, 3, 90), dynamics(0.52, 0.4)]),
+)
+ADVICE = "check your own `templates`, or report a bug"
+COMMAND: Mapping[str, tuple[str, str, str, str]] = {
+    "template": ("copy/templates/urdf/joint/revolute.mo.jinja", "n = parameters.axis", "n = -parameters.axis", ADVICE),
+    "library": (
+        "copy/modelica/UrdfSync/Friction/Rotational.mo",
+        "+ parameters.friction",
+        "- parameters.friction",
+        ADVICE,
+    ),
+    "reader": (
+        "copy/urdfsync/urdf/parse/fields.py",
+        "return numbers[0] if count == 1",
+        "return round(numbers[0], 1) if count == 1",
+        ADVICE,
+    ),
+    "user's edit": (
+        "modelica/Arm/Joints/ElbowParameters.mo",
+        "damping = 0.52",
+        "damping = 0.6",
+        "Joints/ElbowParameters.mo (edited) changes the torque of joint elbow by ",
+    ),
+}
+"""A text of a file that is replaced by another, and what the check says then."""
+
+
+def test_the_command_sees_faults_without_and_with_a_result_of_before(modelica_library: Path, tmp_path: Path) -> None:
+    for part in ("urdfsync", "templates", "modelica"):
+        ignored = shutil.ignore_patterns("__pycache__", "Images", "robots")
+        shutil.copytree(REPOSITORY / part, tmp_path / "copy" / part, ignore=ignored)
+    (tmp_path / "arm.urdf").write_text(SMALL)
+    (tmp_path / "urdfsync.toml").write_text('[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\n')
+    environment = os.environ | {
+        "PYTHONPATH": str(tmp_path / "copy"),
+        "PYTHONDONTWRITEBYTECODE": "1",
+        "XDG_CACHE_HOME": str(tmp_path / "cache"),
+        "MODELICAPATH": str(modelica_library),
+    }
+
+    def urdfsync(*arguments: str) -> subprocess.CompletedProcess[str]:
+        command = [sys.executable, "-m", "urdfsync", *arguments]
+        return subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True, check=False)
+
+    def see(*faults: str) -> None:
+        for file, old, new, words in map(COMMAND.__getitem__, faults):
+            text = (tmp_path / file).read_text("utf-8")
+            assert old in text, file
+            (tmp_path / file).write_text(text.replace(old, new), "utf-8")
+            assert urdfsync("build").returncode == 0
+            checked = urdfsync("check", "--physics", "--strict")
+            assert (checked.returncode, words in checked.stdout) == (1, True), checked.stdout + checked.stderr
+            (tmp_path / file).write_text(text, "utf-8")
+            assert urdfsync("build").returncode == 0
+
+    assert urdfsync("build").returncode == 0
+    see("library")
+    for _ in range(2):  # the second time by what is remembered
+        checked = urdfsync("check", "--physics", "--strict")
+        assert checked.returncode == 0, checked.stdout + checked.stderr
+    see(*COMMAND)

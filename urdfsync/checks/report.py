@@ -113,6 +113,8 @@ def _details(result: CheckResult) -> Iterator[str]:
             what, amount = _amount(deviation)
             yield f"{deviation.element}: {what} differs by {amount} ({deviation.relative:.1e}){by}"
     for deviation in result.between or ():
+        if deviation.quantity in _STATED:
+            continue
         what, amount = _amount(deviation)
         yield f"{deviation.element}: {what} differs by {amount} between the compilers"
     for effect in result.effects:
