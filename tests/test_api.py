@@ -37,7 +37,7 @@ def test_the_shipped_arm_in_ten_lines(folder: Path, capfd: pytest.CaptureFixture
 
 
 def test_results_look_as_the_commands_show_them(project: Path, execute: Execute) -> None:
-    assert str(urdfsync.build(dry_run=True)) == execute("build", "--dry-run").out.rstrip("\n")
+    assert str(urdfsync.build(dry=True)) == execute("build", "--dry-run").out.rstrip("\n")
     seen: list[Result] = []
     results = urdfsync.build(config=urdfsync.load(project / "urdfsync.toml"), on_result=seen.append)
     assert results == seen
@@ -58,9 +58,9 @@ def test_foreign_text_is_no_html(project: Path) -> None:
     assert "<script>" not in results._repr_html_()
 
 
-@pytest.mark.parametrize("name", ["build", "status", "check", "simulate", "diff", "edits", "adopt", "export_fmu"])
+@pytest.mark.parametrize("name", ["build", "status", "check", "simulate", "diff", "edits"])
 def test_a_robot_that_does_not_exist_is_the_error_of_the_command(project: Path, execute: Execute, name: str) -> None:
-    command = {"edits": ("diff", "--edits", "--robot"), "diff": ("diff", "--robot"), "export_fmu": ("fmu",)}
+    command = {"edits": ("diff", "--edits", "--robot"), "diff": ("diff", "--robot")}
     said = execute(*command.get(name, (name,)), "lader", code=2).err
     given = {"robots": ["lader"]} if name in ("diff", "edits") else {}
     with pytest.raises(urdfsync.UrdfsyncError) as error:
@@ -76,7 +76,7 @@ def test_checks_and_simulations_are_values(project: Path, monkeypatch: pytest.Mo
     assert (checked.robot, str(results)) == ("ladder", "ladder: right: syntax and layout; 0.0 s")
     simulated = SimulateResult("ladder", "Ladder.Test", 1, 0.5, 1e-6, (), {"time": (0.0, 1.0)}, (), 2, is_known=False)
     monkeypatch.setattr("urdfsync.simulation.run.simulate", lambda *_: simulated)
-    result = urdfsync.simulate(csv=Path("ladder.csv"))
+    result = urdfsync.simulate(files={"csv": Path("ladder.csv")})
     assert result.series["time"] == (0.0, 1.0)
     assert Path("ladder.csv").read_text() == "time\n0.0\n1.0\n"
     assert "</span>: Ladder.Test, 1 s in steps of 0.5 s" in result._repr_html_()

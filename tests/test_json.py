@@ -298,7 +298,7 @@ def simulated() -> SimulateResult:
 def test_simulate(folder: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
     cli.main(["init", "arm.urdf"])
     monkeypatch.setattr("urdfsync.simulation.run.simulate", lambda *_: simulated())
-    monkeypatch.setattr("urdfsync.api.simulations.write_outputs", lambda *_: None)
+    monkeypatch.setattr("urdfsync.simulation.files.write_outputs", lambda *_: None)
     monkeypatch.setattr("importlib.util.find_spec", lambda name: name)
     files = ("--csv", "arm.csv", "--parquet", "arm.parquet", "--plot", "arm.png")
     document = printed(execute, folder, "simulate", *files)
@@ -311,8 +311,8 @@ def test_fmu(folder: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) ->
     inputs, tool = (Input("hold_phi", "rad"),), "OpenModelica 1.27.0"
     exported = Exported(b"1234", "Arm.ArmRun", "Arm_ArmRun", inputs, 1.0, 0.002, 1e-10, tool, (), 12.5)
     trial = Trial((), {"me": 2.5e-9, "cs": 4e-8}, {"me": "hold_tau", "cs": "hold_tau"}, 3)
-    monkeypatch.setattr("urdfsync.api.simulations.export", lambda *_, **__: exported)
-    monkeypatch.setattr("urdfsync.api.simulations.try_out", lambda *_: trial)
+    monkeypatch.setattr("urdfsync.commands.fmu.export", lambda *_, **__: exported)
+    monkeypatch.setattr("urdfsync.commands.fmu.try_out", lambda *_: trial)
     monkeypatch.setattr("importlib.util.find_spec", lambda name: name)
     assert tell_all(printed(execute, folder, "fmu", "--check"), "fmu", absent=FINDING)
 

@@ -17,7 +17,7 @@ from support.git import NEEDS_GIT
 from support.networks import LADDER, RECORD, ROBOT, add_resistor, configure, edit, resistor
 
 from urdfsync import cli
-from urdfsync.api.builds import build_and_check
+from urdfsync.api import build_and_check
 from urdfsync.engine.result import Result
 from urdfsync.state.lock import build_lock
 

@@ -6,9 +6,9 @@ import argparse
 from collections.abc import Iterator
 from pathlib import Path
 
-from urdfsync.api import builds
 from urdfsync.commands import arguments
 from urdfsync.config import Config, RobotConfig
+from urdfsync.engine.build import build
 from urdfsync.engine.edits import find_edited
 from urdfsync.engine.generation import generate_robot
 from urdfsync.engine.inputs import inspect
@@ -45,15 +45,15 @@ def run(args: argparse.Namespace, console: Console) -> int:
     """Build the robots for the first time, and show what differs from the generated package."""
     configuration = arguments.configuration(args)
     robots = {robot.name: robot for robot in configuration.select(args.robots)}
+    request = arguments.request(args, console, dry=args.dry_run, adopts=True)
     looking = arguments.request(args, console, dry=True, adopts=args.dry_run)
-
-    def show(result: Result) -> None:
+    results = []
+    for result in build(configuration, list(robots.values()), request):
+        results.append(result)
         show_result(console, result)
         if not (result.failed or result.conflicts):
             console.tell(_lines(configuration, robots[result.robot], result, looking, verbose=console.verbose))
-
-    options = {"dry_run": args.dry_run, "trust": args.trust, "wait": args.wait, "progress": console.progress}
-    return console.end(exit_code(builds.adopt(*robots, config=configuration, on_result=show, **options)))
+    return console.end(exit_code(results))
 
 
 def _lines(

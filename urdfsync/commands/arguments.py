@@ -10,8 +10,9 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NoReturn, TypeAlias, TypeVar
 
-from urdfsync.api import load
-from urdfsync.api.builds import build_options
+import msgspec
+
+from urdfsync.api import load, options_of
 from urdfsync.config import Config, RobotConfig
 from urdfsync.dependencies import read_unrecorded
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
@@ -87,6 +88,7 @@ _SHARED: Mapping[str, dict[str, Any]] = {
     },
     "--wait": {"type": float, "default": 60, "metavar": "S", "help": "seconds to wait for another build (default: 60)"},
     "--trust": {
+        "dest": "trusted",
         "action": "store_true",
         "help": "write to an `output` outside of the configuration's folder, run a robot's `command`, and start "
         "OpenModelica though the configuration chooses it, or names its program with `omc`",
@@ -167,22 +169,24 @@ def select_robots(args: argparse.Namespace, configuration: Config, console: Cons
     return robots
 
 
-def call(function: Callable[..., Value], args: argparse.Namespace, console: Console, **others: Any) -> Value:
+def call(
+    function: Callable[..., Value], kind: type[msgspec.Struct], args: argparse.Namespace, console: Console, **given: Any
+) -> Value:
     """Call a function of the API for the robots that are meant; tell settings without effect before.
 
-    Its options are arguments of the same name, or `others`.
+    The options of a `kind` are arguments of the same names, or `given`.
     """
     loaded = configuration(args)
     robots = select_robots(args, loaded, console)
-    chosen = {name: value for name, value in vars(args).items() if name in (function.__kwdefaults__ or ())}
-    others |= {"config": loaded, "progress": console.progress}
-    return function(*(robot.name for robot in robots), **chosen | others)
+    chosen = {name: value for name, value in vars(args).items() if name in kind.__struct_fields__}
+    given |= {"config": loaded, "progress": console.progress}
+    return function(*(robot.name for robot in robots), **chosen | given)
 
 
 def request(args: argparse.Namespace, console: Console, **options: Any) -> BuildOptions:
     """Return how to build, as the arguments and `options` say."""
-    given = {"trusted": getattr(args, "trust", False), "wait": args.wait, "jobs": getattr(args, "jobs", None)}
-    return build_options(progress=console.progress, **given | options)
+    chosen = {name: value for name, value in vars(args).items() if name in BuildOptions.__struct_fields__}
+    return options_of(BuildOptions, progress=console.progress, **chosen | options)
 
 
 def split_sources(texts: Sequence[str], parser: argparse.ArgumentParser) -> tuple[list[Path], dict[str, str]]:

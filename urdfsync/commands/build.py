@@ -7,8 +7,9 @@ import os
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from urdfsync.api import builds
+from urdfsync.api import build
 from urdfsync.commands import arguments
+from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Result, exit_code
 from urdfsync.files import shown
 from urdfsync.output.console import Console, StyledLine, line
@@ -35,7 +36,9 @@ def add(commands: arguments.Commands) -> None:
     mode = parser.add_mutually_exclusive_group()
     arguments.add_dry_run(mode)
     mode.add_argument("--check", action="store_true", help="write nothing; exit with 1 if out of step")
-    mode.add_argument("--svg", action="store_true", help="also draw each robot's diagram, to .urdfsync/svg/")
+    mode.add_argument(
+        "--svg", dest="draw", action="store_true", help="also draw each robot's diagram, to .urdfsync/svg/"
+    )
     parser.add_argument(
         "--merge",
         action="store_true",
@@ -55,7 +58,9 @@ def run(args: argparse.Namespace, console: Console) -> int:
     def show(result: Result) -> None:
         show_result(console, result, explain=args.explain)
 
-    results = arguments.call(builds.build, args, console, dry_run=args.dry_run or args.check, on_result=show)
+    results = arguments.call(
+        build, BuildOptions, args, console, dry=args.dry_run or args.check, merge=args.merge, on_result=show
+    )
     console.tell(_next_steps(results))
     return console.end(exit_code(results, args.check))
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 import argparse
 import sys
 
-from urdfsync.api import checks
+from urdfsync.api import check
 from urdfsync.checks.compilers import COMPILERS
 from urdfsync.checks.report import closing_lines, robot_lines, to_json, to_section
-from urdfsync.checks.results import CheckResult, CheckStatus, exit_code
+from urdfsync.checks.results import CheckOptions, CheckResult, CheckStatus, exit_code
 from urdfsync.checks.tools import BOTH
 from urdfsync.commands import arguments
 from urdfsync.output.console import Console, Format, has_marks
@@ -45,7 +45,8 @@ def run(args: argparse.Namespace, console: Console) -> int:
         show_result(console, result, strict=args.strict)
 
     try:
-        arguments.call(checks.check, args, console, on_result=show)
+        extra = {"tool": args.tool, "trusted": args.trusted}
+        arguments.call(check, CheckOptions, args, console, on_result=show, **extra)
     finally:
         console.tell(closing_lines(results, strict=args.strict))
     return console.end(exit_code(results, args.strict))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from urdfsync.api.versions import diff
+from urdfsync.api import diff
 from urdfsync.commands import arguments
 from urdfsync.engine.findings import CONNECTORS
 from urdfsync.output.console import Console, Format

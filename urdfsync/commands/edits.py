@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import argparse
 
-from urdfsync.api.edits import edits
+from urdfsync.api import edits
+from urdfsync.engine.edits import RobotEdits
 from urdfsync.engine.result import Exit
 from urdfsync.output.console import Console, Format
-from urdfsync.output.edits import RobotEdits, robot_lines, to_json, to_section
+from urdfsync.output.edits import robot_lines, to_json, to_section
 
 
 def run(args: argparse.Namespace, console: Console) -> int:

@@ -3,15 +3,25 @@
 from __future__ import annotations
 
 import argparse
+import importlib.util
 from pathlib import Path
 
-from urdfsync.api.simulations import EXPORTED, VERSIONS, export_fmu
+from urdfsync.api import options_of
+from urdfsync.checks.compilers.compiler import Export
+from urdfsync.checks.tools import chosen_tools
 from urdfsync.commands import arguments
+from urdfsync.diagnostics import ConfigError
 from urdfsync.engine.result import Exit
+from urdfsync.extras import install_command
 from urdfsync.output.console import Console
-from urdfsync.simulation.export import TOLERANCE
+from urdfsync.simulation.export import TOLERANCE, Exported, export, is_exported
+from urdfsync.simulation.files import check_file, input_files, not_writable, write_file
+from urdfsync.simulation.fmu import KINDS, WrittenFmu, find_faults, try_out
 from urdfsync.simulation.report import fmu_lines, fmu_to_json
-from urdfsync.simulation.results import STOP
+from urdfsync.simulation.results import STOP, SimulateOptions
+
+_VERSIONS = {"2": "2.0", "3": "3.0"}
+_EXPORTED = {"me": "me", "cs": "cs", "both": "me_cs"}
 
 
 def add(commands: arguments.Commands) -> None:
@@ -32,9 +42,9 @@ def add(commands: arguments.Commands) -> None:
     option("robots", nargs="*", metavar="ROBOT", help="the robot, if there is more than one")
     option("--model", metavar="NAME", default="", help="the model (default: Run of the robot, else Test)")
     option("--output", type=Path, metavar="FILE.fmu", help="where to write it (default: the model's name, here)")
-    option("--fmi", choices=tuple(VERSIONS), default="2", help="the version of FMI (default: 2)")
+    option("--fmi", choices=tuple(_VERSIONS), default="2", help="the version of FMI (default: 2)")
     option(
-        "--kind", choices=tuple(EXPORTED), default="both", help="model exchange, co-simulation or both (default: both)"
+        "--kind", choices=tuple(_EXPORTED), default="both", help="model exchange, co-simulation or both (default: both)"
     )
     tolerance = f"of the integration inside, for co-simulation (default: {TOLERANCE:g})"
     option("--tolerance", type=arguments.amount, metavar="T", help=tolerance)
@@ -47,11 +57,40 @@ def add(commands: arguments.Commands) -> None:
 
 def run(args: argparse.Namespace, console: Console) -> int:
     """Export one model, check it if that is wanted, and write it."""
+    configuration = arguments.configuration(args)
+    robot = configuration.select_one(
+        [robot.name for robot in arguments.select_robots(args, configuration, console)], "fmu"
+    )
+    if args.check and importlib.util.find_spec("fmpy") is None:
+        raise ConfigError.of("no-fmpy", "`--check` needs FMPy, which is not installed", hint=install_command("fmu"))
     if args.motion and (args.kind == "me" or not args.check):
         message = "`--input` is the motion for `--check` of co-simulation"
         raise arguments.UsageError(args.parser, message, "give both, with `--kind cs` or `both`")
-    written = arguments.call(export_fmu, args, console)
+    if args.output and args.output.suffix.lower() != ".fmu":
+        raise not_writable(args.output, "an FMU's name ends with .fmu", "name such a file")
+    if args.output:
+        check_file(args.output, input_files(configuration, robot, args.motion))
+    (tool,) = chosen_tools(configuration, "omc", trusted=args.trusted)
+    chosen = {name: value for name, value in vars(args).items() if name in SimulateOptions.__struct_fields__}
+    options = options_of(SimulateOptions, tool=tool, **chosen)
+    kind = Export(_VERSIONS[args.fmi], _EXPORTED[args.kind])
+    exported = export(configuration, robot, options, kind, console.progress, for_trial=args.check)
+    file = args.output or _default_file(exported)
+    kinds = [name for name in KINDS if name in kind.kind]
+    trial = try_out(configuration, robot, options, exported, kinds, console.progress) if args.check else None
+    write_file(file, exported.content)
+    warnings = robot.without_ignored(find_faults(trial, file)) if trial else ()
+    written = WrittenFmu(robot.name, exported, kind, file, trial, warnings)
     console.add_robot(fmu_to_json(written))
     console.tell(fmu_lines(written))
     console.findings(written.diagnostics)
-    return console.end(Exit.OUT_OF_STEP if written.warnings else Exit.IN_STEP)
+    return console.end(Exit.OUT_OF_STEP if warnings else Exit.IN_STEP)
+
+
+def _default_file(exported: Exported) -> Path:
+    """Return the file that has the model's name. Raises OutputError for one that is not an FMU of urdfsync's."""
+    file = Path(f"{exported.model.rpartition('.')[2]}.fmu")
+    if file.is_symlink() or (file.exists() and not is_exported(file)):
+        hint = "name a file with `--output`, this one to replace it"
+        raise not_writable(file, "it is there, and urdfsync did not write it", hint)
+    return file

@@ -6,7 +6,7 @@ import argparse
 import sys
 from pathlib import Path
 
-from urdfsync.api.sources import record
+from urdfsync.api import record
 from urdfsync.commands import arguments
 from urdfsync.dependencies import read_unrecorded
 from urdfsync.diagnostics import OutputError

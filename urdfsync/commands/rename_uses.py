@@ -6,8 +6,7 @@ import argparse
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
-from urdfsync.api import Results
-from urdfsync.api.builds import build_and_check
+from urdfsync.api import Results, build_and_check
 from urdfsync.commands import arguments
 from urdfsync.config.trust import find_untrusted_file, find_untrusted_output
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
@@ -39,7 +38,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     console.tell(_lines(renamed))
     if not renamed.texts or args.dry_run:
         return console.end(code)
-    if not args.trust:
+    if not args.trusted:
         outputs = (find_untrusted_output(loaded, robot) for robot in renamed.robots)
         if untrusted := [*filter(None, (*outputs, *(find_untrusted_file(loaded, path) for path in renamed.texts)))]:
             raise ConfigError(*untrusted)

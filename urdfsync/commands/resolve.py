@@ -11,8 +11,7 @@ from pathlib import Path
 import msgspec
 
 from urdfsync import config
-from urdfsync.api import Results
-from urdfsync.api.builds import build_and_check
+from urdfsync.api import Results, build_and_check
 from urdfsync.commands import arguments, editor
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Role

@@ -5,14 +5,14 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from urdfsync.api.simulations import simulate
+from urdfsync.api import simulate
 from urdfsync.checks.compilers import COMPILERS
 from urdfsync.commands import arguments
 from urdfsync.diagnostics import Severity
 from urdfsync.engine.result import Exit
 from urdfsync.output.console import Console
 from urdfsync.simulation.report import result_lines, to_json
-from urdfsync.simulation.results import STEPS, STOP, TOLERANCE
+from urdfsync.simulation.results import STEPS, STOP, TOLERANCE, SimulateOptions
 
 FILES = ("csv", "parquet", "plot")
 """The options that name a file to write."""
@@ -56,7 +56,8 @@ def add(commands: arguments.Commands) -> None:
 def run(args: argparse.Namespace, console: Console) -> int:
     """Simulate one robot, write what was asked for, and show what came out."""
     files = {kind: file for kind in FILES if (file := getattr(args, kind)) is not None}
-    result = arguments.call(simulate, args, console)
+    extra = {"files": files, "tool": args.tool, "trusted": args.trusted}
+    result = arguments.call(simulate, SimulateOptions, args, console, **extra)
     console.add_robot(to_json(result, files))
     console.tell(result_lines(result, files))
     console.findings(result.diagnostics)

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import argparse
 
-from urdfsync.api.statuses import status
+from urdfsync.api import status
 from urdfsync.commands import arguments
+from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Result, exit_code
 from urdfsync.output.console import Console
 from urdfsync.output.repeated import show_findings
@@ -38,5 +39,5 @@ def run(args: argparse.Namespace, console: Console) -> int:
         if not console.quiet or result.conflicts or result.is_broken:
             console.print(lines(result, console.verbose), error=result.failed)
 
-    results = arguments.call(status, args, console, on_result=show)
+    results = arguments.call(status, BuildOptions, args, console, on_result=show)
     return console.end(exit_code(results, check=True))

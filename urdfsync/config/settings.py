@@ -143,3 +143,12 @@ class Config(msgspec.Struct, frozen=True):
                 raise ConfigError(Diagnostic(Severity.ERROR, "unknown-robot", message, shown(self.file), hint=hint))
             chosen.update(meant)
         return tuple(robot for robot in self.robots if not names or robot.name in chosen)
+
+    def select_one(self, robots: Sequence[str], command: str) -> RobotConfig:
+        """Return the robot that names mean, or the only one. Raises ConfigError for several: `command` takes one."""
+        chosen = self.select(robots)
+        if len(chosen) > 1:
+            names = ", ".join(robot.name for robot in chosen)
+            message = f"{len(chosen)} robots are meant; `urdfsync {command}` takes one at a time"
+            raise ConfigError.of("robots", message, hint=f"name one: {names}")
+        return chosen[0]

@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import os
+from collections.abc import Iterator, Sequence
+from pathlib import Path
 
 import msgspec
 
+from urdfsync.config import Config, RobotConfig, working_folder
+from urdfsync.diagnostics import ConfigError, Diagnostic, UrdfsyncError
 from urdfsync.domain import Role
 from urdfsync.engine.actions import Reason
 from urdfsync.engine.decide import decide_package
-from urdfsync.engine.generation import Generation
+from urdfsync.engine.generation import Generation, generate_robot
+from urdfsync.engine.inputs import inspect
+from urdfsync.engine.options import BuildOptions
 
 
 class EditedFile(msgspec.Struct, frozen=True):
@@ -24,6 +30,18 @@ class EditedFile(msgspec.Struct, frozen=True):
     mine: str
 
 
+class RobotEdits(msgspec.Struct, frozen=True):
+    """What the user edited in the package of one robot."""
+
+    robot: str
+    root: Path
+    """The paths of `files` count from it."""
+    files: tuple[EditedFile, ...] = ()
+    diagnostics: tuple[Diagnostic, ...] = ()
+    """Why that can't be told, if it `failed`."""
+    failed: bool = False
+
+
 def find_edited(generation: Generation) -> Iterator[EditedFile]:
     """Yield the edited files of a robot, in the order of their paths. Raises UrdfsyncError."""
     files = generation.inputs.files
@@ -35,3 +53,35 @@ def find_edited(generation: Generation) -> Iterator[EditedFile]:
             if action.base == action.generated:  # it need not be stored yet, as before a package is adopted
                 base = generation.package.content(generation.inputs.folder.path(action.path)).decode()
             yield EditedFile(key, action.owner, base, files.any_text(key))
+
+
+def find_edits(
+    paths: Sequence[str], config: Config, robots: Sequence[RobotConfig], options: BuildOptions
+) -> Iterator[RobotEdits]:
+    """Yield the edits in the files that paths mean, or in all. Raises ConfigError if a path means none."""
+    places = {text: Path(os.path.normpath(working_folder() / text)) for text in paths}
+    unknown = set(places)
+    for robot in robots:
+        named = {
+            text: robot.folder if text == robot.name else place
+            for text, place in places.items()
+            if text == robot.name or place.is_relative_to(robot.folder) or robot.folder.is_relative_to(place)
+        }
+        unknown -= named.keys()
+        if places and not named:
+            continue
+        try:
+            files = tuple(find_edited(generate_robot(inspect(config, robot, options))))
+        except UrdfsyncError as error:
+            yield RobotEdits(robot.name, config.root, diagnostics=error.diagnostics, failed=True)
+            continue
+        if named:
+            files = tuple(
+                file
+                for file in files
+                if any((config.root / file.path).is_relative_to(place) for place in named.values())
+            )
+        yield RobotEdits(robot.name, config.root, files)
+    if unknown:
+        message = f"{min(unknown)!r} is no robot, and no file of a package"
+        raise ConfigError.of("no-source", message, hint="name a robot, or a file of its package")

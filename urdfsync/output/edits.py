@@ -9,8 +9,7 @@ from typing import Any
 
 import msgspec
 
-from urdfsync.diagnostics import Diagnostic
-from urdfsync.engine.edits import EditedFile
+from urdfsync.engine.edits import EditedFile, RobotEdits
 from urdfsync.files import shown
 from urdfsync.merge.edits import find_edits, in_words
 from urdfsync.output.conflicts import difference_lines
@@ -20,18 +19,6 @@ from urdfsync.output.phrases import counted
 
 _EDITS = 20
 """So many edits of a file are listed at most, without --verbose."""
-
-
-class RobotEdits(msgspec.Struct, frozen=True):
-    """What the user edited in the package of one robot."""
-
-    robot: str
-    root: Path
-    """The paths of `files` count from it."""
-    files: tuple[EditedFile, ...] = ()
-    diagnostics: tuple[Diagnostic, ...] = ()
-    """Why that can't be told, if it `failed`."""
-    failed: bool = False
 
 
 def all_lines(edited: RobotEdits) -> Iterator[StyledLine]:

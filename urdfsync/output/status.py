@@ -18,7 +18,7 @@ _STALE = 20
 """So many stale files of a robot are listed at most, without --verbose."""
 
 
-def status_lines(result: Result) -> Iterator[StyledLine]:
+def all_lines(result: Result) -> Iterator[StyledLine]:
     """Yield all that `urdfsync status` shows of a result, its findings first."""
     yield from findings(result.diagnostics, quiet=False, verbose=False)
     yield from lines(result, verbose=False)

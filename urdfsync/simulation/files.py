@@ -9,6 +9,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
 from urdfsync.extras import install_command
 from urdfsync.files import kind_of, put, shown
@@ -37,6 +38,12 @@ def check_outputs(files: Mapping[str, Path], inputs: Mapping[str, Path]) -> None
         check_file(file, inputs)
     if len({file.resolve() for file in files.values()}) < len(files):
         raise not_writable(next(iter(files.values())), "two outputs have this name", "name two files")
+
+
+def input_files(config: Config, robot: RobotConfig, motion: Path | None) -> dict[str, Path]:
+    """Return the files that no output may replace, by what they are."""
+    files = {"the source of the robot": robot.source, "the configuration": config.file}
+    return files | ({"the file with the inputs": motion} if motion else {})
 
 
 def check_file(file: Path, inputs: Mapping[str, Path]) -> None:

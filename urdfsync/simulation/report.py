@@ -8,7 +8,7 @@ from typing import Any
 
 import msgspec
 
-from urdfsync.output.console import StyledLine, line
+from urdfsync.output.console import StyledLine, findings, html, line
 from urdfsync.simulation.fmu import AGREEMENT, KINDS, WrittenFmu
 from urdfsync.simulation.results import JointResult, Range, SimulateResult
 
@@ -16,6 +16,13 @@ _HEADER = ("joint", "position", "limits", "speed/limit", "effort/limit")
 _WORDS = {"me": "model exchange", "cs": "co-simulation"}
 _NOTHING = 5e-7
 """Smaller numbers are shown as 0: they come from rounding."""
+
+
+class Simulation(SimulateResult, frozen=True):
+    """A simulation, to look at as well."""
+
+    def _repr_html_(self) -> str:
+        return html([*result_lines(self, {}), *findings(self.diagnostics, quiet=False, verbose=False)])
 
 
 def result_lines(result: SimulateResult, files: Mapping[str, Path]) -> Iterator[StyledLine]:

@@ -17,8 +17,8 @@ import msgspec
 
 from urdfsync import changes, registry
 from urdfsync.changes import Changes
-from urdfsync.config import Config, RobotConfig
-from urdfsync.diagnostics import Diagnostic, SourceError, UrdfsyncError
+from urdfsync.config import FILE_NAME, Config, RobotConfig
+from urdfsync.diagnostics import ConfigError, Diagnostic, SourceError, UrdfsyncError
 from urdfsync.domain import ChangeClass, Domain, Effect, Lookup, Role, Target, Version
 from urdfsync.engine import imports
 from urdfsync.engine import source as source_files
@@ -73,6 +73,33 @@ def exit_code(comparisons: Sequence[Comparison]) -> Exit:
     if code in (Exit.ERROR, Exit.LOCKED):
         return code
     return Exit.IN_STEP if all(comparison.in_step for comparison in comparisons) else Exit.OUT_OF_STEP
+
+
+def select_sources(
+    sources: Sequence[str], names: Sequence[str], against: str | None, config: Config | None, folder: Path
+) -> Iterator[tuple[Config | None, Sequence[RobotConfig]]]:
+    """Yield the robots that the arguments mean, and robots for sources that none of them has. Raises ConfigError."""
+    if config is None and against is None:
+        place = f"{folder} or a folder above it"
+        message = f"no {FILE_NAME} in {place}, so there is no last build to compare with"
+        hint = "name the version to compare with: --against FILE or REVISION, or begin with `urdfsync init`"
+        raise ConfigError.of("no-config", message, hint=hint)
+    known = {os.path.realpath(robot.source) for robot in config.robots} if config else set()
+    places = {text: Path(os.path.normpath(folder / text)) for text in sources}
+    alone = {text: place for text, place in places.items() if place.is_file() and os.path.realpath(place) not in known}
+    if config is None and (missing := places.keys() - alone.keys()):
+        raise ConfigError.of("no-source", f"there is no file {min(missing)!r}", hint="name a source that exists")
+    if against is None and alone:
+        message = f"{min(alone)} was never built: it is not the source of a robot"
+        hint = "add a robot for it, or name the version to compare it with: --against FILE or REVISION"
+        raise ConfigError.of("no-robot", message, hint=hint)
+    named = [*(text for text in sources if text not in alone), *names]
+    robots = config.select(named) if config and (named or not alone) else ()
+    if against and (folder / against).is_file() and len({robot.source for robot in robots}) + len(alone) > 1:
+        message = "--against names one file, but several sources are compared"
+        raise ConfigError.of("one-file", message, hint="name the source to compare it with")
+    yield config, robots
+    yield None, [robot_of_file(place) for place in alone.values()]
 
 
 def robot_of_file(path: Path) -> RobotConfig:

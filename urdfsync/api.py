@@ -1,0 +1,281 @@
+"""The functions behind the commands, for scripts and notebooks: `urdfsync.build` and the others (docs/api.md).
+
+They print nothing. What a command would end with as an error, they raise. Functions import what they alone need: the
+checks take 100 ms to load, the merge 20 ms, and a build has to be quick.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
+
+import msgspec
+
+from urdfsync import config as configuration
+from urdfsync import dependencies
+from urdfsync.config import Config, RobotConfig
+from urdfsync.config import library_folder as library_folder
+from urdfsync.diagnostics import ConfigError, Diagnostic
+from urdfsync.diagnostics import UrdfsyncError as UrdfsyncError
+from urdfsync.domain import Target
+from urdfsync.engine.build import build as build_robots
+from urdfsync.engine.options import BuildOptions, Progress, no_progress
+from urdfsync.engine.result import Result
+from urdfsync.files import shown
+from urdfsync.modelica.names import class_name, is_class_name, is_identifier, is_package_name
+from urdfsync.output.console import StyledLine, findings, html, line
+from urdfsync.output.results import all_lines
+
+if TYPE_CHECKING:
+    from urdfsync.checks.results import CheckResult
+    from urdfsync.engine.edits import RobotEdits
+    from urdfsync.simulation.report import Simulation
+    from urdfsync.versions.comparison import Comparison
+
+R = TypeVar("R")
+Options = TypeVar("Options", bound=msgspec.Struct)
+Place: TypeAlias = Config | Path | str | None
+"""A configuration, or its file; None for `urdfsync.toml` in the working folder or the nearest one above."""
+
+
+def ignore(_result: object) -> None:
+    """Do nothing with a result."""
+
+
+class Results(list[R]):
+    """The results of a call, one for each robot, in the order of the configuration.
+
+    As text, and in a notebook, they look as the command shows them.
+    """
+
+    def __init__(
+        self, results: Iterable[R], lines: Callable[[R], Iterable[StyledLine]], on_result: Callable[[R], object]
+    ) -> None:
+        """`lines` shows a result; `on_result` gets each as soon as it is there."""
+        super().__init__()
+        self._lines = lines
+        for result in results:
+            self.append(result)
+            on_result(result)
+
+    def __str__(self) -> str:
+        return "\n".join(str(text) for result in self for text in self._lines(result))
+
+    def _repr_html_(self) -> str:
+        return html(text for result in self for text in self._lines(result))
+
+
+class WholeRecord(msgspec.Struct, frozen=True):
+    """A whole robot as one record of Modelica, in the package `within`, which is empty for none."""
+
+    text: str
+    class_: str
+    within: str
+    diagnostics: tuple[Diagnostic, ...]
+
+    def _repr_html_(self) -> str:
+        told = findings(self.diagnostics, quiet=False, verbose=False)
+        return html([*told, *(line((text, "")) for text in self.text.splitlines())])
+
+
+def load(config: Place = None) -> Config:
+    """Return the configuration in a file; one that is loaded stays as it is.
+
+    Its `robots` have their names, sources and packages. Raises ConfigError with all that is wrong in the file.
+    """
+    if isinstance(config, Config):
+        return config
+    return configuration.load(Path(config) if config else configuration.find(configuration.working_folder()))
+
+
+def options_of(kind: type[Options], **given: Any) -> Options:
+    """Return options of a kind, with the ROS packages of the environment."""
+    fixed = {name: tuple(value) if isinstance(value, list) else value for name, value in given.items()}
+    return kind(package_paths=configuration.ros_package_path(os.environ), **fixed)
+
+
+def build(
+    *robots: str,
+    config: Place = None,
+    merge: bool = False,
+    on_result: Callable[[Result], object] = ignore,
+    **given: Any,
+) -> Results[Result]:
+    """Bring packages in step with their sources, as `urdfsync build` does.
+
+    `robots` are names, sources or outputs; without any, all robots are built. With `merge`, changes are merged into
+    edited files. `given` are fields of `BuildOptions`, such as `dry` for a dry run. A robot that can't be built has
+    `failed`, and says why in `diagnostics`; the others are built. `on_result` gets each result as soon as it is there.
+    Raises UrdfsyncError for a configuration that can't be used, and for a robot that it does not have.
+    """
+    loaded = load(config)
+    chosen: Sequence[RobotConfig] = loaded.select(robots)
+    if merge:
+        chosen = [msgspec.structs.replace(robot, on_conflict="merge") for robot in chosen]
+    return Results(build_and_check(loaded, chosen, options_of(BuildOptions, **given)), all_lines, on_result)
+
+
+def build_and_check(config: Config, robots: Sequence[RobotConfig], options: BuildOptions) -> Iterator[Result]:
+    """Build robots, and check the packages of those with `on_build = "check"`; a dry run checks nothing."""
+    results = build_robots(config, robots, options)
+    if options.dry or not any(robot.checking for robot in robots):
+        return results
+    dependencies.mark_incomplete()  # checks look at more
+    from urdfsync.checks import afterbuild
+
+    return afterbuild.with_checks(config, options, results)
+
+
+def status(
+    *robots: str, config: Place = None, on_result: Callable[[Result], object] = ignore, **given: Any
+) -> Results[Result]:
+    """Say how each file stands, from a build that writes nothing: `action.reason.status` of a result's `actions`.
+
+    A source that xacro or a command makes is not made anew: `stale` names the inputs that changed.
+    """
+    from urdfsync.output.status import all_lines
+
+    loaded, options = load(config), options_of(BuildOptions, dry=True, expands=False, **given)
+    return Results(build_robots(loaded, loaded.select(robots), options), all_lines, on_result)
+
+
+def diff(
+    *sources: str,
+    robots: Sequence[str] = (),
+    against: str | None = None,
+    config: Place = None,
+    on_result: Callable[[Comparison], object] = ignore,
+    **given: Any,
+) -> Results[Comparison]:
+    """Show what changed in sources since the last build, or since the version `against`: a file, or a git revision.
+
+    `sources` are files or robots, `robots` names of robots alone; without both, all sources are compared. No
+    configuration is needed for files and `against`. Raises UrdfsyncError for what can't be compared at all; where the
+    version can't be read, the `result` of a comparison has `failed`.
+    """
+    from urdfsync.versions import comparison, report
+
+    folder, options = configuration.working_folder(), options_of(BuildOptions, **given)
+    is_near = any((place / configuration.FILE_NAME).is_file() for place in (folder, *folder.parents))
+    loaded = load(config) if is_near or config or robots or not sources else None
+    pairs = list(comparison.select_sources(sources, robots, against, loaded, folder))
+    compared = (comparison.compare_sources(chosen, against, known, options, folder) for known, chosen in pairs)
+    return Results((each for group in compared for each in group), report.all_lines, on_result)
+
+
+def edits(
+    *paths: str,
+    robots: Sequence[str] = (),
+    config: Place = None,
+    on_result: Callable[[RobotEdits], object] = ignore,
+    **given: Any,
+) -> Results[RobotEdits]:
+    """Show what the user edited in packages, of `robots` or all, as far as `paths` mean it: robots, files, folders.
+
+    Raises ConfigError for a path that means none.
+    """
+    from urdfsync.engine.edits import find_edits
+    from urdfsync.output.edits import all_lines
+
+    loaded, options = load(config), options_of(BuildOptions, dry=True, **given)
+    return Results(find_edits(paths, loaded, loaded.select(robots), options), all_lines, on_result)
+
+
+def check(
+    *robots: str,
+    config: Place = None,
+    tool: str | None = None,
+    trusted: bool = False,
+    progress: Progress = no_progress,
+    on_result: Callable[[CheckResult], object] = ignore,
+    **given: Any,
+) -> Results[CheckResult]:
+    """Check packages as they are on disk, as `urdfsync check` does; `result.status(strict)` is the verdict.
+
+    `given` are fields of `CheckOptions`, such as `physics`. Raises UrdfsyncError for a configuration that can't be
+    used, a robot that it does not have, a compiler that is not trusted, and where there is no place for the cache.
+    """
+    from urdfsync.checks import report, run
+    from urdfsync.checks.results import CheckOptions
+    from urdfsync.checks.tools import chosen_tools
+
+    loaded = load(config)
+    chosen, tools = loaded.select(robots), chosen_tools(loaded, tool, trusted=trusted)
+    options = options_of(CheckOptions, tools=tools, **given)
+    checked = run.check_robots(loaded, chosen, options, progress)
+    return Results(checked, lambda result: report.all_lines(result, strict=options.strict), on_result)
+
+
+def simulate(
+    *robots: str,
+    config: Place = None,
+    files: Mapping[str, Path] | None = None,
+    tool: str | None = None,
+    trusted: bool = False,
+    progress: Progress = no_progress,
+    **given: Any,
+) -> Simulation:
+    """Simulate a robot, as `urdfsync simulate` does; `robots` is one, or none if there is only one.
+
+    `given` are fields of `SimulateOptions`, such as `model` and `stop` (s). The result has `series`, times (s) and the
+    values of each variable, and `joints`, whose ranges are held against their limits. `files` are written: `csv`,
+    `parquet` or `plot`. Raises UrdfsyncError for whatever is wrong with the model, its inputs, the compiler or files.
+    """
+    from urdfsync.checks.tools import chosen_tools
+    from urdfsync.simulation import run
+    from urdfsync.simulation.files import check_outputs, input_files, write_outputs
+    from urdfsync.simulation.report import Simulation
+    from urdfsync.simulation.results import SimulateOptions
+
+    loaded, files = load(config), files or {}
+    robot = loaded.select_one(robots, "simulate")
+    check_outputs(files, input_files(loaded, robot, given.get("motion")))
+    chosen, *_ = chosen_tools(loaded, tool, trusted=trusted)
+    result = run.simulate(loaded, robot, options_of(SimulateOptions, tool=chosen, **given), progress)
+    write_outputs(files, result)
+    return Simulation(**msgspec.structs.asdict(result))
+
+
+def record(
+    source: Path | str,
+    *,
+    class_: str = "",
+    within: str = "",
+    domain: str = "urdf",
+    arguments: Mapping[str, str] | None = None,
+) -> WholeRecord:
+    """Return the record of a source, as `urdfsync record` writes it; for xacro, with its `arguments`.
+
+    The record is called `class_`, or by the source. Raises SourceError for a source that can't be read, and ConfigError
+    for a name that can't be used.
+    """
+    from urdfsync import registry
+    from urdfsync.engine import source as sources
+    from urdfsync.engine.generate import Package
+
+    source, target, form = Path(source), _target(class_, within, Path(source)), registry.domain(domain)
+    text = sources.read_file_source(source, arguments or {}, configuration.ros_package_path(os.environ))
+    with text.locating():
+        snapshot, reading = sources.read(form, form.permissive_options(), text.content, text.name)
+    reading = msgspec.structs.replace(reading, snapshot=snapshot)
+    recorded = form.record(reading, shown(source), target, form.options())
+    if recorded is None:
+        message = f"the domain `{form.name}` has no record of a whole model"
+        raise ConfigError.of("no-record", message, hint="use `urdfsync build`")
+    artifact, told = recorded
+    generated = Package([artifact], sources.domain_templates(form), target.package)
+    all_findings = [*text.diagnostics, *map(text.locate, (*reading.diagnostics, *told))]
+    diagnostics = tuple(sorted(all_findings, key=lambda finding: finding.line))
+    return WholeRecord(generated.content(artifact.path).decode(), target.name, within, diagnostics)
+
+
+def _target(name: str, within: str, source: Path) -> Target:
+    """Return the class: the chosen one, else one after the source. Raises ConfigError."""
+    if name and not is_class_name(name):
+        hint = "choose one that begins with a capital and is not reserved by Modelica or urdfsync"
+        raise ConfigError.of("modelica-name", f"{name!r} can't be a class", hint=hint)
+    if within and not all(is_identifier(part) and is_package_name(part) for part in within.split(".")):
+        raise ConfigError.of("modelica-name", f"{within!r} can't be a package", hint="name one like Plant.Robots")
+    return Target(within, name or class_name(source.name.partition(".")[0]) + "Parameters")
