@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import subprocess
 import sys
 import tarfile
@@ -11,6 +12,7 @@ import venv
 import zipfile
 from pathlib import Path
 
+import build.util
 import pytest
 
 REPOSITORY = Path(__file__).parents[1]
@@ -26,8 +28,10 @@ def tracked(*folders: str) -> set[str]:
 
 def test_wheel_and_sdist_are_complete_and_the_wheel_builds_a_robot(tmp_path: Path) -> None:
     """One test: the distributions are built once."""
-    build: list[str | Path] = [sys.executable, "-m", "build", "--outdir", tmp_path / "dist", REPOSITORY]
-    subprocess.run(build, check=True, capture_output=True)
+    command: list[str | Path] = [sys.executable, "-m", "build", "--outdir", tmp_path / "dist", REPOSITORY]
+    subprocess.run(command, check=True, capture_output=True)
+    names = sorted((tmp_path / "dist").iterdir())
+    subprocess.run([sys.executable, "-m", "twine", "check", "--strict", *names], check=True)
     (wheel,), (sdist,) = (tmp_path.glob(f"dist/*.{ending}") for ending in ("whl", "tar.gz"))
     assert_wheel_carries_templates_and_library(wheel)
     assert_sdist_carries_all_that_the_tests_need(sdist)
@@ -38,13 +42,24 @@ def assert_wheel_carries_templates_and_library(wheel: Path) -> None:
     names = set(zipfile.ZipFile(wheel).namelist())
     assert names >= {f"urdfsync/_data/{name}" for name in tracked("templates", "modelica")}
     assert names >= tracked("urdfsync")
+    assert "urdfsync/_data/docs/findings.md" in names
     assert not any(name.startswith(("tests/", "templates/", "modelica/")) for name in names)
+
+
+def test_metadata_have_links_that_work_elsewhere_and_the_versions_that_ci_tests() -> None:
+    metadata = build.util.project_wheel_metadata(REPOSITORY)
+    assert re.findall(r"\]\((?!https?:)[^)]*", str(metadata.json["description"])) == []
+    urls, classifiers = (metadata.get_all(key) or [] for key in ("Project-URL", "Classifier"))
+    assert {url.partition(", ")[0] for url in urls} >= {"Documentation", "Changelog"}
+    assert f"Programming Language :: Python :: {metadata['Requires-Python'][2:]}" in classifiers
 
 
 def assert_sdist_carries_all_that_the_tests_need(sdist: Path) -> None:
     with tarfile.open(sdist) as archive:
         names = {name.partition("/")[2] for name in archive.getnames()}
-    assert names >= tracked("urdfsync", "templates", "modelica", "tests", "tools", "docs", "urdfsync.toml", "LICENSE")
+    assert names >= tracked(
+        "urdfsync", "templates", "modelica", "tests", "tools", "docs", "urdfsync.toml", "LICENSE", "action.yml"
+    )
 
 
 def assert_installed_wheel_builds_a_robot(wheel: Path, tmp_path: Path) -> None:
