@@ -14,7 +14,8 @@ extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
 myst_enable_extensions = ["deflist"]
 myst_heading_anchors = 4  # by the names that GitHub gives to headings
 default_role = "code"
-autodoc_typehints = "description"
+autodoc_preserve_defaults = True
+maximum_signature_line_length = 80
 
 smartquotes = False  # options stay as they are typed
 

@@ -89,7 +89,7 @@ def _value(action: argparse.Action) -> str:
 def functions_page() -> Iterator[str]:
     """Yield the lines of the page of the API."""
     yield from ("# Functions", "", "```{eval-rst}")
-    for name in getattr(urdfsync, "__all__", ()):
+    for name in urdfsync.__all__:
         value = getattr(urdfsync, name)
         if callable(value):
             kind = "class" if isinstance(value, type) else "function"
