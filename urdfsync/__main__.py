@@ -14,6 +14,11 @@ def main() -> int:
 
                 if hook.is_answered(sys.argv[1:]):
                     return 0
+            if sys.argv[1:2] == ["completion"]:
+                from urdfsync import completion  # likewise
+
+                if completion.answer(sys.argv[2:]):
+                    return 0
             trouble = uptodate.print_answer(sys.argv[1:])
         except Exception:  # noqa: BLE001 - whatever it is: the command does its work without
             trouble = None
