@@ -306,8 +306,8 @@ class Probe(msgspec.Struct, frozen=True):
     step: float
     """Interval of results, in s."""
     values: tuple[str, ...]
-    optional: str = ""
-    """A regular expression: variables that are handed back as well, if the package has them."""
+    optional: tuple[str, ...] = ()
+    """Variables that are handed back as well, if the package has them."""
 
 
 class Compared(msgspec.Struct, frozen=True):

@@ -239,7 +239,8 @@ class Compilation:
 def _task(trial: Trial) -> CompileTask:
     probe = trial.probe
     run, title = Simulation(probe.stop, probe.step), f"the comparison ({trial.name})"
-    return CompileTask(probe.model, probe.source, (run,), probe.values, probe.optional, title=title)
+    optional = "|".join(map(re.escape, probe.optional))
+    return CompileTask(probe.model, probe.source, (run,), probe.values, optional, title=title)
 
 
 def _as_part(finding: Diagnostic) -> Diagnostic:
@@ -285,12 +286,8 @@ def compare(compared: Iterable[Compared], series: Series, expected: Series) -> t
 
 
 def _number(series: Series, name: str, instant: float) -> float:
-    """Return the number of a variable at a time; a name that is a regular expression has to fit one variable."""
-    numbers = series.get(name)
-    if numbers is None:
-        fitting = [other for other in series if re.fullmatch(name, other)] if "\\" in name else []
-        numbers = series[fitting[0]] if len(fitting) == 1 else None
-    times = series.get("time", ())
+    """Return the number of a variable at a time."""
+    numbers, times = series.get(name), series.get("time", ())
     place = next((k for k, time in enumerate(times) if abs(time - instant) < _SAME_TIME), None)
     return numbers[place] if numbers and place is not None else math.nan
 

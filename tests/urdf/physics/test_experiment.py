@@ -12,7 +12,7 @@ from support.urdfs import dynamics, joint, link, links, robot
 from urdfsync.checks.compilation import compare_all
 from urdfsync.checks.results import TOLERANCE
 from urdfsync.diagnostics import SourceError
-from urdfsync.domain import Experiment, Quantity, Target
+from urdfsync.domain import Experiment, Part, Quantity, Target
 from urdfsync.urdf.domain import DOMAIN
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.physics.reference import read
@@ -123,6 +123,14 @@ def test_a_package_without_joints_is_moved_without_the_record_that_it_does_not_h
     alone = robot(link("base", 1.0))
     assert not any("BotParameters" in trial.probe.source for trial in experiment(alone).trials)
     assert any("BotParameters" in trial.probe.source for trial in experiment(alone, approach=("record",)).trials)
+
+
+def test_a_robot_without_joints_stands_on_the_ground_too() -> None:
+    box = '<collision><geometry><box size="1 1 1"/></geometry></collision></link>'
+    one = experiment(robot(link("base", 1.0).replace("</link>", box)), base="floating")
+    assert "BotStance stance" in one.trials[0].probe.source
+    (ground,) = (each for each in one.trials[0].compared if each.part is Part.CONTACTS)
+    assert one.trials[0].expected[ground.values[2]][-1] == pytest.approx(-9.81)
 
 
 def test_the_record_alone_is_compared_through_the_generic_robot() -> None:

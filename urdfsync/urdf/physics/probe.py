@@ -5,7 +5,6 @@ It relies on little of the package, so that packages may be edited: on the varia
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
@@ -18,6 +17,7 @@ from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.physics import motion
 from urdfsync.urdf.physics.motion import Course, table
+from urdfsync.urdf.physics.subject import Subject
 from urdfsync.urdf.robot import MOTION_KINDS, MOTIONS, Joint
 
 _FAR_GROUND = -1e9  # m: the ground is that far down, and nothing touches
@@ -54,8 +54,9 @@ class RobotVariables(msgspec.Struct, frozen=True):
     """Component of each sensor; none in the record."""
 
 
-def robot_variables(tree: KinematicTree, target: Target, options: Options, approach: str) -> RobotVariables:
+def robot_variables(subject: Subject, approach: str) -> RobotVariables:
     """Return the names for an approach. With the record, the generic robot is moved: links are numbers there."""
+    tree, target, options = subject.tree, subject.target, subject.options
     moments, three = list[str](), (1, 2, 3)
     places, axes, is_package = dict[str, tuple[str, ...]](), dict[str, tuple[str, ...]](), approach == "package"
     names = connector_names(tree, options)
@@ -93,50 +94,50 @@ def robot_variables(tree: KinematicTree, target: Target, options: Options, appro
 
 
 def moving_probe(
-    tree: KinematicTree, target: Target, options: Options, names: RobotVariables,
-    courses: Mapping[str, Sequence[Course]], base: Sequence[Sequence[Course]], stands: bool, gears: Iterable[str],
-    values: Iterable[str], optional: str,
-) -> Probe:  # fmt: skip
-    """Return a model in which every axis of the robot moves along `courses`, through all instants, and so does `base`.
+    subject: Subject, names: RobotVariables, gears: Iterable[str], values: Iterable[str], optional: Iterable[str]
+) -> Probe:
+    """Return a model in which base and axes of the robot move through all instants.
 
-    If it `stands`, the ground is where the robot touches it at last.
+    If it stands, the ground is where the robot touches it at last.
     """
+    target, options = subject.target, subject.options
     world = f"n = {{0, 0, -1}}, g = {motion.GRAVITY!r}, enableAnimation = false"
     declarations = [f"inner Modelica.Mechanics.MultiBody.World world({world})"]
     if options.base == "floating":
-        height = f"{-motion.GROUND_DEPTH!r} - stance.height, load = robot.m*world.g" if stands else repr(_FAR_GROUND)
+        height = repr(_FAR_GROUND)
+        if subject.stand and not names.numbers:
+            declarations.append(f"parameter {target.package}.{target.name}Stance stance")
+            height = f"{-motion.GROUND_DEPTH!r} - stance.height, load = robot.m*world.g"
         declarations.append(f"inner UrdfSync.Contacts.Ground ground(height = {height})")
-        declarations += [f"parameter {target.package}.{target.name}Stance stance"] * stands
     declarations.append(f"{names.declaration}fixedStart = false)")
     declarations += filter(None, [names.numbers])
     connections = ["base.frame_b, robot.frame_a"]
-    for k, joint in enumerate(motion.driven_axes(tree), 1):
+    for k, (joint, courses) in enumerate(zip(subject.axes, subject.courses, strict=True), 1):
         drive = MOTION_KINDS[joint.type].capitalize()
-        declarations.append(f"{drive}Drive drive{k}(courses = {table(courses[joint.name])})")
+        declarations.append(f"{drive}Drive drive{k}(courses = {table(courses)})")
         connections.append(f"drive{k}.flange, {names.flanges[joint.name]}")
     for k, joint_name in enumerate(gears, 1):
         gear = f"{names.records[joint_name]}.transmission"
         declarations.append(f"Real gear{k}[3] = {{{gear}.reduction, {gear}.offset, {gear}.rotorInertia}}")
     centre = f"({names.moment})/(if mass > 0 then mass else 1)"
     declarations += ["Real mass = robot.m", f"Real centre[3] = {centre}"]
-    ways = zip(("x", "y", "z", "turn"), base, strict=True)
-    tables = ", ".join(f"{name} = {table(courses_)}" for name, courses_ in ways)
+    ways = zip(("x", "y", "z", "turn"), subject.base, strict=True)
+    tables = ", ".join(f"{name} = {table(course)}" for name, course in ways)
     declarations.append(f"MovingBase base({tables}, axis = {vector(motion.TURN_AXIS)})")
     source = _text(target, options, "", declarations, connections)
     last = float(max(motion.Instant))
-    return Probe(source, "Probe_.Probe", last, 1.0, tuple(values), optional)
+    return Probe(source, "Probe_.Probe", last, 1.0, tuple(values), tuple(optional))
 
 
 def free_probe(
-    tree: KinematicTree, target: Target, options: Options, names: RobotVariables, courses: Sequence[Course],
-    efforts: Sequence[float], values: Iterable[str],
-) -> Probe:  # fmt: skip
+    subject: Subject, names: RobotVariables, courses: Sequence[Course], efforts: Sequence[float], values: Iterable[str]
+) -> Probe:
     """Return a model in which the axes are pushed from their `courses`; every second one begins at its own place.
 
     It stands in the bench that Run and Test extend: so gravity is theirs.
     """
     starts, turning, sliding = list[str](), dict[str, tuple[float, float]](), dict[str, tuple[float, float]]()
-    axes = motion.driven_axes(tree)
+    axes, options = subject.axes, subject.options
     for k, (joint, course) in enumerate(zip(axes, courses, strict=True)):
         is_turning = MOTION_KINDS[joint.type] == "rotational"
         (turning if is_turning else sliding)[joint.name] = course.position, course.speed
@@ -162,7 +163,7 @@ def free_probe(
     for k, (joint, effort) in enumerate(zip(axes, efforts, strict=True), 1):
         declarations.append(f"{MOTION_KINDS[joint.type].capitalize()}Push push{k}(effort = {effort!r})")
         connections.append(f"push{k}.flange, {names.flanges[joint.name]}")
-    source = _text(target, options, bench, declarations, connections)
+    source = _text(subject.target, options, bench, declarations, connections)
     return Probe(source, "Probe_.Probe", 1e-6, 1e-6, tuple(values))
 
 
@@ -172,15 +173,15 @@ def free_course(joint: Joint, start: float, number: int) -> Course:
     return course if number % 2 else course._replace(position=start)
 
 
-def limit_pattern(tree: KinematicTree, joint: Joint, ending: str) -> str:
-    """Return a regular expression for the variable of a warning, with the name of the joint in its message.
+def limit_variable(tree: KinematicTree, joint: Joint, ending: str) -> str:
+    """Return the variable of a warning, which has the name of the joint in its message.
 
     The robot itself looks at the effort of a joint that leads others, which carries theirs.
     """
-    component, name = re.escape(tree.joint(joint.name).component), "warning_getInstanceName"
+    component, name = tree.joint(joint.name).component, "warning_getInstanceName"
     if ending.endswith("effort_limit") and joint.name in tree.followers_by_leader():
-        return rf"robot\.{name}_{component}_joint_{component}_parameters_name_{ending}"
-    return rf"robot\.{component}\.{name}_joint_parameters_name_{ending}"
+        return f"robot.{name}_{component}_joint_{component}_parameters_name_{ending}"
+    return f"robot.{component}.{name}_joint_parameters_name_{ending}"
 
 
 def _text(target: Target, options: Options, bench: str, declarations: Iterable[str], connections: Iterable[str]) -> str:

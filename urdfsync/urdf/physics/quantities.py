@@ -1,0 +1,140 @@
+"""The quantities that are compared, each with the values that Pinocchio, or the source itself, expects."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import TypeAlias
+
+import numpy as np
+
+from urdfsync.domain import Compared, Part, Quantity
+from urdfsync.urdf.drives import can_be_driven
+from urdfsync.urdf.kinematics.poses import own_range
+from urdfsync.urdf.physics import motion, probe
+from urdfsync.urdf.physics.motion import COMPARED, Instant
+from urdfsync.urdf.physics.probe import CENTRE, FORCE, MASS, TORQUE, RobotVariables
+from urdfsync.urdf.physics.reference import Gear, Solution
+from urdfsync.urdf.physics.subject import Subject
+from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS
+
+Pair: TypeAlias = tuple[Compared, Sequence[Iterable[float]]]
+"""A quantity, and its expected values at each of its instants."""
+
+_CLEAR = 1e-5
+"""Relative distance from a limit from which on it is clear whether it is passed: warnings have some slack."""
+
+
+def poses(
+    subject: Subject, names: RobotVariables, solved: Sequence[Solution], times: tuple[float, ...], part: Part
+) -> Iterator[Pair]:
+    """Yield where each link is at some times."""
+    for link in subject.tree.links:
+        frames, element = [instant.frame(link.name) for instant in solved], f"link {link.name}"
+        at = Compared(Quantity.POSITION, element, "m", names.places[link.name], times, part)
+        turned = Compared(Quantity.ORIENTATION, element, "", names.axes[link.name], times, part)
+        yield from ((at, [place for place, _ in frames]), (turned, [axes.T.ravel() for _, axes in frames]))
+
+
+def bodies(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
+    """Yield poses, efforts of the axes, what holds the root, and the mass."""
+    root, solved = f"link {subject.tree.links[0].name}", [subject.solved[time] for time in COMPARED]
+    yield from poses(subject, names, solved, COMPARED, Part.BODIES)
+    for joint in filter(can_be_driven, subject.tree.joints):
+        unit, effort = ("N·m", "tau") if MOTION_KINDS[joint.type] == "rotational" else ("N", "f")
+        number = subject.reference.axes.index(joint.name)
+        value, efforts = (f"{names.flanges[joint.name]}.{effort}",), [[i.efforts[number]] for i in solved]
+        losses = Part.LOSSES if joint.dynamics or joint.transmission else Part.BODIES
+        # at rest no joint has losses
+        for times, part in ((slice(0, 1), Part.BODIES), (slice(1, None), losses)):
+            compared = Compared(Quantity.EFFORT, f"joint {joint.name}", unit, value, COMPARED[times], part)
+            yield compared, efforts[times]
+    yield Compared(Quantity.REACTION, root, "N", FORCE, COMPARED), [-instant.force for instant in solved]
+    yield Compared(Quantity.REACTION, root, "N·m", TORQUE, COMPARED), [-instant.torque for instant in solved]
+    masses = [instant.mass_and_centre() for instant in solved]
+    yield Compared(Quantity.MASS, "robot", "kg", MASS, COMPARED), [[mass] for mass, _ in masses]
+    yield Compared(Quantity.CENTRE, "robot", "m", CENTRE, COMPARED), [centre for _, centre in masses]
+
+
+def gears(geared: Sequence[str], read: Mapping[str, Gear]) -> Iterator[Pair]:
+    """Yield the numbers of the gears."""
+    for k, joint in enumerate(geared, 1):
+        values = tuple(f"gear{k}[{i}]" for i in (1, 2, 3))
+        gear = read.get(joint, Gear())
+        yield Compared(Quantity.GEAR, f"joint {joint}", "", values, (0.0,), Part.LOSSES), [gear]
+
+
+def sensors(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
+    """Yield the readings of the sensors that measure motion or forces."""
+    parents = {joint.name: joint.parent for joint in subject.tree.joints}
+    for sensor in subject.tree.sensors:
+        if sensor.kind == "imu":
+            outputs = {"a": "m/s²", "w": "rad/s"}
+            rows = [subject.reference.acceleration(subject.states[t], sensor, subject.root) for t in COMPARED]
+        elif sensor.kind == "force_torque":
+            outputs = {"f": "N", "t": "N·m"}
+            at = parents[sensor.at]
+            rows = [subject.reference.wrench(subject.states[t], sensor, at, subject.root) for t in COMPARED]
+        else:
+            continue
+        for k, (output, unit) in enumerate(outputs.items()):
+            values = tuple(f"{names.sensors[sensor.name]}.{output}[{i}]" for i in (1, 2, 3))
+            compared = Compared(Quantity.READING, f"sensor {sensor.name}", unit, values, COMPARED, Part.SENSORS, output)
+            yield compared, [row[k] for row in rows]
+
+
+def limits(subject: Subject) -> Iterator[Pair]:
+    """Yield the warnings of each joint: 1 where it comes, at the instants where that is clear."""
+    coordinates = subject.reference.coordinates()
+    for joint in subject.tree.joints:
+        if joint.type not in MOTION_KINDS:
+            continue
+        row, passed = coordinates[joint.name], dict[str, dict[float, bool]]()
+        lower, upper = own_range(joint)
+        speed = joint.limit.velocity if joint.limit else None
+        effort = joint.limit.effort if joint.limit else None
+        for time, state in subject.states.items():
+            q, v = float(state.positions[row]), abs(float(state.v[row]))
+            tests = {
+                "is_below_its_lower_position_limit": (lower, q, -1.0),
+                "is_above_its_upper_position_limit": (upper, q, 1.0),
+                "is_faster_than_its_velocity_limit": (math.inf if speed is None else speed, v, 1.0),
+            }
+            if joint.name in subject.reference.axes:
+                load = abs(float(subject.solved[time].efforts[subject.reference.axes.index(joint.name)]))
+                tests["is_driven_above_its_effort_limit"] = (math.inf if effort is None else effort, load, 1.0)
+            for ending, (limit, value, sign) in tests.items():
+                if "position" in ending and not JOINT_KINDS[joint.type].has_limits:
+                    continue
+                excess = sign * (value - limit)
+                if not abs(excess) < _CLEAR * max(1.0, abs(limit) if math.isfinite(limit) else 1.0):
+                    passed.setdefault(ending, {})[time] = excess > 0
+        for ending, flags in passed.items():
+            variable = probe.limit_variable(subject.tree, joint, ending)
+            detail = ending.replace("_", " ")
+            compared = Compared(
+                Quantity.WARNING, f"joint {joint.name}", "", (variable,), tuple(flags), Part.LIMITS, detail
+            )
+            yield compared, [[float(flag)] for flag in flags.values()]
+
+
+def ground(subject: Subject) -> Iterator[Pair]:
+    """Yield the force on a base that holds a standing robot level: what the ground does not carry."""
+    if subject.stand is not None:
+        forces = [subject.stand.force(rise, slide) for *slide, rise in motion.ON_GROUND.values()]
+        weight = np.array([0, 0, subject.solved[float(Instant.STANDING)].force[2]])
+        times = tuple(map(float, motion.ON_GROUND))
+        compared = Compared(Quantity.GROUND, "robot", "N", FORCE, times, Part.CONTACTS)
+        yield compared, [force - weight for force in forces]
+
+
+def table(pairs: Iterable[Pair], times: Sequence[float]) -> tuple[tuple[Compared, ...], dict[str, tuple[float, ...]]]:
+    """Return what is compared, and the expected numbers at all times, NaN where there is none."""
+    every, numbers = list[Compared](), dict[str, dict[float, float]]()
+    for compared, rows in pairs:
+        every.append(compared)
+        for time, row in zip(compared.instants, rows, strict=True):
+            for value, number in zip(compared.values, row, strict=True):
+                numbers.setdefault(value, {})[time] = float(number)
+    series = {value: tuple(own.get(time, math.nan) for time in times) for value, own in numbers.items()}
+    return tuple(every), {"time": tuple(times), **series}
