@@ -197,8 +197,8 @@ def base(random: Random, text: str) -> str:
 def removed(random: Random, text: str) -> str:
     """A connector that the benches use, taken away with its connection."""
     name = random.choice(("elbowAxis", "elbowSupport"))
-    without = re.sub(rf"  Modelica\.Mechanics\.Rotational\.Interfaces\.Flange_\w {name}\n.*\n.*;\n\n", "", text)
-    return re.sub(rf"  connect\(elbow\.\w+, {name}\)\n.*;\n", "", without)
+    without = re.sub(rf"  Modelica\.Mechanics\.Rotational\.Interfaces\.Flange_\w {name}\n(?:.+\n)+\n", "", text)
+    return re.sub(rf"  connect\(elbow\.\w+, {name}\)\n(?:.*[^;]\n)*.*;\n", "", without)
 
 
 WRONG: Mapping[str, Callable[[Random, str], str]] = {
