@@ -88,7 +88,8 @@ def test_commands_install_what_there_is() -> None:
 
 
 @pytest.mark.parametrize(
-    ("command", "page"), [("watch", "watch"), ("check", "checking"), ("simulate", "simulate"), ("fmu", "fmu")]
+    ("command", "page"),
+    [("watch", "watch"), ("check", "checking"), ("simulate", "simulate"), ("fmu", "fmu"), ("report", "report")],
 )
 def test_every_option_is_documented(command: str, page: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert cli.main([command, "--help"]) == 0

@@ -23,7 +23,7 @@ from urdfsync.output.console import Console, Format
 from urdfsync.spelling import nearest
 
 _COMMANDS = (
-    "init add remove adopt build diff status watch check simulate fmu resolve record hook merge-driver library "
+    "init add remove adopt build diff report status watch check simulate fmu resolve record hook merge-driver library "
     "schema completion"
 ).split()
 """In the order of the help. Each is a module of `commands`, loaded if it may be the one."""

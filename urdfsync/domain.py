@@ -15,6 +15,7 @@ from typing import Any, NamedTuple, Protocol, TypeAlias
 import msgspec
 
 from urdfsync.diagnostics import Diagnostic
+from urdfsync.scene import Meshes, Scene
 
 Snapshot: TypeAlias = Mapping[str, Any]
 """A model as plain data: mappings with string keys, lists, strings, numbers, booleans, None.
@@ -556,6 +557,14 @@ class Domain(Protocol):
     def drawing(self, snapshot: Snapshot, imports: Mapping[str, Import], target: Target, options: Any) -> str | None:
         """Return the main model's diagram as SVG text, or None if the domain draws none. Pure."""
         return None
+
+    def scene(self, snapshot: Snapshot, imports: Mapping[str, Import], target: Target, options: Any) -> Scene | None:
+        """Return the model as a picture with axes to move, or None if the domain has none. Pure."""
+        return None
+
+    def triangles(self, contents: Mapping[str, bytes]) -> tuple[Meshes, Mapping[str, str]]:
+        """Return the meshes of imported files by their paths, large ones simplified, and why others have none."""
+        return {}, {}
 
     def models(self, snapshot: Snapshot, target: Target, options: Any) -> Sequence[str]:
         """Return the classes that have to compile by themselves, by name below the package, the main one first."""

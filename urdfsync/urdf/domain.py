@@ -23,6 +23,7 @@ from urdfsync.domain import (
     Snapshot,
     Target,
 )
+from urdfsync.scene import Meshes, Scene
 from urdfsync.urdf import artifacts as package
 from urdfsync.urdf import option_names
 from urdfsync.urdf.benches import bench
@@ -166,6 +167,18 @@ class UrdfDomain(Domain):
         from urdfsync.urdf.diagram.drawing import draw
 
         return draw(from_snapshot(snapshot), target, options) if "package" in options.approach else None
+
+    def scene(self, snapshot: Snapshot, imports: Mapping[str, Import], target: Target, options: Options) -> Scene:
+        """Return the shapes of visuals and collisions, the masses, and the axes of joints."""
+        from urdfsync.urdf.scene import scene  # with numpy, which no build needs
+
+        return scene(from_snapshot(snapshot), imports, target, options)
+
+    def triangles(self, contents: Mapping[str, bytes]) -> tuple[Meshes, Mapping[str, str]]:
+        """Return the triangles of imported meshes, with shared corners."""
+        from urdfsync.urdf.meshes.simplify import simplified  # likewise
+
+        return simplified(contents)
 
     def models(self, snapshot: Snapshot, target: Target, options: Options) -> Sequence[str]:
         """Return the robot, its benches, and the record if there is no robot."""

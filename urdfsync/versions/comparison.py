@@ -9,7 +9,7 @@ from __future__ import annotations
 import contextlib
 import os
 import tempfile
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -55,6 +55,8 @@ class Comparison(msgspec.Struct, frozen=True):
     """Why there is no older version to compare with; empty if there is one."""
     effects: tuple[Effect, ...] = ()
     """Properties of the model as a whole that the changes concern."""
+    versions: tuple[tuple[Version, Mapping[str, bytes]], ...] = ()
+    """The older version and the new one, each with its imported files by path; none of a last build, or an error."""
 
     @property
     def change_class(self) -> ChangeClass:
@@ -189,14 +191,15 @@ def _with_version(
             text = source_files.read_file_source(source, arguments, folders)
         current = _VersionedSource(text, (source,))
         new, imported, told = _read(domain, robot, current, imports.Imported(), options)
-        old, _, told_before = _read(domain, robot, other, imported, options)
+        old, imported_before, told_before = _read(domain, robot, other, imported, options)
     before = {(finding.code, finding.message) for finding in told_before}
     new_findings = tuple(finding for finding in told if (finding.code, finding.message) not in before)
     result = msgspec.structs.replace(result, diagnostics=robot.without_ignored(new_findings))
     renames = find_renames(domain, old.snapshot, new.snapshot, robot.renamed)
     differences = changes.compare(old, new, domain, robot.options, renames)
+    versions = (old, imported_before.contents), (new, imported.contents)
     if not differences.changes:
-        return Comparison(result, shown(robot.source), against)
+        return Comparison(result, shown(robot.source), against, versions=versions)
     templates = source_files.templates(config, robot, domain) if config else source_files.domain_templates(domain)
     packages = [
         generate(domain, version.snapshot, version.imports or {}, robot.target, robot.options, templates)
@@ -212,7 +215,8 @@ def _with_version(
         place = Path(os.path.relpath(result.folder / path, result.root)).as_posix()
         actions.append(Action(place, kind, role, owner))
     result = msgspec.structs.replace(result, actions=Actions(actions), changes=differences)
-    return Comparison(result, shown(robot.source), against, effects=_effects(domain, old, new, differences, robot))
+    effects = _effects(domain, old, new, differences, robot)
+    return Comparison(result, shown(robot.source), against, effects=effects, versions=versions)
 
 
 def _in_revision(revision: Revision, robot: RobotConfig, config: Config | None) -> Source:

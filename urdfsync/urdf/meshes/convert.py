@@ -8,7 +8,7 @@ from pathlib import Path
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.domain import Conversion, Dependency
 from urdfsync.urdf.meshes import lookup
-from urdfsync.urdf.meshes.process import MeshError, MeshProcess, Request
+from urdfsync.urdf.meshes.process import MeshError, MeshProcess, Request, is_binary_stl
 
 _FORMATS = (".dae", ".glb", ".gltf", ".obj", ".off", ".ply", ".stl")
 
@@ -43,3 +43,10 @@ def convert(dependency: Dependency, file: Path, content: bytes, others: Mapping[
     is_split = colors == lookup.PARTS and parts
     more = tuple(Conversion(part, its_facts) for part, its_facts in parts)
     return Conversion(content if lookup.as_is(mesh) and not is_split else whole, facts, more)
+
+
+def as_stl(suffix: str, content: bytes) -> bytes:
+    """Return an imported mesh as binary STL. Raises MeshError."""
+    if suffix == ".stl" and is_binary_stl(content):
+        return content
+    return _process.read(Request(suffix, with_hull=False), content)[0][0]

@@ -100,6 +100,12 @@ def binary_stl(mesh: Triangles) -> bytes:
     return b"".join((_HEADER, struct.pack("<I", len(facets)), facets.view(np.uint8).data))
 
 
+def stl_corners(content: bytes) -> npt.NDArray[np.float32]:
+    """Return the corners (n × 3 × 3) of the triangles of a binary STL file; those that are no numbers are left out."""
+    corners = np.frombuffer(content, dtype=_FACET, offset=len(_HEADER) + 4)["corners"]
+    return corners[np.isfinite(corners).all(axis=(1, 2))]
+
+
 def obj(mesh: Triangles) -> bytes:
     """Return triangles as the text of an OBJ file."""
     used, faces = np.unique(mesh.faces, return_inverse=True)

@@ -32,6 +32,10 @@ Facts: TypeAlias = dict[str, Any]
 """Facts of a shape by their names: see `convert`."""
 
 
+_STL_COUNT = slice(80, 84)
+_STL_FACET = 50
+
+
 class MeshError(Exception):
     """A mesh that can't be used; the text is the second half of `the mesh … can't be read: it …`."""
 
@@ -63,6 +67,11 @@ class Answer(msgspec.Struct, frozen=True):
     """Why the file is no mesh; empty if it is one."""
     is_last: bool = False
     """Whether the process has grown, so that the next mesh would not have all the memory that it may have."""
+
+
+def is_binary_stl(content: bytes) -> bool:
+    """Return whether an STL file is a binary one; some of these begin with `solid`, as texts do."""
+    return len(content) == _STL_COUNT.stop + _STL_FACET * int.from_bytes(content[_STL_COUNT], "little")
 
 
 class MeshProcess:

@@ -17,7 +17,7 @@ from urdfsync.diagnostics import cut
 from urdfsync.urdf.meshes.collada import collada_parts
 from urdfsync.urdf.meshes.geometry import Triangles, joined, placed
 from urdfsync.urdf.meshes.materials import Color, library_colors, number_materials
-from urdfsync.urdf.meshes.process import MeshError
+from urdfsync.urdf.meshes.process import MeshError, is_binary_stl
 
 _COMPRESSIONS = (b"KHR_draco_mesh_compression", b"EXT_meshopt_compression")
 _FACES = {
@@ -25,8 +25,6 @@ _FACES = {
     ".ply": re.compile(rb"^element[ \t]+face[ \t]+(\d+)", re.MULTILINE),
 }
 """The number of faces that a file announces, by its suffix."""
-_STL_COUNT = slice(80, 84)
-_STL_FACET = 50
 _MOST_COLORS = 20
 """Most colours of one mesh, since each becomes a shape. Triangles of further colours are drawn in grey."""
 _LONGEST, _NAMES = 60, 3
@@ -148,8 +146,8 @@ def _one_solid(content: bytes) -> bytes:
 
     Names of solids go, since they may be any words, `vertex` as well.
     """
-    if len(content) == _STL_COUNT.stop + _STL_FACET * int.from_bytes(content[_STL_COUNT], "little"):
-        return content  # some of these begin with `solid`, too
+    if is_binary_stl(content):
+        return content
     if not content.rstrip().rpartition(b"\n")[2].lstrip().lower().startswith(b"endsolid"):
         raise MeshError("its end is missing")
     return b"solid\n" + _SOLID_LINE.sub(b"", content) + b"\nendsolid\n"

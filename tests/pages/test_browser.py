@@ -1,0 +1,180 @@
+"""Pages in a real Chromium: drawn, moved as Pinocchio says, with one selection everywhere; they run nothing else."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from pathlib import Path
+from xml.sax.saxutils import quoteattr
+
+import numpy as np
+import pytest
+from support.browser import NEEDS_CHROMIUM, Page
+
+from urdfsync import cli
+
+pytestmark = [NEEDS_CHROMIUM, pytest.mark.slow]
+Report = Callable[..., Path]
+READY = "page.ready.then(() => true)"
+PAINTED = "page.now.bodies.get({!r}).layers.visual[0].material.{}.getHex()"
+
+
+def opened(chromium: Page, file: Path, **options: object) -> Page:
+    chromium.problems.clear()
+    chromium.open(file, ready=READY, **options)  # type: ignore[arg-type]
+    assert chromium.run("element('trouble').hidden"), chromium.run("element('trouble').textContent")
+    return chromium
+
+
+def replace(file: Path, old: str, new: str) -> None:
+    text = file.read_text("utf-8")
+    assert old in text
+    file.write_text(text.replace(old, new, 1), "utf-8")
+
+
+def test_sliders_move_the_arm_as_pinocchio_does(arm: Path, report: Report, chromium: Page) -> None:
+    pinocchio = pytest.importorskip("pinocchio")
+    page = opened(chromium, report())
+    # the last digit of a slider is its own: what it says is what counts
+    said = page.run(
+        """(() => {
+          const wanted = { turret: 0.7, shoulder: -0.4, elbow: -1.1, forearm_roll: 2, wrist_pitch: 0.9 };
+          wanted.gripper_stroke = 0.02;
+          for (const [name, position] of Object.entries(wanted)) {
+            const slider = document.querySelector(`[data-axis="joint ${name}"] input[type=range]`);
+            slider.value = position;
+            slider.dispatchEvent(new Event("input"));
+          }
+          return Object.fromEntries(page.positions);
+        })()"""
+    )
+    model = pinocchio.buildModelFromUrdf(str(arm))
+    positions = pinocchio.neutral(model)
+    for joint, name in enumerate(model.names):
+        if joint and f"joint {name}" in said:
+            positions[model.joints[joint].idx_q] = said[f"joint {name}"]
+    assert math.isclose(said["joint finger_coupling"], said["joint gripper_stroke"], abs_tol=1e-12)  # a follower
+    placed = model.createData()
+    pinocchio.framesForwardKinematics(model, placed, positions)
+    links = page.run("data.now.bodies.map((body) => body.element)")
+    assert len(links) > 10
+    for element in links:
+        pose = np.array(page.run(f"page.pose({element!r})")).reshape(4, 4).T
+        expected = placed.oMf[model.getFrameId(element.removeprefix("link "))].homogeneous
+        assert np.abs(pose - expected).max() < 1e-6, element
+    assert page.problems == []
+
+
+def test_a_click_selects_in_picture_tree_diagram_and_details(arm: Path, report: Report, chromium: Page) -> None:
+    page = opened(chromium, report())
+    glow = PAINTED.format("link forearm", "emissive")
+    assert page.run(glow) == 0
+    page.run("element('tab-tree').click(), document.querySelector('[data-link=\"link forearm\"]').click()")
+    assert page.run(glow) != 0
+    assert page.run("document.querySelector('[aria-selected=true][data-link]').dataset.link") == "link forearm"
+    marked = "element('drawing').shadowRoot.querySelector('[data-selected]')?.dataset.selected"
+    assert page.run(marked) == "link forearm"
+    details = page.run("element('details').textContent")
+    assert "4.2 kg" in details
+    assert "Links/Forearm.mo" in details
+    page.run("select(null)")
+    assert page.run(glow) == 0
+    # a click into the picture, where the link is drawn
+    place = page.run(
+        """(() => {
+          const box = new THREE.Box3().setFromObject(page.now.bodies.get("link upper_arm").layers.visual[0]);
+          const spot = box.getCenter(new THREE.Vector3()).project(stage.orbit.camera);
+          const view = element("view").getBoundingClientRect();
+          return [view.left + (spot.x + 1) / 2 * view.width, view.top + (1 - spot.y) / 2 * view.height];
+        })()"""
+    )
+    page.click(*place)
+    assert page.run("page.selected") == "link upper_arm"
+    page.run(
+        "element('drawing').shadowRoot.querySelectorAll('g > title').forEach((title) => {"
+        " if (title.textContent === 'elbow') title.parentNode.dispatchEvent(new MouseEvent('click')); })"
+    )
+    assert page.run("page.selected") == "joint elbow"
+    assert page.problems == []
+
+
+def test_changed_links_have_the_colour_and_the_old_robot_is_there(arm: Path, report: Report, chromium: Page) -> None:
+    assert cli.main(["build", "--quiet"]) == 0
+    replace(arm, '<mass value="4.2"/>', '<mass value="5"/>')
+    replace(arm, '<origin xyz="0 0 0.44"/>', '<origin xyz="0 0 0.5"/>')
+    page = opened(chromium, report())
+    color = PAINTED.format("link forearm", "color")
+    assert page.run(color) == page.run("themeColor('changed').getHex()")
+    assert page.run("[page.now, page.before].map((view) => view.root.visible)") == [True, True]
+    # the base is where it was, what hangs on the elbow is not
+    shown = "page.before.bodies.get({!r}).layers.visual[0].visible"
+    assert [page.run(shown.format(name)) for name in ("link base_link", "link forearm")] == [False, True]
+    heights = page.run("[page.now, page.before].map((view) => view.pose('link forearm')[14])")
+    assert math.isclose(heights[0] - heights[1], 0.06, abs_tol=1e-12)
+    page.run("chooseVersion('now')")
+    assert page.run(color) == page.run("page.now.bodies.get('link forearm').layers.visual[0].userData.color.getHex()")
+    assert page.run("page.before.root.visible") is False
+    assert page.problems == []
+
+
+SCRIPT = "</script><script>alert(1)</script><img src=x onerror=\"alert(2)\"> 'quoted' & <!-- `"
+
+
+def test_names_with_scripts_are_shown_and_run_nothing(report: Report, chromium: Page) -> None:
+    name = quoteattr(SCRIPT)
+    urdf = f"""<robot name={name}><link name={name}>
+      <visual name={name}><geometry><box size="1 1 1"/></geometry></visual></link>
+      <link name="tip"/><joint name={name} type="revolute"><parent link={name}/><child link="tip"/>
+      <limit lower="-1" upper="1" effort="1" velocity="1"/></joint></robot>"""
+    page = opened(chromium, report(urdf))
+    shown = page.run("document.querySelector('[data-link]').textContent")
+    assert shown == SCRIPT
+    page.run("select(data.now.bodies[0].element), select(data.now.hinges[0].element)")
+    assert page.run("document.scripts.length") == page.run("document.querySelectorAll('body > script').length")
+    assert page.run("document.querySelectorAll('img').length") == 0
+    assert page.problems == []
+
+
+def test_the_policy_forbids_other_scripts_and_eval(report: Report, chromium: Page) -> None:
+    page = opened(chromium, report('<robot name="still"><link name="only"/></robot>'))
+    page.run("document.body.append(Object.assign(document.createElement('script'), {textContent: 'window.ran = 1'}))")
+    assert page.run("typeof window.ran") == "undefined"
+    assert (
+        page.run(
+            "(() => { const it = document.createElement('div'); it.setAttribute('onclick', 'window.ran = 1');"
+            " it.click(); return typeof window.ran; })()"
+        )
+        == "undefined"
+    )
+    assert page.run("fetch('http://127.0.0.1:9/').then(() => 'sent', () => 'refused')") == "refused"
+    assert any("Content Security Policy" in problem for problem in page.problems)
+    assert page.run("document.querySelector('meta[http-equiv]').content").count("unsafe") == 0
+
+
+def test_a_robot_that_does_not_move_and_has_no_shape(report: Report, chromium: Page) -> None:
+    page = opened(chromium, report('<robot name="still"><link name="only"/></robot>'))
+    assert page.run("element('axes').textContent") == "This robot has no axis that moves by itself."
+    assert page.problems == []
+
+
+@pytest.mark.parametrize("dark", [False, True])
+def test_a_narrow_window_needs_no_sideways_scrolling(arm: Path, report: Report, chromium: Page, dark: bool) -> None:
+    page = opened(chromium, report(), width=400, dark=dark)
+    assert page.run("document.documentElement.scrollWidth") == 400
+    assert page.run("document.documentElement.dataset.theme") == ("dark" if dark else "light")
+    assert page.problems == []
+
+
+def test_keys_do_what_buttons_do(arm: Path, report: Report, chromium: Page) -> None:
+    page = opened(chromium, report())
+    press = "document.body.dispatchEvent(new KeyboardEvent('keydown', {{key: {!r}, bubbles: true}}))"
+    page.run(press.format("c"))
+    assert page.run("element('switch-collision').getAttribute('aria-pressed')") == "true"
+    assert page.run("page.now.bodies.get('link forearm').layers.collision[0].visible") is True
+    page.run("move('joint elbow', -1)")
+    page.run(press.format("r"))
+    assert page.run("page.positions.get('joint elbow')") == 0
+    page.run("select('link forearm')")
+    page.run(press.format("Escape"))
+    assert page.run("page.selected") is None
+    assert page.problems == []

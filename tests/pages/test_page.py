@@ -1,0 +1,185 @@
+"""The page as text: one file, whose policy names its scripts, and in which no text of a source is markup."""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+import json
+import re
+import shutil
+import subprocess
+from collections.abc import Callable
+from html.parser import HTMLParser
+from pathlib import Path
+from xml.sax.saxutils import quoteattr
+
+import pytest
+from support.commands import Execute
+from support.git import NEEDS_GIT, Repository
+
+from urdfsync import cli
+from urdfsync.engine.result import Exit
+from urdfsync.pages import page as page_module
+from urdfsync.pages.page import SCRIPTS
+
+Report = Callable[..., Path]
+STILL = '<robot name="still"><link name="only"/></robot>'
+
+
+class _Elements(HTMLParser):
+    """The start tags of a page, and the texts of its scripts and styles."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.tags: list[tuple[str, dict[str, str | None]]] = []
+        self.raw: list[tuple[str, dict[str, str | None], str]] = []
+        self.words = ""
+        self._open: tuple[str, dict[str, str | None]] | None = None
+        self.feed(text)
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.tags.append((tag, dict(attrs)))
+        self._open = (tag, dict(attrs)) if tag in ("script", "style") else None
+
+    def handle_data(self, data: str) -> None:
+        if self._open:
+            self.raw.append((*self._open, data))
+        else:
+            self.words += data
+
+    def handle_endtag(self, tag: str) -> None:
+        self._open = None
+
+
+def read(file: Path) -> _Elements:
+    return _Elements(file.read_text("utf-8"))
+
+
+def data_of(page: _Elements) -> dict[str, object]:
+    (text,) = (text for _, attributes, text in page.raw if attributes.get("id") == "data")
+    values: dict[str, object] = json.loads(text)
+    return values
+
+
+def test_the_policy_has_the_hash_of_each_script_and_style(arm: Path, report: Report) -> None:
+    page = read(report())
+    (policy,) = (each["content"] for tag, each in page.tags if each.get("http-equiv") == "Content-Security-Policy")
+    assert policy is not None
+    assert policy.startswith("default-src 'none'; script-src 'sha256-")
+    assert "unsafe" not in policy
+    run = [text for tag, attributes, text in page.raw if tag == "style" or "type" not in attributes]
+    assert len(run) == 2 + len(SCRIPTS)  # the style, three.js, and ours
+    for text in run:
+        assert base64.b64encode(hashlib.sha256(text.encode()).digest()).decode() in policy
+    assert not [tag for tag, attributes in page.tags if {"src", "style", "onclick", "onload"} & attributes.keys()]
+    assert not [each for tag, each in page.tags if tag == "a" and not str(each.get("href")).startswith("#")]
+
+
+def test_names_are_no_markup_wherever_they_stand(report: Report) -> None:
+    name = "</script><script>alert(1)</script><!-- \"'&"
+    urdf = f"<robot name={quoteattr(name)}><link name={quoteattr(name)}/></robot>"
+    plain, page = read(report(STILL)), read(report(urdf))
+    assert [tag for tag, _ in page.tags] == [tag for tag, _ in plain.tags]
+    now = data_of(page)["now"]
+    assert isinstance(now, dict)
+    assert now["bodies"][0]["element"] == f"link {name}"
+
+
+def test_the_page_names_the_licence_of_three_js_and_what_wrote_it(report: Report) -> None:
+    page = read(report(STILL))
+    assert re.search(r"three\.js r\d+ \(Copyright .*; SPDX-License-Identifier: MIT\)", page.words)
+    assert any(
+        str(each.get("content")).startswith("urdfsync ") for _, each in page.tags if each.get("name") == "generator"
+    )
+
+
+def test_the_six_axis_arm_has_less_than_3_mb(arm: Path, report: Report) -> None:
+    assert report().stat().st_size < 3_000_000
+
+
+def test_changes_edits_and_conflicts_are_told(arm: Path, report: Report) -> None:
+    cli.main(["build", "--quiet"])
+    numbers, wrist = Path("modelica/Arm/Links/ForearmParameters.mo"), Path("modelica/Arm/Links/Wrist.mo")
+    numbers.write_text(numbers.read_text().replace("4.2", "4.35"))
+    wrist.write_text(wrist.read_text().replace("equation\n", "  parameter Real mine = 3;\nequation\n", 1))
+    arm.write_text(arm.read_text().replace('<mass value="4.2"/>', '<mass value="5.1"/>'))
+    page = read(report())
+    words = " ".join(page.words.split())
+    assert re.search(r"inertial / mass ?4\.2 → 5\.1 kg ?\+21\.4 %", words)
+    assert "you edited it, and its generated text changed too" in words
+    assert "+ parameter Real mine = 3;" in words
+    assert "- mass = 4.2," in words
+    values = data_of(page)
+    assert values["statuses"] == {"link forearm": "changed"}
+    assert values["changes"] == {"link forearm": ["inertial / mass 4.2 → 5.1 kg (+21.4 %)"]}
+    assert values["before"] is not None
+
+
+def test_nothing_changed_has_no_older_version(arm: Path, report: Report) -> None:
+    cli.main(["build", "--quiet"])
+    page = read(report())
+    assert data_of(page)["before"] is None
+    assert "nothing changed since the last build" in page.words
+
+
+@NEEDS_GIT
+def test_a_revision_is_the_older_version(arm: Path, report: Report, monkeypatch: pytest.MonkeyPatch) -> None:
+    repository = Repository(arm.parent, monkeypatch)
+    repository.commit("first")
+    arm.write_text(
+        arm.read_text()
+        .replace('<link name="grasp_point"', '<link name="grip"')
+        .replace('link="grasp_point"', 'link="grip"')
+        .replace('reference="grasp_point"', 'reference="grip"')
+    )
+    values = data_of(read(report("", "--against", "HEAD")))
+    assert values["renamed"] == {"link grasp_point": "link grip"}
+    assert values["statuses"] == {"link grip": "renamed"}
+    assert values["against"] == "HEAD"
+
+
+def test_a_mesh_that_is_missing_is_named(arm: Path, report: Report) -> None:
+    Path("meshes/forearm_tube.stl").unlink()
+    page = read(report())
+    assert "link forearm, visual 1: mesh" in page.words
+    assert "is not in the package" in page.words
+
+
+def test_a_large_mesh_is_simplified_and_the_page_says_so(
+    arm: Path, report: Report, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("urdfsync.urdf.meshes.simplify._MOST", 200)
+    page = read(report())
+    assert re.search(
+        r"Resources/\S*\.(stl|obj) is simplified for this page: \d+ of its [\d,]+ triangles are left", page.words
+    )
+
+
+def test_the_page_is_where_it_is_wanted_and_replaces_nothing_else(arm: Path, execute: Execute) -> None:
+    assert "page: arm.html" in execute("report").out
+    assert execute("report", "--json").json["robots"][0]["bytes"] == Path("arm.html").stat().st_size
+    Path("arm.html").write_text("<p>mine</p>")
+    assert "urdfsync did not write it" in execute("report", code=Exit.ERROR).err
+    assert Path("arm.html").read_text() == "<p>mine</p>"
+    assert "a page's name ends with .html" in execute("report", "--output", "arm.urdf", code=Exit.ERROR).err
+    assert "there is no such folder" in execute("report", "--output", "none/arm.html", code=Exit.ERROR).err
+
+
+def test_a_source_that_can_not_be_read_writes_no_page(arm: Path, execute: Execute) -> None:
+    arm.write_text("<robot>")
+    assert "error" in execute("report", code=Exit.ERROR).err
+    assert not Path("arm.html").exists()
+
+
+def test_a_domain_without_a_picture_says_so(project: Path, execute: Execute) -> None:
+    assert "have no picture" in execute("report", code=Exit.ERROR).err
+
+
+@pytest.mark.skipif(not shutil.which("node"), reason="no node to look at the scripts with")
+def test_the_scripts_are_sound(tmp_path: Path) -> None:
+    folder = Path(page_module.__file__).parent
+    assert {file.name for file in folder.glob("*.js")} == set(SCRIPTS)
+    for name in SCRIPTS:
+        checked = subprocess.run(["node", "--check", folder / name], capture_output=True, text=True, check=False)
+        assert checked.returncode == 0, checked.stderr
+        assert (folder / name).read_text("utf-8").startswith('"use strict";\n')

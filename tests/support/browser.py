@@ -1,0 +1,154 @@
+"""A real browser that tests look at pages with: Chromium, without a window, spoken to through a pipe.
+
+It draws by a software renderer, so that no graphics card is needed. `URDFSYNC_CHROMIUM` names its program.
+"""
+
+from __future__ import annotations
+
+import base64
+import contextlib
+import json
+import os
+import shutil
+import subprocess
+import tempfile
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+_PROGRAMS = ("chromium-headless-shell", "chromium", "chromium-browser", "google-chrome", "chrome")
+PROGRAM = os.environ.get("URDFSYNC_CHROMIUM") or next(filter(None, map(shutil.which, _PROGRAMS)), "")
+NEEDS_CHROMIUM = pytest.mark.skipif(
+    not PROGRAM or os.name == "nt", reason=f"no Chromium: none of {', '.join(_PROGRAMS)}; URDFSYNC_CHROMIUM names one"
+)
+_FLAGS = (
+    "--headless",
+    "--remote-debugging-pipe",
+    "--no-sandbox",  # containers of CI allow none
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+    "--ignore-gpu-blocklist",
+    "--disable-dev-shm-usage",
+    "--no-first-run",
+    "--disable-extensions",
+    "--disable-background-networking",
+    "--hide-scrollbars",
+)
+_PATIENCE = 180.0
+"""Seconds for an answer: the machine may be busy, and a software renderer is slow."""
+
+
+class Page:
+    """One page in the browser. `problems` has the errors that it told, each in words."""
+
+    def __init__(self, requests: int, answers: int) -> None:
+        self._requests, self._answers = requests, answers
+        self._rest, self._number, self._session = b"", 0, ""
+        self.problems: list[str] = []
+        self._seen = set[str]()
+        target = self._call("Target.createTarget", url="about:blank")["targetId"]
+        self._session = self._call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
+        for domain in ("Page", "Runtime", "Log"):
+            self._call(f"{domain}.enable")
+
+    def open(self, file: Path, *, width: int = 1280, height: int = 900, dark: bool = False, ready: str = "") -> None:
+        """Open a file in a window of this size, and wait for the promise `ready` of the page."""
+        metrics = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False}
+        self._call("Emulation.setDeviceMetricsOverride", **metrics)
+        feature = {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}
+        self._call("Emulation.setEmulatedMedia", features=[feature])
+        self._seen.discard("Page.loadEventFired")
+        self._call("Page.navigate", url=file.resolve().as_uri())
+        while "Page.loadEventFired" not in self._seen:
+            self._read()
+        if ready:
+            self.run(ready)
+
+    def run(self, expression: str) -> Any:
+        """Return the value of an expression of JavaScript, or of its promise."""
+        answer = self._call("Runtime.evaluate", expression=expression, returnByValue=True, awaitPromise=True)
+        if "exceptionDetails" in answer:
+            raise AssertionError(f"{expression}: {_words(answer['exceptionDetails'])}")
+        return answer["result"].get("value")
+
+    def click(self, x: float, y: float) -> None:
+        """Press and release the mouse at a place of the window."""
+        for kind in ("mousePressed", "mouseReleased"):
+            self._call("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", clickCount=1)
+
+    def picture(self, file: Path, *, whole: bool = False) -> None:
+        """Save what is to be seen as PNG."""
+        answer = self._call("Page.captureScreenshot", format="png", captureBeyondViewport=whole)
+        file.write_bytes(base64.b64decode(answer["data"]))
+
+    def _call(self, method: str, **parameters: Any) -> dict[str, Any]:
+        self._number += 1
+        message = {"id": self._number, "method": method, "params": parameters}
+        message |= {"sessionId": self._session} if self._session else {}
+        os.write(self._requests, json.dumps(message).encode() + b"\0")
+        while True:
+            answer = self._read()
+            if answer.get("id") == self._number:
+                if "error" in answer:
+                    raise AssertionError(f"{method}: {answer['error']}")
+                result: dict[str, Any] = answer["result"]
+                return result
+
+    def _read(self) -> dict[str, Any]:
+        """Return the next message; errors that the page tells are noted."""
+        end = time.monotonic() + _PATIENCE
+        while b"\0" not in self._rest:
+            piece = os.read(self._answers, 1 << 20)
+            if not piece or time.monotonic() > end:
+                raise AssertionError("the browser has ended, or does not answer")
+            self._rest += piece
+        text, _, self._rest = self._rest.partition(b"\0")
+        message: dict[str, Any] = json.loads(text)
+        kind, parameters = message.get("method", ""), message.get("params", {})
+        self._seen.add(kind)
+        if kind == "Runtime.exceptionThrown":
+            self.problems.append(_words(parameters["exceptionDetails"]))
+        elif kind == "Runtime.consoleAPICalled" and parameters["type"] in ("error", "warning", "assert"):
+            self.problems.append(" ".join(str(each.get("value")) for each in parameters["args"]))
+        elif kind == "Log.entryAdded" and parameters["entry"]["level"] in ("error", "warning"):
+            self.problems.append(parameters["entry"]["text"])
+        elif kind == "Page.javascriptDialogOpening":
+            self.problems.append(f"a dialog: {parameters['message']}")
+        return message
+
+
+def _words(details: dict[str, Any]) -> str:
+    return str(details.get("exception", {}).get("description") or details.get("text"))
+
+
+@contextlib.contextmanager
+def browser() -> Iterator[Page]:
+    """A page of a browser that ends with the block."""
+    to_browser, from_us = os.pipe()
+    from_browser, to_us = os.pipe()
+
+    def set_pipes() -> None:  # the browser reads from 3, and writes to 4
+        first, second = (os.dup(number) for number in (to_browser, to_us))
+        os.dup2(first, 3)
+        os.dup2(second, 4)
+
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
+        process = subprocess.Popen(
+            [PROGRAM, *_FLAGS, f"--user-data-dir={profile}"],
+            preexec_fn=set_pipes,
+            pass_fds=(3, 4),
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
+        try:
+            os.close(to_browser)
+            os.close(to_us)
+            yield Page(from_us, from_browser)
+        finally:
+            process.kill()
+            process.wait()
+            os.close(from_us)
+            os.close(from_browser)

@@ -1,0 +1,114 @@
+"""Robots as pictures: shapes with their colours, frames, masses and axes."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from support.robots import tree
+
+from urdfsync.domain import Target
+from urdfsync.scene import Scene
+from urdfsync.urdf.options import Options
+from urdfsync.urdf.robot import (
+    Box,
+    Capsule,
+    Collision,
+    Cylinder,
+    Inertia,
+    Inertial,
+    Joint,
+    Limit,
+    Link,
+    Material,
+    Mesh,
+    Mimic,
+    Origin,
+    Robot,
+    Sphere,
+    Visual,
+)
+from urdfsync.urdf.scene import scene
+
+
+def picture(*links: Link, joints: tuple[Joint, ...] = ()) -> Scene:
+    return scene(Robot("bot", links, joints), {}, Target("Bot", "Bot"), Options())
+
+
+def test_shapes_have_their_sizes_places_and_colours() -> None:
+    red = Material("red", (1.0, 0.0, 0.0, 0.5))
+    link = Link(
+        "base",
+        visuals=(
+            Visual(Box((1.0, 2.0, 3.0)), Origin((4.0, 5.0, 6.0), (0.0, 0.0, math.pi / 2)), material=red),
+            Visual(Sphere(0.5)),
+        ),
+        collisions=(Collision(Cylinder(0.1, 0.2)), Collision(Capsule(0.3, 0.4))),
+    )
+    box, sphere, cylinder, capsule = picture(link).bodies[0].shapes
+    assert (box.kind, box.form, box.size, box.color) == ("visual", "box", (1.0, 2.0, 3.0), (1.0, 0.0, 0.0, 0.5))
+    assert box.pose == pytest.approx((0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 4, 5, 6, 1))
+    assert (sphere.form, sphere.size[0]) == ("sphere", 0.5)
+    assert (cylinder.kind, cylinder.form, cylinder.size) == ("collision", "cylinder", (0.1, 0.2))
+    assert (capsule.form, capsule.size) == ("capsule", (0.3, 0.4))
+
+
+def test_collisions_are_shown_whatever_the_package_has() -> None:
+    robot = Robot("bot", (Link("base", collisions=(Collision(Sphere(1.0)),)),))
+    shown = scene(robot, {}, Target("Bot", "Bot"), Options(collisions=False))
+    assert len(shown.bodies[0].shapes) == 1
+
+
+def test_a_mesh_that_is_not_imported_is_missing() -> None:
+    shown = picture(Link("base", visuals=(Visual(Mesh("a.stl")),)))
+    assert shown.bodies[0].shapes == ()
+    assert shown.missing == ("link base, visual 1: mesh `a.stl` is not in the package",)
+
+
+def test_the_inertia_box_is_the_body_with_this_inertia() -> None:
+    x, y, z, mass = 0.2, 0.4, 0.6, 3.0
+    i = Inertia(mass / 12 * (y * y + z * z), 0, 0, mass / 12 * (x * x + z * z), 0, mass / 12 * (x * x + y * y))
+    (body,) = picture(Link("base", Inertial(mass, Origin((1.0, 2.0, 3.0)), i))).bodies
+    assert sorted(body.box) == pytest.approx([x, y, z])
+    assert body.inertia is not None
+    axes = np.array(body.inertia).reshape(4, 4).T
+    assert np.linalg.det(axes[:3, :3]) == pytest.approx(1)
+    assert axes[:3, 3] == pytest.approx([1, 2, 3])
+    edges = np.abs(axes[:3, :3] @ np.array(body.box))
+    assert edges == pytest.approx([x, y, z])
+
+
+@pytest.mark.parametrize(
+    "inertial", [None, Inertial(0.0), Inertial(1.0), Inertial(1.0, inertia=Inertia(ixx=1.0, iyy=1.0, izz=9.0))]
+)
+def test_an_inertia_of_no_body_has_no_box(inertial: Inertial | None) -> None:
+    (body,) = picture(Link("base", inertial)).bodies
+    assert body.box == ()
+    assert (body.inertia is None) == (inertial is None or inertial.mass == 0)
+
+
+def test_axes_have_limits_starts_and_leaders_which_come_first() -> None:
+    limit = Limit(0.5, 1.0, 2.0, 3.0)
+    joints = (
+        Joint("a", "revolute", "one", "two", limit=limit, mimic=Mimic("b", 2.0, 0.1)),
+        Joint("b", "continuous", "two", "three", axis=(0.0, 0.0, 1.0)),
+        Joint("c", "floating", "three", "four"),
+    )
+    shown = picture(*(Link(name) for name in ("one", "two", "three", "four")), joints=joints)
+    by_name = {hinge.element: hinge for hinge in shown.hinges}
+    assert list(by_name) == ["joint b", "joint c", "joint a"]
+    assert (by_name["joint b"].lower, by_name["joint b"].upper) == (None, None)
+    follower = by_name["joint a"]
+    assert (follower.leader, follower.multiplier, follower.offset) == ("joint b", 2.0, 0.1)
+    assert (follower.lower, follower.upper) == (0.5, 1.0)
+    assert follower.start == pytest.approx(2.0 * by_name["joint b"].start + 0.1)
+    assert by_name["joint c"].motion == ""
+    assert ("limit of effort", "2 N·m") in follower.facts
+    assert ("upper", "1 rad (57.3°)") in follower.facts
+
+
+def test_components_are_those_of_the_diagram() -> None:
+    names = tree(Joint("arm", "fixed", "arm", "Arm"))
+    shown = picture(*names.links, joints=names.joints)
+    assert [body.component for body in shown.bodies] == [names.link(link.name).component for link in names.links]

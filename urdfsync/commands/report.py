@@ -1,0 +1,55 @@
+"""`urdfsync report`: writes a page with a robot in 3D, its diagram, and what changed."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from urdfsync.commands import arguments
+from urdfsync.config import working_folder
+from urdfsync.engine.result import Exit
+from urdfsync.files import shown
+from urdfsync.output.console import Console, line
+from urdfsync.pages.content import gather
+from urdfsync.pages.page import is_page, page
+from urdfsync.simulation.files import check_file, input_files, not_writable, write_file
+
+_SUFFIXES = (".html", ".htm")
+
+
+def add(commands: arguments.Commands) -> None:
+    """Add the command's parser."""
+    parser = arguments.add_command(
+        commands,
+        "report",
+        "--robot --wait",
+        help="write a page with a robot in 3D, and what changed",
+        description="Write one HTML file that needs nothing else: the robot in 3D with its axes to move, its tree and "
+        "its diagram, what changed since the last build or another version, your edits and the conflicts.",
+        epilog="examples: urdfsync report arm\n          urdfsync report arm --against HEAD~1 --output review.html",
+    )
+    option = parser.add_argument
+    option("robots", nargs="*", metavar="ROBOT", help="the robot, if there is more than one")
+    option("--against", metavar="VERSION", help="the older version: a file or a git revision (default: the last build)")
+    option("--output", type=Path, metavar="FILE.html", help="where to write it (default: the robot's name, here)")
+
+
+def run(args: argparse.Namespace, console: Console) -> int:
+    """Write the page of one robot, and say where it is."""
+    configuration = arguments.configuration(args)
+    robots = arguments.select_robots(args, configuration, console)
+    robot = configuration.select_one([robot.name for robot in robots], "report")
+    file = args.output or working_folder() / f"{robot.name}.html"
+    if file.suffix.lower() not in _SUFFIXES:
+        raise not_writable(file, "a page's name ends with .html", "name such a file")
+    if args.output is None and (file.is_symlink() or (file.exists() and not is_page(file))):
+        hint = "name a file with `--output`, this one to replace it"
+        raise not_writable(file, "it is there, and urdfsync did not write it", hint)
+    check_file(file, input_files(configuration, robot, None))
+    content = gather(configuration, robot, args.against, arguments.request(args, console), working_folder())
+    text = page(content)
+    write_file(file, text)
+    section, place = content.section, shown(file)
+    console.add_robot({"name": robot.name, "file": place, "bytes": len(text), "summary": section.summary})
+    console.tell([line((robot.name, "bold"), (f": {section.summary}", "")), line((f"  page: {place}", ""))])
+    return console.end(Exit.IN_STEP)

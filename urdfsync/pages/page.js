@@ -1,0 +1,221 @@
+"use strict";
+/* Brings the page to life: picture, switches, keys, and one selection for all parts. */
+
+const data = JSON.parse(document.getElementById("data").textContent);
+const SWITCHES = { visual: ["Visuals", "v"], collision: ["Collisions", "c"], frame: ["Frames", "f"], mass: ["Centres of mass", "m"], inertia: ["Inertia boxes", "i"] };
+const VERSIONS = { now: "Now", both: "Both", before: "Before" };
+
+/* The state of the page; tests read it. `ready` is a promise of the picture. */
+const page = {
+  selected: null,
+  layers: { visual: true, collision: false, frame: false, mass: false, inertia: false },
+  version: data.before ? "both" : "now",
+  positions: new Map(data.now.hinges.map((hinge) => [hinge.element, hinge.start])),
+  now: null,
+  before: null,
+  frames: [],
+  pose: (element) => page.now.pose(element),
+  ready: null,
+};
+
+const element = (id) => document.getElementById(id);
+const stage = { renderer: null, scene: null, orbit: null, waiting: false, lamp: null };
+
+function draw() {
+  if (!stage.renderer || stage.waiting) return;
+  stage.waiting = true;
+  requestAnimationFrame(() => {
+    stage.waiting = false;
+    const begin = performance.now();
+    stage.lamp.position.copy(stage.orbit.camera.position);
+    stage.renderer.render(stage.scene, stage.orbit.camera);
+    page.frames.push(performance.now() - begin);
+  });
+}
+
+function move(name, position) {
+  page.positions.set(name, position);
+  if (page.now) {
+    page.now.move(name, position);
+    for (const [each, value] of page.now.positions) page.positions.set(each, value);
+  } else {
+    for (const hinge of data.now.hinges) {
+      if (hinge.leader) page.positions.set(hinge.element, hinge.multiplier * page.positions.get(hinge.leader) + hinge.offset);
+    }
+  }
+  if (page.before) for (const old of page.before.hinges.keys()) if ((data.renamed[old] || old) === name) page.before.move(old, position);
+  hideSame();
+  showPositions(page.positions);
+  draw();
+}
+
+function select(name) {
+  page.selected = name;
+  markTree(name);
+  markDiagram(name);
+  fillDetails(element("details"), data, name, select);
+  element("told").textContent = name || "";
+  paint();
+}
+
+/* Colours the picture: the selection glows, changed links have their colours, the older version is faint. */
+function paint() {
+  if (!page.now) return;
+  const colors = Object.fromEntries(["changed", "added", "removed", "accent"].map((name) => [name, themeColor(name)]));
+  const hinge = data.now.hinges.find((each) => each.element === page.selected), selected = hinge ? hinge.child : page.selected;
+  const compares = page.version !== "now";
+  page.now.paint((name) => {
+    const status = data.statuses[name] === "renamed" ? "changed" : data.statuses[name];
+    return { color: compares && status ? colors[status] : null, opacity: 1, glow: name === selected ? colors.accent.clone().multiplyScalar(0.55) : null };
+  });
+  page.now.root.visible = page.version !== "before";
+  if (page.before) {
+    page.before.root.visible = compares;
+    page.before.paint((name) => {
+      const current = data.renamed[name] || name, status = data.statuses[current];
+      const color = data.statuses[name] === "removed" ? colors.removed : page.version === "both" ? colors.accent : status === "changed" ? colors.changed : null;
+      const faint = data.statuses[name] === "removed" ? 0.6 : status === "changed" ? 0.35 : 0.14;
+      return { color, opacity: page.version === "both" ? faint : 1, glow: current === selected ? colors.accent.clone().multiplyScalar(0.3) : null };
+    });
+  }
+  for (const layer of LAYERS) page.now.show(layer, page.layers[layer]);
+  hideSame();
+  draw();
+}
+
+/* Shows of the older version, laid over the new one, what is different or elsewhere. */
+function hideSame() {
+  if (!page.before) return;
+  const isSame = (name) => !data.statuses[data.renamed[name] || name] && page.before.coincides(name, page.now, data.renamed[name] || name);
+  for (const layer of LAYERS) page.before.show(layer, page.layers[layer], page.version === "both" ? isSame : undefined);
+}
+
+function toggle(layer) {
+  page.layers[layer] = !page.layers[layer];
+  element(`switch-${layer}`).setAttribute("aria-pressed", String(page.layers[layer]));
+  paint();
+}
+
+function chooseVersion(version) {
+  page.version = version;
+  for (const name of Object.keys(VERSIONS)) element(`version-${name}`)?.setAttribute("aria-pressed", String(name === version));
+  paint();
+}
+
+function setTheme(theme) {
+  document.documentElement.dataset.theme = theme;
+  if (stage.scene) {
+    stage.grid.material.color.copy(themeColor("line"));
+  }
+  paint();
+}
+
+function chooseTab(tab) {
+  for (const each of element("tabs").children) {
+    const isChosen = each === tab;
+    each.setAttribute("aria-selected", String(isChosen));
+    each.tabIndex = isChosen ? 0 : -1;
+    element(each.getAttribute("aria-controls")).hidden = !isChosen;
+  }
+  markTree(page.selected);
+}
+
+function pick(event) {
+  const { left, top, width, height } = stage.renderer.domElement.getBoundingClientRect();
+  const ray = new THREE.Raycaster();
+  ray.setFromCamera(new THREE.Vector2(2 * (event.clientX - left) / width - 1, 1 - 2 * (event.clientY - top) / height), stage.orbit.camera);
+  const view = page.version === "before" ? page.before : page.now;
+  const shapes = [...view.bodies.values()].flatMap((body) => [...body.layers.visual, ...body.layers.collision]).filter((mesh) => mesh.visible);
+  const [hit] = ray.intersectObjects(shapes, false);
+  const name = hit ? hit.object.userData.element : null;
+  select(name && page.version === "before" ? data.renamed[name] || name : name);
+}
+
+function resize() {
+  const { clientWidth: width, clientHeight: height } = element("stage");
+  if (!stage.renderer || width === 0 || height === 0) return;
+  stage.renderer.setSize(width, height, false);
+  stage.orbit.camera.aspect = width / height;
+  stage.orbit.update();
+}
+
+async function show() {
+  const canvas = element("view");
+  try {
+    stage.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: true }); // else it is not printed
+  } catch (error) {
+    throw new Error("This browser shows no 3D: WebGL is not there, or switched off. All else on the page works.", { cause: error });
+  }
+  stage.renderer.outputEncoding = THREE.sRGBEncoding;
+  stage.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+  const packed = element("meshes"), meshes = packed ? await loadMeshes(packed.textContent) : new Map();
+  page.now = new RobotView(data.now, meshes);
+  stage.scene = new THREE.Scene();
+  stage.lamp = new THREE.DirectionalLight(0xffffff, 0.55);
+  stage.scene.add(page.now.root, new THREE.HemisphereLight(0xffffff, 0x8a8f99, 0.75), stage.lamp);
+  const box = page.now.bounds();
+  if (data.before) {
+    page.before = new RobotView(data.before, meshes);
+    stage.scene.add(page.before.root);
+    box.union(page.before.bounds());
+  }
+  const cell = 10 ** Math.round(Math.log10(page.now.size / 5));
+  stage.grid = new THREE.GridHelper(20 * cell, 20, 0xffffff, 0xffffff);
+  Object.assign(stage.grid.material, { transparent: true, opacity: 0.9, vertexColors: false });
+  stage.grid.rotateX(Math.PI / 2);
+  stage.grid.position.z = Math.min(0, box.min.z) - 1e-4 * page.now.size;
+  stage.scene.add(stage.grid);
+  stage.orbit = new Orbit(canvas, draw, pick);
+  new ResizeObserver(resize).observe(element("stage"));
+  resize();
+  stage.orbit.fit(box);
+  setTheme(document.documentElement.dataset.theme);
+}
+
+const showPositions = fillAxes(element("axes"), data, move, select);
+const markTree = fillTree(element("tree"), data, select);
+const markDiagram = drawDiagram(element("drawing"), data, select);
+showPositions(page.positions);
+if (page.positions.size) element("axes").prepend(make("button", { type: "button", id: "reset", title: "All axes as they start (r)" }, "Reset", { click: reset }));
+
+function reset() {
+  for (const hinge of data.now.hinges) if (!hinge.leader) move(hinge.element, hinge.start);
+}
+
+for (const [layer, [label, key]] of Object.entries(SWITCHES)) {
+  element("switches").append(make("button", { type: "button", id: `switch-${layer}`, "aria-pressed": String(page.layers[layer]), title: `${label} (${key})` }, label, { click: () => toggle(layer) }));
+}
+if (data.before) {
+  element("versions").hidden = false;
+  for (const [name, label] of Object.entries(VERSIONS)) {
+    const title = name === "before" ? data.against : name === "both" ? "Both over each other (b)" : "The source as it is";
+    element("versions").append(make("button", { type: "button", id: `version-${name}`, "aria-pressed": String(name === page.version), title }, label, { click: () => chooseVersion(name) }));
+  }
+}
+for (const tab of element("tabs").children) tab.addEventListener("click", () => chooseTab(tab));
+element("tabs").addEventListener("keydown", (event) => {
+  if (event.key !== "ArrowLeft" && event.key !== "ArrowRight") return;
+  const other = event.target.nextElementSibling || event.target.previousElementSibling;
+  other.focus();
+  chooseTab(other);
+});
+for (const button of document.querySelectorAll("[data-element]")) button.addEventListener("click", () => select(button.dataset.element));
+element("theme").addEventListener("click", () => setTheme(document.documentElement.dataset.theme === "dark" ? "light" : "dark"));
+matchMedia("(prefers-color-scheme: dark)").addEventListener("change", (event) => setTheme(event.matches ? "dark" : "light"));
+
+document.addEventListener("keydown", (event) => {
+  if (event.ctrlKey || event.metaKey || event.altKey || event.target.matches("input, select")) return;
+  const layer = Object.keys(SWITCHES).find((name) => SWITCHES[name][1] === event.key);
+  const versions = Object.keys(VERSIONS);
+  if (layer) toggle(layer);
+  else if (event.key === "b" && data.before) chooseVersion(versions[(versions.indexOf(page.version) + 1) % versions.length]);
+  else if (event.key === "r") reset();
+  else if (event.key === "d") element("theme").click();
+  else if (event.key === "Escape") select(null);
+});
+
+setTheme(matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
+page.ready = show().catch((error) => {
+  element("trouble").hidden = false;
+  element("trouble").textContent = error.message;
+});

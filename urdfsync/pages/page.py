@@ -1,0 +1,195 @@
+"""The page of a robot as one HTML file, which needs nothing else: no server, no network, no other file.
+
+Whatever is in a source is shown as text. The page forbids every script and style that it was not written with.
+"""
+
+from __future__ import annotations
+
+import base64
+import gzip
+import hashlib
+import json
+import re
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import jinja2
+import markupsafe
+import numpy as np
+
+from urdfsync import __version__
+from urdfsync.output.conflicts import DisputedFile, describe, difference_lines, settle_hint
+from urdfsync.output.edits import to_section as edits_section
+from urdfsync.output.markdown import findings_table
+from urdfsync.output.phrases import reason
+from urdfsync.pages import threejs
+from urdfsync.pages.content import Content
+from urdfsync.scene import Scene, Triangles, plain
+
+SCRIPTS = ("robot.js", "orbit.js", "panels.js", "page.js")
+"""Our own scripts, in the order in which they run: each may use what those before it declare."""
+_FOLDER = Path(__file__).parent
+_STYLE = re.compile("<style>(.*?)</style>", re.DOTALL)
+_CODE = re.compile("`([^`]+)`")
+_MOST_LINES = 400
+"""Lines of one difference that are shown."""
+_GENERATOR, _BEGINNING = b'<meta name="generator" content="urdfsync', 2000
+"""What every page has in so many of its first bytes."""
+_ESCAPES = {ord(char): f"\\u{ord(char):04x}" for char in "<>&\u2028\u2029"}
+
+
+def page(content: Content) -> bytes:
+    """Return the page. Raises UrdfsyncError if three.js can't be had."""
+    library = threejs.load()
+    scripts = [library.text, *((_FOLDER / name).read_text("utf-8") for name in SCRIPTS)]
+    style = (_FOLDER / "page.css").read_text("utf-8")
+    styles = [style, *_STYLE.findall(content.diagram)]
+    environment = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(_FOLDER),
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        autoescape=True,
+    )
+    environment.filters["words"] = _words
+    edits = edits_section(content.edits)
+    section = content.section
+    text = environment.get_template("page.html.jinja").render(
+        robot=content.robot,
+        version=__version__,
+        policy=_policy(scripts, styles),
+        style=markupsafe.Markup(style),  # noqa: S704 - our own
+        scripts=[markupsafe.Markup(script) for script in scripts],  # noqa: S704 - our own, and those of trimesh
+        data=markupsafe.Markup(_json(_data(content))),  # noqa: S704 - escaped for a script element
+        meshes=base64.b64encode(gzip.compress(_glb(content.meshes), 6, mtime=0)).decode() if content.meshes else "",
+        section=section,
+        findings=findings_table(section.findings),
+        tables=[table for table in section.tables if table.rows],
+        elements={*content.statuses, *content.changes},
+        edits=[table for table in edits.tables if table.rows],
+        edits_summary=edits.summary,
+        edited=[_edited(file.path, file.base, file.mine) for file in content.edits.files if file.base is not None],
+        conflicts=list(map(_conflict, content.conflicts)),
+        notes=content.notes,
+        against=content.against,
+        has_diagram=bool(content.diagram),
+        bodies=content.now.bodies,
+        library=library,
+    )
+    return text.encode("utf-8", "replace")
+
+
+def is_page(file: Path) -> bool:
+    """Return whether a file is a page that urdfsync wrote."""
+    if not file.is_file():  # nothing waits for a pipe
+        return False
+    with file.open("rb") as opened:
+        return _GENERATOR in opened.read(_BEGINNING)
+
+
+def _policy(scripts: Sequence[str], styles: Sequence[str]) -> str:
+    """Return the content security policy: these scripts and styles alone, and nothing from elsewhere."""
+    return "; ".join(
+        (
+            "default-src 'none'",
+            f"script-src {' '.join(map(_hash, dict.fromkeys(scripts)))}",
+            f"style-src {' '.join(map(_hash, dict.fromkeys(styles)))}",
+            "img-src data: blob:",
+            "base-uri 'none'",
+            "form-action 'none'",
+        )
+    )
+
+
+def _hash(text: str) -> str:
+    return f"'sha256-{base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()}'"
+
+
+def _json(values: Any) -> str:
+    """Return JSON that ends no script element and begins no comment, whatever texts are in it."""
+    return json.dumps(values, ensure_ascii=False, separators=(",", ":"), allow_nan=False).translate(_ESCAPES)
+
+
+def _data(content: Content) -> dict[str, Any]:
+    """Return what the scripts need."""
+    names = {name: f"m{number}" for number, name in enumerate(content.meshes)}
+    return {
+        "robot": content.robot.name,
+        "now": _scene(content.now, names),
+        "before": _scene(content.before, names) if content.before else None,
+        "against": content.against,
+        "statuses": content.statuses,
+        "renamed": content.renamed,
+        "changes": content.changes,
+        "files": content.files,
+        "diagram": content.diagram,
+    }
+
+
+def _scene(scene: Scene, names: Mapping[str, str]) -> dict[str, Any]:
+    """Return a scene whose meshes have the names of the nodes in the GLB; without shapes that can't be shown."""
+    values = plain(scene)
+    for body in values["bodies"]:
+        for shape in body["shapes"]:
+            shape["mesh"] = names.get(shape["mesh"], "")
+        body["shapes"] = [shape for shape in body["shapes"] if shape["form"] != "mesh" or shape["mesh"]]
+    return values
+
+
+def _glb(meshes: Mapping[str, Triangles]) -> bytes:
+    """Return meshes as GLB; the nodes are `m0`, `m1`, … in their order."""
+    import trimesh  # half a second, which robots without meshes need not wait for
+
+    scene = trimesh.Scene()
+    for number, mesh in enumerate(meshes.values()):
+        faces = mesh.faces if len(mesh.faces) else np.zeros((1, 3), dtype=np.uint32)  # no mesh without triangles
+        triangles = trimesh.Trimesh(mesh.points, faces, process=False)
+        scene.add_geometry(triangles, node_name=f"m{number}", geom_name=f"m{number}")
+    content: bytes = trimesh.exchange.gltf.export_glb(scene, include_normals=False)
+    return content
+
+
+# --- texts ----------------------------------------------------------------------------------------------------------
+
+
+def _words(text: str) -> markupsafe.Markup:
+    """Return text with what stands between ` as code."""
+    return markupsafe.Markup("").join(
+        markupsafe.Markup("<code>{}</code>").format(piece) if number % 2 else piece
+        for number, piece in enumerate(_CODE.split(text))
+    )
+
+
+def _edited(path: str, base: str | None, mine: str) -> dict[str, Any]:
+    return {"path": path, "lines": _difference(base or "", mine, "as generated", "yours")}
+
+
+def _conflict(target: DisputedFile) -> dict[str, Any]:
+    """Return a conflict: what happened, each side's changes, and what settles it."""
+    texts, differences = target.texts, list[dict[str, Any]]()
+    if texts is not None and texts.base is not None:
+        sides = {"Your changes": texts.mine, "What is new": texts.generated}
+        differences = [
+            {"title": title, "lines": _difference(texts.base, text, "base", title)} for title, text in sides.items()
+        ]
+    elif texts is not None:
+        lines = _difference(texts.mine, texts.generated, "yours", "generated")
+        differences = [{"title": "Yours, and what would be generated", "lines": lines}]
+    if texts is not None and texts.merge is not None:
+        lines = _difference(texts.mine, texts.merge.proposal, "yours", "merged")
+        differences.append({"title": "The merge that is proposed", "lines": lines})
+    return {
+        "path": target.shown,
+        "owner": target.action.owner,
+        "why": f"{reason(target.action, target.result.changes, brief=True)}: {describe(target)}",
+        "settle": settle_hint(target.result).strip(),
+        "differences": differences,
+    }
+
+
+def _difference(old: str, new: str, old_name: str, new_name: str) -> list[str]:
+    """Return how two texts differ, line by line."""
+    lines = [str(text).removeprefix("    ") for text in difference_lines(old, new, old_name, new_name)]
+    rest = len(lines) - _MOST_LINES
+    return [*lines[:_MOST_LINES], f"… and {rest} more lines"] if rest > 0 else lines

@@ -1,0 +1,180 @@
+"use strict";
+/* Axes, tree, details and diagram: what stands beside the picture. All texts of the data are set as text, never as HTML. */
+
+const SYMBOLS = { rotational: "⟳", translational: "↔", "": "─" };
+const DEGREES = 180 / Math.PI;
+
+/* Returns a new HTML element with attributes, a text or children, and listeners. */
+function make(tag, attributes = {}, content = [], listeners = {}) {
+  const element = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) {
+    if (value !== null && value !== false) element.setAttribute(name, value === true ? "" : value);
+  }
+  element.append(...(Array.isArray(content) ? content : [content]));
+  for (const [kind, listener] of Object.entries(listeners)) element.addEventListener(kind, listener);
+  return element;
+}
+
+/* Returns the name of an element without its kind: `hand` of `link hand`. */
+function nameOf(element) {
+  return element.slice(element.indexOf(" ") + 1);
+}
+
+function rounded(value) {
+  return String(Number(value.toPrecision(5)));
+}
+
+function mark(statuses, element) {
+  const status = statuses[element];
+  return status ? [" ", make("span", { class: `mark ${status}` }, status)] : [];
+}
+
+/* Fills the panel of axes. `move` is called with an element and a position. Returns what shows all positions. */
+function fillAxes(panel, data, move, select) {
+  const free = data.now.hinges.filter((hinge) => hinge.motion && !hinge.leader);
+  const followers = data.now.hinges.filter((hinge) => hinge.motion && hinge.leader);
+  if (free.length === 0) panel.append(make("p", { class: "quiet" }, "This robot has no axis that moves by itself."));
+  const shown = new Map();
+  const order = new Map(data.now.bodies.map((body, place) => [body.element, place]));
+  free.sort((one, other) => order.get(one.child) - order.get(other.child));
+  for (const hinge of [...free, ...followers]) {
+    const turns = hinge.motion === "rotational", name = nameOf(hinge.element);
+    const label = make("button", { type: "button", class: "name" }, [`${SYMBOLS[hinge.motion]} ${name}`, ...mark(data.statuses, hinge.element)],
+      { click: () => select(hinge.element) });
+    const unit = make("span", { class: "unit" }, turns ? "rad" : "m");
+    if (hinge.leader) {
+      const value = make("output", {}, "");
+      panel.append(make("div", { class: "axis", "data-axis": hinge.element }, make("div", { class: "top" }, [label, make("span", { class: "quiet" }, `follows ${nameOf(hinge.leader)}`), value, unit])));
+      shown.set(hinge.element, (position) => { value.textContent = position.toFixed(4); });
+      continue;
+    }
+    const reach = turns ? Math.PI : 1;
+    const low = hinge.lower ?? Math.min(-reach, hinge.start), high = hinge.upper ?? Math.max(reach, hinge.start);
+    const set = (text) => { if (text !== "" && Number.isFinite(Number(text))) move(hinge.element, Number(text)); };
+    const slider = make("input", { type: "range", min: low, max: high, step: "any", "aria-label": `Position of ${name}` }, [], { input: () => set(slider.value) });
+    const number = make("input", { type: "number", step: "any", "aria-label": `Position of ${name} in ${turns ? "rad" : "m"}` }, [], { change: () => set(number.value) });
+    const degrees = make("span", {}, "");
+    const ends = make("div", { class: "ends" }, [
+      make("span", {}, hinge.lower === null ? "no limit" : rounded(low)), degrees,
+      make("span", {}, hinge.upper === null ? "no limit" : rounded(high))]);
+    panel.append(make("div", { class: "axis", "data-axis": hinge.element }, [make("div", { class: "top" }, [label, number, unit]), slider, ends]));
+    shown.set(hinge.element, (position) => {
+      slider.value = position;
+      if (document.activeElement !== number) number.value = Number(position.toFixed(6));
+      degrees.textContent = turns ? `${(position * DEGREES).toFixed(1)}°` : `${(position * 1000).toFixed(1)} mm`;
+    });
+  }
+  return (positions) => { for (const [element, show] of shown) show(positions.get(element)); };
+}
+
+/* Fills the panel with the tree of links. Returns what marks an element in it. */
+function fillTree(panel, data, select) {
+  const above = new Map(data.now.hinges.map((hinge) => [hinge.child, hinge])), depth = new Map();
+  const list = make("div", { role: "tree", "aria-label": "Links" }), items = new Map();
+  for (const body of data.now.bodies) {
+    const hinge = above.get(body.element);
+    depth.set(body.element, hinge ? depth.get(hinge.parent) + 1 : 0);
+    const content = [make("span", {}, nameOf(body.element)), ...mark(data.statuses, body.element)];
+    if (hinge) {
+      content.unshift(make("span", { class: "joint" }, [`${SYMBOLS[hinge.motion]} ${nameOf(hinge.element)}`, ...mark(data.statuses, hinge.element), " › "],
+        { click: (event) => { event.stopPropagation(); select(hinge.element); } }));
+    }
+    const item = make("div", { role: "treeitem", "aria-level": depth.get(body.element) + 1, "aria-selected": "false", tabindex: items.size ? "-1" : "0", "data-link": body.element }, content,
+      { click: () => select(body.element) });
+    item.style.paddingLeft = `${0.3 + 0.8 * depth.get(body.element)}rem`;
+    items.set(body.element, item);
+    list.append(item);
+  }
+  list.addEventListener("keydown", (event) => {
+    const visible = [...items.values()].filter((item) => !item.hidden), place = visible.indexOf(document.activeElement);
+    const next = { ArrowDown: place + 1, ArrowUp: place - 1, Home: 0, End: visible.length - 1 }[event.key];
+    if (event.key === "Enter" || event.key === " ") document.activeElement.click();
+    else if (next === undefined) return;
+    else visible[next]?.focus();
+    event.preventDefault();
+    event.stopPropagation();
+  });
+  const filter = make("input", { id: "filter", type: "search", placeholder: "Find a link or a joint", "aria-label": "Find a link or a joint" }, [], {
+    input: () => { for (const item of items.values()) item.hidden = !item.textContent.toLowerCase().includes(filter.value.toLowerCase()); },
+  });
+  panel.append(filter, list);
+  return (element) => {
+    const hinge = data.now.hinges.find((each) => each.element === element), link = hinge ? hinge.child : element;
+    for (const [name, item] of items) {
+      item.setAttribute("aria-selected", String(name === link));
+      item.tabIndex = name === link || (!items.has(link) && item === list.firstChild) ? 0 : -1;
+    }
+    const item = items.get(link);
+    if (item && !panel.hidden) panel.scrollTop += item.getBoundingClientRect().top - panel.getBoundingClientRect().top - panel.clientHeight / 2;
+  };
+}
+
+/* Shows the numbers, neighbours, changes and files of an element; of none without one. */
+function fillDetails(panel, data, element, select) {
+  const { bodies, hinges } = data.now, old = data.before || { bodies: [], hinges: [] };
+  const find = (scene) => [...scene.bodies, ...scene.hinges].find((each) => each.element === element);
+  const item = element && (find(data.now) || find(old));
+  if (!item) {
+    panel.replaceChildren(make("p", { class: "quiet" }, "Click on a link, here, in the tree or in the diagram."));
+    return;
+  }
+  const link = (name) => make("button", { type: "button", class: "name" }, name, { click: () => select(name) });
+  const parts = [make("h3", {}, [element, ...mark(data.statuses, element)])];
+  const changes = data.changes[element] || [];
+  if (changes.length) parts.push(make("ul", {}, changes.map((words) => make("li", { class: "changed" }, words))));
+  const facts = item.facts.flatMap(([label, value]) => [make("dt", {}, label), make("dd", {}, value)]);
+  const around = item.shapes
+    ? hinges.filter((hinge) => hinge.parent === element || hinge.child === element).map((hinge) => hinge.element)
+    : [item.parent, item.child].filter((name) => bodies.some((body) => body.element === name));
+  parts.push(make("dl", {}, facts));
+  if (around.length) parts.push(make("p", {}, [make("span", { class: "quiet" }, "beside it: "), ...around.flatMap((name, place) => [place ? ", " : "", link(name)])]));
+  const files = data.files[element] || [];
+  if (files.length) parts.push(make("p", { class: "quiet" }, "files"), make("ul", {}, files.map((file) => make("li", {}, make("code", {}, file)))));
+  panel.replaceChildren(...parts);
+  panel.scrollTop = 0;
+}
+
+/* Draws the diagram, if there is one. Returns what marks an element in it. */
+function drawDiagram(place, data, select) {
+  if (!place || !data.diagram) return () => {};
+  const drawn = new DOMParser().parseFromString(data.diagram, "image/svg+xml").documentElement;
+  const shadow = place.attachShadow({ mode: "open" }); // its styles are for it alone
+  const svg = document.importNode(drawn, true);
+  shadow.append(svg);
+  const natural = Number(svg.getAttribute("width"));
+  const fit = (isWhole) => { // a wide robot is scrolled: its texts would be too small
+    svg.style.width = isWhole ? "100%" : "";
+    svg.style.height = isWhole ? "auto" : "";
+  };
+  fit(natural < 2 * place.clientWidth);
+  const icons = new Map(), components = new Map([...data.now.bodies, ...data.now.hinges].map((each) => [each.component, each.element]));
+  for (const title of svg.querySelectorAll("g > title")) {
+    const element = components.get(title.textContent);
+    if (!element) continue;
+    const group = title.parentNode, icon = group.querySelector("g");
+    icons.set(element, icon);
+    group.style.cursor = "pointer";
+    group.addEventListener("click", () => select(element));
+    if (data.statuses[element]) icon.append(frame(data.statuses[element] === "added" ? "#157f3d" : "#d97706", 1.2));
+  }
+  let marked = null;
+  return (element) => {
+    marked?.remove();
+    const icon = icons.get(element);
+    if (!icon) return;
+    marked = frame("#1d5fd1", 2.4);
+    marked.setAttribute("data-selected", element);
+    icon.append(marked);
+    const box = icon.getBoundingClientRect(), window_ = place.getBoundingClientRect();
+    place.scrollLeft += box.left - window_.left - place.clientWidth / 2;
+    place.scrollTop += box.top - window_.top - place.clientHeight / 2;
+  };
+}
+
+/* Returns a frame around an icon of the diagram, which is 20 units wide. */
+function frame(color, width) {
+  const rectangle = document.createElementNS("http://www.w3.org/2000/svg", "rect");
+  const attributes = { x: -12, y: -12, width: 24, height: 24, rx: 4, fill: "none", stroke: color, "stroke-width": width };
+  for (const [name, value] of Object.entries(attributes)) rectangle.setAttribute(name, value);
+  return rectangle;
+}

@@ -1,0 +1,228 @@
+"use strict";
+/* A robot of the page's data in three.js: built, moved, coloured. Metres and radians; z is up. */
+
+const LAYERS = ["visual", "collision", "frame", "mass", "inertia"];
+const CREASE = Math.cos(35 * Math.PI / 180); // edges that are sharper are shown as edges
+const MOST_AROUND = 48; // faces at one corner that are looked at: a fan has thousands
+
+/* Returns the colour of the page's style sheet by its name. */
+function themeColor(name) {
+  return new THREE.Color(getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim()).convertSRGBToLinear();
+}
+
+/* Returns a geometry of triangles whose normals are smooth but at edges. */
+function creased(points, faces) {
+  const corners = faces.length, normals = new Float32Array(3 * corners), positions = new Float32Array(3 * corners);
+  const flat = new Float32Array(corners), areas = new Float32Array(corners / 3); // of faces: unit normal, and its length
+  const begin = new Uint32Array(points.length / 3 + 1), around = new Uint32Array(corners);
+  for (let corner = 0; corner < corners; corner++) {
+    begin[faces[corner] + 1]++;
+    positions.set(points.subarray(3 * faces[corner], 3 * faces[corner] + 3), 3 * corner);
+  }
+  for (let point = 1; point < begin.length; point++) begin[point] += begin[point - 1];
+  const next = begin.slice();
+  for (let corner = 0; corner < corners; corner++) around[next[faces[corner]]++] = corner / 3 | 0;
+  const a = new THREE.Vector3(), b = new THREE.Vector3(), c = new THREE.Vector3();
+  for (let face = 0; face < corners / 3; face++) {
+    a.fromArray(positions, 9 * face), b.fromArray(positions, 9 * face + 3), c.fromArray(positions, 9 * face + 6);
+    b.sub(a).cross(c.sub(a));
+    areas[face] = b.length();
+    b.normalize().toArray(flat, 3 * face);
+  }
+  for (let corner = 0; corner < corners; corner++) {
+    const own = 3 * (corner / 3 | 0), last = Math.min(begin[faces[corner] + 1], begin[faces[corner]] + MOST_AROUND);
+    a.set(flat[own], flat[own + 1], flat[own + 2]).multiplyScalar(areas[own / 3]);
+    for (let place = begin[faces[corner]]; place < last; place++) {
+      const other = 3 * around[place];
+      const cosine = flat[own] * flat[other] + flat[own + 1] * flat[other + 1] + flat[own + 2] * flat[other + 2];
+      if (other !== own && cosine > CREASE) a.addScaledVector(b.fromArray(flat, other), areas[other / 3]);
+    }
+    a.normalize().toArray(normals, 3 * corner);
+  }
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.BufferAttribute(positions, 3));
+  geometry.setAttribute("normal", new THREE.BufferAttribute(normals, 3));
+  return geometry;
+}
+
+/* Returns the geometries of the page's meshes by their names. */
+async function loadMeshes(text) {
+  const packed = Uint8Array.from(atob(text), (char) => char.charCodeAt(0));
+  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
+  const buffer = await new Response(stream).arrayBuffer();
+  const loaded = await new Promise((resolve, reject) => new THREE.GLTFLoader().parse(buffer, "", resolve, reject));
+  const meshes = new Map();
+  loaded.scene.traverse((node) => {
+    if (node.isMesh) {
+      meshes.set(node.userData.name || node.name, creased(node.geometry.attributes.position.array, node.geometry.index.array));
+    }
+  });
+  return meshes;
+}
+
+function shapeGeometry(shape, meshes) {
+  const [x, y] = shape.size;
+  switch (shape.form) {
+    case "box": return new THREE.BoxGeometry(...shape.size);
+    case "sphere": return new THREE.SphereGeometry(x, 32, 20);
+    case "cylinder": return new THREE.CylinderGeometry(x, x, y, 40).rotateX(Math.PI / 2);
+    case "capsule": return new THREE.CapsuleGeometry(x, y, 12, 32).rotateX(Math.PI / 2);
+    default: return meshes.get(shape.mesh);
+  }
+}
+
+/* Returns lines that stay visible in front of all shapes. */
+function lines(points, colors, opacity = 1) {
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.Float32BufferAttribute(points, 3));
+  geometry.setAttribute("color", new THREE.Float32BufferAttribute(colors, 3));
+  const material = new THREE.LineBasicMaterial({ vertexColors: true, depthTest: false, transparent: true, opacity });
+  const object = new THREE.LineSegments(geometry, material);
+  object.renderOrder = 2;
+  return object;
+}
+
+/* One version of the robot. `root` is its root frame; `bodies` and `hinges` are by their elements. */
+class RobotView {
+  constructor(scene, meshes) {
+    this.scene = scene;
+    this.root = new THREE.Group();
+    this.bodies = new Map();
+    this.hinges = new Map(scene.hinges.map((hinge) => [hinge.element, hinge]));
+    this.positions = new Map(scene.hinges.map((hinge) => [hinge.element, hinge.start]));
+    for (const body of scene.bodies) this.bodies.set(body.element, this.#body(body, meshes));
+    const children = new Set();
+    for (const hinge of scene.hinges) {
+      this.bodies.get(hinge.parent).group.add(this.bodies.get(hinge.child).group);
+      children.add(hinge.child);
+    }
+    for (const [element, body] of this.bodies) if (!children.has(element)) this.root.add(body.group);
+    this.place();
+    this.size = this.#measure();
+    for (const body of this.bodies.values()) this.#mark(body);
+  }
+
+  #body(data, meshes) {
+    const body = { data, group: new THREE.Group(), layers: Object.fromEntries(LAYERS.map((layer) => [layer, []])) };
+    body.group.matrixAutoUpdate = false;
+    for (const shape of data.shapes) {
+      const [red, green, blue, opacity] = shape.color;
+      const color = new THREE.Color(red, green, blue).convertSRGBToLinear();
+      const material = new THREE.MeshStandardMaterial({ color, roughness: 0.65, metalness: 0.1, opacity, transparent: opacity < 1, side: THREE.DoubleSide });
+      const mesh = new THREE.Mesh(shapeGeometry(shape, meshes), material);
+      mesh.matrixAutoUpdate = false;
+      mesh.matrix.fromArray(shape.pose);
+      mesh.userData = { element: data.element, color, opacity };
+      this.#add(body, shape.kind, mesh);
+    }
+    return body;
+  }
+
+  #add(body, layer, object) {
+    object.visible = false;
+    body.layers[layer].push(object);
+    body.group.add(object);
+  }
+
+  /* Adds frame, centre of mass and inertia box, whose sizes go with the robot's. */
+  #mark(body) {
+    const { data } = body, length = 0.05 * this.size;
+    const hinge = this.scene.hinges.find((each) => each.child === data.element && each.motion);
+    const points = [0, 0, 0, length, 0, 0, 0, 0, 0, 0, length, 0, 0, 0, 0, 0, 0, length];
+    const colors = [.9, .1, .1, .9, .1, .1, .1, .65, .1, .1, .65, .1, .15, .3, 1, .15, .3, 1];
+    if (hinge) {
+      const end = hinge.axis.map((part) => 1.8 * length * part);
+      points.push(...end.map((part) => -part), ...end);
+      colors.push(.95, .55, 0, .95, .55, 0);
+    }
+    this.#add(body, "frame", lines(points, colors));
+    if (!data.inertia) return;
+    const heaviest = Math.max(...this.scene.bodies.map((each) => each.mass));
+    const ball = new THREE.Mesh(
+      new THREE.SphereGeometry(0.006 * this.size * (1 + 2 * Math.cbrt(data.mass / heaviest)), 20, 14),
+      new THREE.MeshBasicMaterial({ color: 0xe0a100, depthTest: false, transparent: true, opacity: 0.9 }));
+    ball.renderOrder = 3;
+    ball.position.setFromMatrixPosition(new THREE.Matrix4().fromArray(data.inertia));
+    this.#add(body, "mass", ball);
+    if (data.box.length === 0) return;
+    const geometry = new THREE.BoxGeometry(...data.box.map((edge) => Math.max(edge, 1e-6)));
+    const box = new THREE.Mesh(geometry, new THREE.MeshBasicMaterial({ color: 0x8f4bd6, transparent: true, opacity: 0.25, depthWrite: false }));
+    box.add(new THREE.LineSegments(new THREE.EdgesGeometry(geometry), new THREE.LineBasicMaterial({ color: 0x8f4bd6 })));
+    box.matrixAutoUpdate = false;
+    box.matrix.fromArray(data.inertia);
+    this.#add(body, "inertia", box);
+  }
+
+  /* Returns the diagonal of all shapes, or of all frames if there are none. */
+  #measure() {
+    return this.bounds().getSize(new THREE.Vector3()).length() || 1;
+  }
+
+  bounds() {
+    const box = new THREE.Box3();
+    this.root.updateMatrixWorld(true);
+    for (const body of this.bodies.values()) {
+      box.expandByPoint(new THREE.Vector3().setFromMatrixPosition(body.group.matrixWorld));
+      for (const mesh of [...body.layers.visual, ...body.layers.collision]) {
+        if (!mesh.geometry.boundingBox) mesh.geometry.computeBoundingBox();
+        box.union(mesh.geometry.boundingBox.clone().applyMatrix4(mesh.matrixWorld));
+      }
+    }
+    return box;
+  }
+
+  /* Sets the position of one axis; those that follow it move, too. */
+  move(element, position) {
+    if (!this.hinges.has(element)) return;
+    this.positions.set(element, position);
+    this.place();
+  }
+
+  place() {
+    const turn = new THREE.Matrix4(), axis = new THREE.Vector3();
+    for (const hinge of this.scene.hinges) { // leaders come first
+      if (hinge.leader) this.positions.set(hinge.element, hinge.multiplier * this.positions.get(hinge.leader) + hinge.offset);
+      const position = this.positions.get(hinge.element), { group } = this.bodies.get(hinge.child);
+      group.matrix.fromArray(hinge.pose);
+      axis.fromArray(hinge.axis);
+      if (hinge.motion === "rotational") group.matrix.multiply(turn.makeRotationAxis(axis, position));
+      if (hinge.motion === "translational") group.matrix.multiply(turn.makeTranslation(...axis.multiplyScalar(position).toArray()));
+    }
+    this.root.updateMatrixWorld(true);
+  }
+
+  /* Returns the pose of a body in the root frame: 16 numbers, column after column. */
+  pose(element) {
+    return this.bodies.get(element).group.matrixWorld.toArray();
+  }
+
+  /* Shows a layer of all bodies but those that `isHidden` names. */
+  show(layer, isShown, isHidden = () => false) {
+    for (const [element, body] of this.bodies) for (const object of body.layers[layer]) object.visible = isShown && !isHidden(element);
+  }
+
+  /* Returns whether a body is where one of another version is. */
+  coincides(element, other, name) {
+    if (!other.bodies.has(name)) return false;
+    const pose = other.pose(name);
+    return this.pose(element).every((part, place) => Math.abs(part - pose[place]) < 1e-6);
+  }
+
+  /* Colours shapes: `look` returns a colour or null, and an opacity, for a body's element. */
+  paint(look) {
+    for (const [element, body] of this.bodies) {
+      const { color, opacity, glow } = look(element);
+      for (const mesh of [...body.layers.visual, ...body.layers.collision]) {
+        const { material, userData } = mesh;
+        material.color.copy(color || userData.color);
+        material.opacity = opacity * userData.opacity;
+        const isTransparent = material.opacity < 1;
+        if (material.transparent !== isTransparent) material.needsUpdate = true;
+        material.transparent = isTransparent;
+        material.depthWrite = material.opacity > 0.5;
+        material.emissive.copy(glow || new THREE.Color(0));
+      }
+      body.layers.frame[0].scale.setScalar(glow ? 2 : 1);
+    }
+  }
+}

@@ -1,0 +1,57 @@
+"""three.js, as trimesh brings it for its own viewer.
+
+The repository has no JavaScript of others. The page gets it when it is written, from the installed package of trimesh,
+which reads meshes anyway: three.js r140 with a loader of GLB, 0.7 MB, under the MIT licence. In meshcat and in viser
+it can't be told from their own programs, 0.9 and 0.8 MB in one file, and both would be a further dependency.
+"""
+
+from __future__ import annotations
+
+import importlib.util
+import re
+import zipfile
+from pathlib import Path
+from typing import NamedTuple
+
+from urdfsync.diagnostics import UrdfsyncError
+
+_ARCHIVE, _MEMBER = "resources/templates/viewer.zip", "viewer.html.template"
+_SCRIPT = "<script>"
+_END = "THREE.GLTFLoader=GLTFLoader;})();"
+"""The end of the loader; the viewer's own code follows."""
+_FORBIDDEN = ("</script", "<!--")
+"""Would end the element that the script stands in, or change how it is read."""
+
+
+class Library(NamedTuple):
+    """A script of others."""
+
+    text: str
+    title: str
+    """Name and version."""
+    licence: str
+
+
+def load() -> Library:
+    """Return three.js. Raises UrdfsyncError if the installed trimesh does not have it as expected."""
+    spec = importlib.util.find_spec("trimesh")  # which does not import it: that takes half a second
+    for folder in (spec.submodule_search_locations or ()) if spec else ():
+        try:
+            with zipfile.ZipFile(Path(folder, _ARCHIVE)) as archive:
+                page = archive.read(_MEMBER).decode()
+        except (OSError, KeyError, zipfile.BadZipFile, UnicodeDecodeError):
+            break
+        text = page.partition(_SCRIPT)[2].partition(_END)[0] + _END
+        release = re.search(r'"use strict";const \w+="(\d+)"', text[:2000])
+        if release and "@license" in text[:200] and _END in page and not any(part in text for part in _FORBIDDEN):
+            return Library(text.replace("\r", ""), f"three.js r{release[1]}", _licence(text))
+        break
+    message, hint = "the installed trimesh has no three.js for the page", "install trimesh again, version 5"
+    raise UrdfsyncError.of("no-threejs", message, hint=hint)
+
+
+def _licence(text: str) -> str:
+    """Return the licence as the script names it."""
+    comment = text.partition("*/")[0]
+    lines = (line.strip(" *") for line in comment.splitlines())
+    return "; ".join(line for line in lines if line.startswith(("Copyright", "SPDX-License-Identifier")))

@@ -1,0 +1,105 @@
+"""A robot as a picture: bodies with shapes, and axes that move them. Neutral values in SI units."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import msgspec
+
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
+
+Pose: TypeAlias = tuple[float, ...]
+"""16 numbers of a homogeneous matrix, column after column, as WebGL has them."""
+Facts: TypeAlias = Sequence[tuple[str, str]]
+"""Properties of an element in words, for people."""
+
+
+class Shape(msgspec.Struct, frozen=True):
+    """A shape of a body."""
+
+    kind: str
+    """`visual` or `collision`."""
+    form: str
+    """`box`, `cylinder`, `capsule`, `sphere` or `mesh`; long ones stand along z."""
+    size: tuple[float, ...]
+    """Edges of a box; radius and length of all others, without the half spheres of a capsule."""
+    pose: Pose
+    """In the frame of the body."""
+    color: tuple[float, ...]
+    """Red, green, blue and opacity, from 0 to 1."""
+    mesh: str = ""
+    """Path of an imported file."""
+
+
+class Body(msgspec.Struct, frozen=True):
+    """A rigid body."""
+
+    element: str
+    """In the domain's words: `link hand`."""
+    component: str
+    """Its name in the diagram."""
+    facts: Facts
+    shapes: tuple[Shape, ...] = ()
+    mass: float = 0.0
+    inertia: Pose | None = None
+    """Pose of the principal axes in the centre of mass; None for a body without mass."""
+    box: tuple[float, ...] = ()
+    """Edges of the homogeneous box with this mass and inertia; empty if there is none."""
+
+
+class Hinge(msgspec.Struct, frozen=True):
+    """A connection of two bodies, which may move."""
+
+    element: str
+    component: str
+    facts: Facts
+    parent: str
+    child: str
+    pose: Pose
+    """Of the axis's frame in the parent's, at position 0."""
+    axis: tuple[float, ...]
+    motion: str = ""
+    """`rotational` or `translational`; empty for one without an axis to move about."""
+    start: float = 0.0
+    lower: float | None = None
+    upper: float | None = None
+    """None for no limit."""
+    leader: str = ""
+    """The element that it follows; empty if it moves by itself."""
+    multiplier: float = 1.0
+    offset: float = 0.0
+
+
+class Scene(msgspec.Struct, frozen=True):
+    """A whole robot; each hinge stands after the one that it follows."""
+
+    bodies: tuple[Body, ...]
+    """The root first, each after its parent."""
+    hinges: tuple[Hinge, ...]
+    missing: tuple[str, ...] = ()
+    """Shapes that can't be shown, with reasons, in words."""
+
+
+class Triangles(msgspec.Struct, frozen=True):
+    """The triangles of a mesh as a page shows them."""
+
+    points: npt.NDArray[np.float32]
+    """n × 3, in metres."""
+    faces: npt.NDArray[np.uint32]
+    """m × 3, of the points."""
+    total: int
+    """Number of triangles of the file itself."""
+    is_simplified: bool = False
+    """Whether corners that are apart in the file have become one."""
+
+
+Meshes: TypeAlias = Mapping[str, Triangles]
+
+
+def plain(scene: Scene) -> dict[str, Any]:
+    """Return a scene as plain data."""
+    values: dict[str, Any] = msgspec.to_builtins(scene)
+    return values

@@ -1,0 +1,158 @@
+"""A robot as a picture: the shapes, frames, masses and axes of its tree."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+import msgspec
+import numpy as np
+
+from urdfsync.domain import Import, Target
+from urdfsync.scene import Body, Facts, Hinge, Pose, Scene, Shape
+from urdfsync.urdf.kinematics import poses
+from urdfsync.urdf.kinematics.tree import KinematicTree
+from urdfsync.urdf.meshes import lookup
+from urdfsync.urdf.model.shapes import link_shapes
+from urdfsync.urdf.options import Options
+from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS, Inertial, Joint, Link, Mesh, Robot, Unit
+
+_NO_BOX = 1e-12
+"""Square of an edge in m² below which there is none; rounding of thin bodies gives it either sign."""
+
+
+def scene(robot: Robot, imports: Mapping[str, Import], target: Target, options: Options) -> Scene:
+    """Return the picture of a robot. Shapes whose mesh is not imported are named as missing."""
+    tree = KinematicTree.of(robot, (target.name,))
+    starts = poses.start_positions(tree)
+    bodies = tuple(_body(tree, link, imports, target, options) for link in tree.links)
+    hinges = tuple(_hinge(tree, joint, starts[joint.name]) for joint in tree.leaders_first())
+    return Scene(bodies, hinges, tuple(_missing(tree, imports)))
+
+
+def _body(tree: KinematicTree, link: Link, imports: Mapping[str, Import], target: Target, options: Options) -> Body:
+    shown = msgspec.structs.replace(options, collisions=True)
+    visuals, collisions = link_shapes(link, imports, target.package, shown)
+    shapes = [_shape(data, target) for data in (*visuals, *collisions)]
+    body = Body(f"link {link.name}", tree.link(link.name).component, _link_facts(link, shapes), tuple(shapes))
+    if link.inertial is None or not link.inertial.mass > 0:
+        return body
+    axes, box = _principal(link.inertial)
+    return msgspec.structs.replace(body, mass=link.inertial.mass, inertia=axes, box=box)
+
+
+def _shape(data: Mapping[str, Any], target: Target) -> Shape:
+    """Return a shape from the data of templates."""
+    geometry = data["geometry"]
+    size: tuple[float, ...] = ()
+    if not isinstance(geometry, Mesh):
+        size = tuple(geometry.size) if data["type"] == "Box" else (geometry.radius, getattr(geometry, "length", 0.0))
+    return Shape(
+        "collision" if data["is_collision"] else "visual",
+        data["type"].lower(),
+        size,
+        _matrix(poses.pose(data["origin"])),
+        (*(part / 255 for part in data["color"]), data["opacity"]),
+        data["uri"].removeprefix(f"modelica://{target.package}/"),
+    )
+
+
+def _missing(tree: KinematicTree, imports: Mapping[str, Import]) -> Iterator[str]:
+    for link in tree.links:
+        geometries = {"visual": [shape.geometry for shape in link.visuals]}
+        geometries["collision"] = [shape.geometry for shape in link.collisions]
+        for kind, of_kind in geometries.items():
+            for number, geometry in enumerate(of_kind, 1):
+                if isinstance(geometry, Mesh) and lookup.key(geometry) not in imports:
+                    yield f"link {link.name}, {kind} {number}: mesh `{geometry.filename}` is not in the package"
+
+
+def _principal(inertial: Inertial) -> tuple[Pose, tuple[float, ...]]:
+    """Return the pose of the principal axes, and the box of this inertia; no box if the inertia is that of no body."""
+    i = inertial.inertia
+    tensor = np.array([[i.ixx, i.ixy, i.ixz], [i.ixy, i.iyy, i.iyz], [i.ixz, i.iyz, i.izz]])
+    frame = poses.pose(inertial.origin)
+    if not np.isfinite(tensor).all():
+        return _matrix(frame), ()
+    moments, axes = np.linalg.eigh(tensor)
+    axes[:, 2] *= np.sign(np.linalg.det(axes))  # right-handed
+    turned = poses.compose(frame, (tuple(map(tuple, axes.tolist())), (0.0, 0.0, 0.0)))  # type: ignore[arg-type]
+    squares = 6 / inertial.mass * (moments.sum() - 2 * moments)
+    is_body = bool((squares > -_NO_BOX).all() and (squares > _NO_BOX).any())
+    return _matrix(turned), tuple(np.sqrt(np.maximum(squares, 0.0)).tolist()) if is_body else ()
+
+
+def _hinge(tree: KinematicTree, joint: Joint, start: float) -> Hinge:
+    lower, upper = (limit if math.isfinite(limit) else None for limit in poses.own_range(joint))
+    moves = MOTION_KINDS.get(joint.type, "")
+    return Hinge(
+        element=f"joint {joint.name}",
+        component=tree.joint(joint.name).component,
+        facts=_joint_facts(joint),
+        parent=f"link {joint.parent}",
+        child=f"link {joint.child}",
+        pose=_matrix(poses.pose(joint.origin)),
+        axis=joint.axis,
+        motion=moves,
+        start=start,
+        lower=lower if moves else None,
+        upper=upper if moves else None,
+        leader=f"joint {joint.mimic.joint}" if joint.mimic else "",
+        multiplier=joint.mimic.multiplier if joint.mimic else 1.0,
+        offset=joint.mimic.offset if joint.mimic else 0.0,
+    )
+
+
+def _matrix(pose: poses.Pose) -> Pose:
+    """Return a pose as a homogeneous matrix, column after column."""
+    rotation, translation = pose
+    columns = [(*(row[column] for row in rotation), 0.0) for column in range(3)]
+    return (*columns[0], *columns[1], *columns[2], *translation, 1.0)
+
+
+# --- numbers for people -------------------------------------------------------------------------------------------
+
+
+def _link_facts(link: Link, shapes: list[Shape]) -> Facts:
+    facts = []
+    if (inertial := link.inertial) is not None:
+        facts += [("mass", f"{inertial.mass:g} kg"), ("centre of mass", f"{_vector(inertial.origin.xyz)} m")]
+        i = inertial.inertia
+        facts += [("ixx, iyy, izz", f"{_vector((i.ixx, i.iyy, i.izz))} kg·m²")]
+        facts += [("ixy, ixz, iyz", f"{_vector((i.ixy, i.ixz, i.iyz))} kg·m²")]
+    else:
+        facts.append(("mass", "none"))
+    counts = {kind: sum(shape.kind == kind for shape in shapes) for kind in ("visual", "collision")}
+    return [*facts, *((f"{kind}s", str(count)) for kind, count in counts.items())]
+
+
+def _joint_facts(joint: Joint) -> Facts:
+    facts = [("type", f"{joint.type}: {JOINT_KINDS[joint.type].does}"), ("from", joint.parent), ("to", joint.child)]
+    facts += [("origin", f"{_vector(joint.origin.xyz)} m"), ("rotation", f"{_vector(joint.origin.rpy)} rad")]
+    if JOINT_KINDS[joint.type].has_axis:
+        facts.append(("axis", _vector(joint.axis)))
+    if joint.mimic:
+        facts.append(("follows", f"{joint.mimic.multiplier:g} · {joint.mimic.joint} + {joint.mimic.offset:g}"))
+    for part in (joint.limit, joint.dynamics, joint.transmission):
+        facts += _numbers(part, joint) if part is not None else ()
+    return facts
+
+
+def _numbers(values: msgspec.Struct, joint: Joint) -> Iterator[tuple[str, str]]:
+    """Yield the numbers of a part of a joint with their units."""
+    slides = MOTION_KINDS.get(joint.type) == "translational"
+    for field in msgspec.structs.fields(values):
+        number = getattr(values, field.name)
+        is_position = field.name in ("lower", "upper")
+        if number is None or (is_position and not JOINT_KINDS[joint.type].has_limits):
+            continue
+        (unit,) = (each for each in getattr(field.type, "__metadata__", ()) if isinstance(each, Unit))
+        name = unit.sliding if slides and unit.sliding else unit.name
+        degrees = f" ({math.degrees(number):.4g}°)" if name == "rad" and is_position else ""
+        label = f"limit of {field.name}" if field.name in ("effort", "velocity") else field.name.replace("_", " ")
+        yield label, f"{number:g} {name}".rstrip() + degrees
+
+
+def _vector(numbers: tuple[float, ...]) -> str:
+    return f"({', '.join(f'{number:.6g}' for number in numbers)})"
