@@ -9,9 +9,9 @@ from __future__ import annotations
 import json
 import os
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 from urllib.parse import quote
 
 from urdfsync import __version__, config
@@ -24,13 +24,6 @@ _ROW = re.compile(r"^\| (`[^|]*`) \| ([^|]*) \|(?: ([^|]*) \|)?$", re.MULTILINE)
 _LINK = re.compile(r"\[([^\]]*)\]\([^)]*\)")
 
 
-class Meaning(NamedTuple):
-    """A code as docs/findings.md explains it."""
-
-    text: str
-    consequence: str
-
-
 def log(sections: Iterable[Section], findings: Sequence[Diagnostic], code: int) -> str:
     """Return a log of one run with the findings of robots and those of none; `code` is the exit code.
 
@@ -39,61 +32,40 @@ def log(sections: Iterable[Section], findings: Sequence[Diagnostic], code: int) 
     per_robot = ((*section.findings, *filter(None, [section.verdict])) for section in sections)
     told = list(dict.fromkeys([*findings, *(finding for group in per_robot for finding in group)]))
     rules = {rule: number for number, rule in enumerate(sorted({finding.code for finding in told}))}
-    meanings, top = read_meanings(), _top()
+    results, notifications = [], []
+    top = _top()
+    for finding in told:
+        values = {"level": str(finding.severity), "message": {"text": _message(finding)}}
+        if finding.file:
+            place = {"locations": [{"physicalLocation": _location(finding, top)}]}
+            results.append({"ruleId": finding.code, "ruleIndex": rules[finding.code], **values, **place})
+        else:
+            notifications.append({"descriptor": {"id": finding.code, "index": rules[finding.code]}, **values})
+    is_successful = code not in (Exit.ERROR, Exit.LOCKED, Exit.INTERRUPTED)
+    invocation = {"executionSuccessful": is_successful, "exitCode": int(code)}
+    meanings = read_meanings()
+    described = [_rule(rule, meanings.get(rule, "its message says what to do")) for rule in rules]
     run = {
-        "tool": {
-            "driver": {
-                "name": "urdfsync",
-                "semanticVersion": __version__,
-                "rules": [_rule(rule, meanings) for rule in rules],
-            }
-        },
+        "tool": {"driver": {"name": "urdfsync", "semanticVersion": __version__, "rules": described}},
         "columnKind": "unicodeCodePoints",
-        "invocations": [
-            {
-                "executionSuccessful": code not in (Exit.ERROR, Exit.LOCKED, Exit.INTERRUPTED),
-                "exitCode": int(code),
-                "toolExecutionNotifications": [
-                    {
-                        "descriptor": {"id": finding.code, "index": rules[finding.code]},
-                        "level": str(finding.severity),
-                        "message": {"text": _message(finding)},
-                    }
-                    for finding in told
-                    if not finding.file
-                ],
-            }
-        ],
-        "results": [
-            {
-                "ruleId": finding.code,
-                "ruleIndex": rules[finding.code],
-                "level": str(finding.severity),
-                "message": {"text": _message(finding)},
-                "locations": [{"physicalLocation": _location(finding, top)}],
-            }
-            for finding in told
-            if finding.file
-        ],
+        "invocations": [{**invocation, "toolExecutionNotifications": notifications}],
+        "results": results,
     }
     return json.dumps({"$schema": _SCHEMA, "version": "2.1.0", "runs": [run]}, indent=2) + "\n"
 
 
-def read_meanings() -> dict[str, Meaning]:
-    """Return the codes that docs/findings.md explains."""
-    page = config.docs_page("findings.md").read_text(encoding="utf-8")
+def read_meanings() -> dict[str, str]:
+    """Return the meaning of each code that docs/findings.md explains, and what is done then."""
+    page = _LINK.sub(r"\1", config.docs_page("findings.md").read_text(encoding="utf-8"))
     return {
-        code: Meaning(*(_LINK.sub(r"\1", cell).strip() for cell in (meaning, consequence)))
+        code: f"{meaning} ({consequence})" if consequence else meaning
         for codes, meaning, consequence in _ROW.findall(page)
         for code in re.findall("`([^`]+)`", codes)
     }
 
 
-def _rule(code: str, meanings: Mapping[str, Meaning]) -> dict[str, Any]:
-    meaning = meanings.get(code, Meaning(code.replace("-", " "), "its message says what to do"))
-    help_text = meaning.text + (f" ({meaning.consequence})" if meaning.consequence else "")
-    texts = {"shortDescription": meaning.text, "fullDescription": help_text, "help": help_text}
-    return {"id": code, **{key: {"text": text} for key, text in texts.items()}}
+def _rule(code: str, meaning: str) -> dict[str, Any]:
+    return {"id": code, **{key: {"text": meaning} for key in ("shortDescription", "fullDescription", "help")}}
 
 
 def _message(finding: Diagnostic) -> str:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from itertools import zip_longest
-from typing import TYPE_CHECKING
 
 import msgspec
 
+from urdfsync.changes import Changes
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import ChangeClass
-from urdfsync.engine.actions import Action, Actions, Kind, Reason
+from urdfsync.engine.actions import Actions, Kind, Reason
 from urdfsync.engine.result import Checked, Result
 from urdfsync.files import shown
 from urdfsync.output.conflicts import DisputedFile, describe, find_conflicts, settle_hint, shown_path
@@ -18,11 +18,6 @@ from urdfsync.output.markdown import Mark, Section, Table
 from urdfsync.output.outline import outline
 from urdfsync.output.phrases import change_counts, generator_change, reason, summary
 
-if TYPE_CHECKING:
-    from urdfsync.changes import Changes
-
-OUT_OF_STEP = "out-of-step"
-"""Code of the finding that a package is out of step."""
 _BUILD = "run `urdfsync build`, and commit what it writes"
 _SETTLE = "run `urdfsync build` for both sides, and settle the conflicts with `urdfsync resolve`"
 _FIT = "correct the files that do not fit"
@@ -58,7 +53,7 @@ def out_of_step(result: Result) -> Diagnostic | None:
         return None
     hint = _SETTLE if result.conflicts else _BUILD if not result.are_files_in_step else _FIT
     message = f"the package {result.package} is out of step: {summary(result)}"
-    return Diagnostic(Severity.WARNING, OUT_OF_STEP, message, shown(result.folder / "package.mo"), hint=hint)
+    return Diagnostic(Severity.WARNING, "out-of-step", message, shown(result.folder / "package.mo"), hint=hint)
 
 
 def _conflicts(result: Result) -> Iterable[Diagnostic]:
@@ -81,18 +76,12 @@ def change_parts(changes: Changes | None) -> tuple[list[str], list[Table]]:
     """Return changes of a model: those of its structure as lines, all others as a table."""
     if changes is None:
         return [], []
-    is_structural = [change.change_class is ChangeClass.STRUCTURAL for change in changes.changes]
-    structure, others = (
-        msgspec.structs.replace(
-            changes,
-            changes=tuple(each for each, flag in zip(changes.changes, is_structural, strict=True) if flag is wanted),
-        )
-        for wanted in (True, False)
-    )
+    structure = tuple(each for each in changes.changes if each.change_class is ChangeClass.STRUCTURAL)
+    others = tuple(each for each in changes.changes if each.change_class is not ChangeClass.STRUCTURAL)
     points = [generator_change(changes)] if changes.generator else []
     points += [change_counts(changes)] if len(changes.changes) > 1 else []
-    points += [f"{title}: {row}" for title, rows in outline(structure).items() for row in rows]
-    rows = [(title, *row) for title, rows in outline(others).items() for row in rows]
+    points += [f"{title}: {row}" for title, rows in outline(Changes(structure)).items() for row in rows]
+    rows = [(title, *row) for title, rows in outline(Changes(others)).items() for row in rows]
     return points, [Table("Changes", ("Element", "Property", "Change", "By"), rows)]
 
 
@@ -100,9 +89,7 @@ def file_table(result: Result) -> Table:
     """Return what happens to the files of a package, without those that stay."""
     actions = [action for action in result.actions if action.reason not in _SILENT]
     actions.sort(key=lambda action: (action.kind is Kind.LEAVE, action.path.rpartition("/")))
-    return Table("Files", ("File", "", "Why"), [_file_row(result, action) for action in actions])
-
-
-def _file_row(result: Result, action: Action) -> tuple[str, str, str]:
-    word = "waiting" if action.held else action.reason.word
-    return shown_path(result, action.path), word, reason(action, result.effective_changes, brief=True)
+    words = ["waiting" if action.held else action.reason.word for action in actions]
+    reasons = [reason(action, result.effective_changes, brief=True) for action in actions]
+    paths = [shown_path(result, action.path) for action in actions]
+    return Table("Files", ("File", "", "Why"), list(zip(paths, words, reasons, strict=True)))
