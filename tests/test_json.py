@@ -13,9 +13,11 @@ from collections.abc import Collection
 from pathlib import Path
 from typing import Any
 
+import jsonschema
 import msgspec
 import pytest
 from support.commands import Execute
+from support.documents import is_described
 
 from urdfsync import cli, config
 from urdfsync.checks.results import CheckResult, CheckStatus, CompiledModel, EditEffect, ToolResult, TrialTime
@@ -63,6 +65,8 @@ def printed(execute: Execute, folder: Path, *arguments: str) -> Any:
     assert streams.err == ""
     assert streams.out.isascii()
     text = streams.out.replace(str(folder), "/home/me/project")
+    if arguments and arguments[0] in cli._COMMANDS:
+        assert is_described(json.loads(text), arguments[0])
     return json.loads(text.replace(str(config.library_folder()), "/opt/urdfsync/modelica"))
 
 
@@ -175,7 +179,9 @@ def watched(folder: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> 
     streams = execute("watch", "--settle", "0", "--sample", "0", "--json")
     assert streams.err == ""
     assert streams.out.isascii()
-    return [json.loads(line) for line in streams.out.replace(str(folder), "/home/me/project").splitlines()]
+    lines = [json.loads(line) for line in streams.out.replace(str(folder), "/home/me/project").splitlines()]
+    assert all(is_described(line, "watch") for line in lines)
+    return lines
 
 
 def test_watch(folder: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -208,6 +214,7 @@ def test_a_daemon_that_can_not_start_says_so_in_one_line(folder: Path, execute: 
     (folder / "urdfsync.toml").write_text("[robots.arm]\nsorce = 'x'\n")
     (line,) = execute("watch", "--json", code=2).lines
     document = json.loads(line)
+    assert is_described(document, "watch")
     assert (document["command"], document["exit"]) == ("watch", 2)
     assert {"command", "exit", "diagnostics"} <= document.keys()
 
@@ -238,6 +245,7 @@ def test_the_other_events_look_as_shown() -> None:
     time = datetime.datetime(2026, 3, 4, tzinfo=datetime.UTC)
     shown = [json.loads(json.dumps(event_values(event, time))) for event in others]
     assert_event_has_its_keys(shown)
+    assert all(is_described(event, "watch") for event in shown)
     classes = {*events.Event.__subclasses__(), *events.RobotEvent.__subclasses__()} - {events.RobotEvent}
     assert all(f"`{kind.__struct_config__.tag}`" in SECTIONS["watch"] for kind in classes)
 
@@ -332,3 +340,14 @@ def test_bad_usage_is_a_document_as_well(folder: Path, execute: Execute, argumen
     document = printed(execute, folder, *arguments)
     assert (document["exit"], document["diagnostics"][0]["code"]) == (2, "usage")
     assert document.keys() == DOCUMENT
+
+
+@pytest.mark.parametrize("command", [name for name in cli._COMMANDS if name not in ("schema", "completion")])
+def test_each_command_has_a_schema(execute: Execute, command: str) -> None:
+    schema = execute("schema", command).json
+    assert schema["title"] == command
+    assert schema["$defs"]["Diagnostic"]["properties"]["severity"]
+    with pytest.raises(jsonschema.ValidationError):
+        is_described({"version": JSON_VERSION, "command": command, "exit": 0, "diagnostics": [], "other": 1}, command)
+    with pytest.raises(jsonschema.ValidationError):
+        is_described({"version": JSON_VERSION, "command": command, "diagnostics": []}, command)

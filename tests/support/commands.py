@@ -6,6 +6,8 @@ import json
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
+from support.documents import is_described
+
 
 class Printed(NamedTuple):
     """What a command printed on its two streams, and its exit code."""
@@ -31,9 +33,12 @@ class Printed(NamedTuple):
 
     @property
     def json(self) -> Any:
-        """The document for programs, which has the output for itself."""
+        """The document for programs, which has the output for itself, and is as its schema says."""
         assert self.err == ""
-        return json.loads(self.out)
+        document = json.loads(self.out)
+        if command := document.get("command"):
+            assert is_described(document, command)
+        return document
 
 
 Execute = Callable[..., Printed]

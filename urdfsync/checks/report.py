@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Collection, Iterator, Sequence
-from typing import Any
+from typing import Literal, TypedDict, cast
 
 import msgspec
 
@@ -202,31 +202,124 @@ def to_section(result: CheckResult, strict: bool) -> Section:
     return Section(result.robot, summary(result, strict), mark, points, [table], result.diagnostics, finding)
 
 
-def to_json(result: CheckResult, strict: bool) -> dict[str, Any]:
+class DeviationDocument(TypedDict):
+    """How far one quantity of one element is from the reference; None for what is no number."""
+
+    quantity: Quantity
+    element: str
+    difference: float | None
+    value: float | None
+    size: float | None
+    unit: str
+    part: Part
+    detail: str
+    relative: float | None
+    reason: str
+
+
+class PartDocument(TypedDict):
+    """The verdict on a part of the model."""
+
+    verdict: Literal["right", "differ"]
+    worst: DeviationDocument
+    part: Part
+
+
+class CompiledDocument(TypedDict):
+    """A model that compiles."""
+
+    model: str
+    unknowns: int | None
+    yours: bool
+
+
+class EditDocument(TypedDict):
+    """What edited files do to the robot."""
+
+    files: Sequence[str]
+    deviations: list[DeviationDocument]
+    owners: Sequence[str]
+
+
+class TrialDocument(TypedDict):
+    """The time that a simulation took."""
+
+    trial: str
+    seconds: float
+
+
+class ToolDocument(TypedDict):
+    """The answers of one compiler."""
+
+    tool: str
+    compiled: list[CompiledDocument]
+    failing: Sequence[str]
+    deviations: list[DeviationDocument] | None
+    edits: list[EditDocument]
+    seconds: float
+    times: list[TrialDocument]
+    megabytes: float
+
+
+class CheckDocument(TypedDict):
+    """The check of one robot."""
+
+    name: str
+    package: str
+    failed: bool
+    built: bool
+    in_step: bool
+    conflicting: bool
+    reference: str
+    seconds: float
+    megabytes: float
+    notes: Sequence[str]
+    unchecked: Sequence[str]
+    gaps: Sequence[str]
+    standing: CheckStatus
+    summary: str
+    degrees_of_freedom: int | None
+    tolerance: float
+    parts: list[PartDocument]
+    agrees: bool | None
+    tools: list[ToolDocument]
+    between: list[DeviationDocument] | None
+    between_edited: list[DeviationDocument]
+    diagnostics: Sequence[Diagnostic]
+
+
+def to_json(result: CheckResult, strict: bool) -> CheckDocument:
     """Return what was checked of a robot as plain data; with `strict`, what an edit does is a difference as well."""
-    same = ("package", "failed", "built", "in_step", "conflicting", "reference", "seconds", "megabytes")
-    lists = ("notes", "unchecked", "gaps")
     return {
         "name": result.robot,
-        **{name: getattr(result, name) for name in same},
-        **{name: list(getattr(result, name)) for name in lists},
+        "package": result.package,
+        "failed": result.failed,
+        "built": result.built,
+        "in_step": result.in_step,
+        "conflicting": result.conflicting,
+        "reference": result.reference,
+        "seconds": result.seconds,
+        "megabytes": result.megabytes,
+        "notes": result.notes,
+        "unchecked": result.unchecked,
+        "gaps": result.gaps,
         "standing": result.status(strict),
         "summary": summary(result, strict),
         "degrees_of_freedom": result.freedoms,
         "tolerance": TOLERANCE,
         "parts": [
-            {"verdict": _word(each).partition(" ")[0], "worst": _values(each), "part": part}
+            {"verdict": "right" if agrees(each) else "differ", "worst": _values(each), "part": part}
             for part, each in worst(result.deviations).items()
         ],
         "agrees": None if all(tool.deviations is None for tool in result.tools) else not result.differs,
         "tools": list(map(_tool_values, result.tools)),
-        "between": _all_values(result.between),
-        "between_edited": _all_values(result.between_edited),
-        "diagnostics": list(map(msgspec.structs.asdict, result.diagnostics)),
+        "between": None if result.between is None else list(map(_values, result.between)),
+        "between_edited": list(map(_values, result.between_edited)),
+        "diagnostics": result.diagnostics,
     }
 
 
-def _tool_values(tool: ToolResult) -> dict[str, Any]:
+def _tool_values(tool: ToolResult) -> ToolDocument:
     """Return the answers of one compiler as plain data."""
     return {
         "tool": tool.tool,
@@ -234,10 +327,11 @@ def _tool_values(tool: ToolResult) -> dict[str, Any]:
             {"model": model.model, "unknowns": model.unknowns or None, "yours": model.is_users}
             for model in tool.compiled
         ],
-        "failing": list(tool.failing),
-        "deviations": _all_values(tool.deviations),
+        "failing": tool.failing,
+        "deviations": None if tool.deviations is None else list(map(_values, tool.deviations)),
         "edits": [
-            {**msgspec.structs.asdict(effect), "deviations": _all_values(effect.deviations)} for effect in tool.effects
+            {"files": effect.files, "deviations": list(map(_values, effect.deviations)), "owners": effect.owners}
+            for effect in tool.effects
         ],
         "seconds": tool.seconds,
         "times": [{"trial": trial.name, "seconds": trial.seconds} for trial in tool.times],
@@ -245,16 +339,13 @@ def _tool_values(tool: ToolResult) -> dict[str, Any]:
     }
 
 
-def _all_values(deviations: Sequence[Deviation] | None) -> list[dict[str, Any]] | None:
-    """Return deviations as plain data; JSON has no infinite numbers."""
-    return None if deviations is None else list(map(_values, deviations))
-
-
-def _values(deviation: Deviation) -> dict[str, Any]:
+def _values(deviation: Deviation) -> DeviationDocument:
+    """Return a deviation as plain data; JSON has no infinite numbers."""
     values = {**msgspec.structs.asdict(deviation), "relative": deviation.relative}
     for name, value in values.items():
         values[name] = None if isinstance(value, float) and not math.isfinite(value) else value
-    return {**values, "reason": "" if values["difference"] is not None else "the simulation gave no number"}
+    reason = "" if values["difference"] is not None else "the simulation gave no number"
+    return cast("DeviationDocument", {**values, "reason": reason})
 
 
 def summary(result: CheckResult, strict: bool) -> str:

@@ -229,10 +229,10 @@ class Console:
             "command": self._command,
             "exit": int(code),
             **({"robots": self._robots} if values is None else values),
-            "diagnostics": list(map(msgspec.structs.asdict, diagnostics)),
+            "diagnostics": diagnostics,
         }
         indent = None if self._command == "watch" else 2  # its output is one object per line
-        return json.dumps(document, indent=indent) + "\n"
+        return json.dumps(msgspec.to_builtins(document), indent=indent) + "\n"
 
     def progress(self, what: str, done: int, total: int) -> None:
         """Show a step of the work, once the work takes long enough for anybody to wonder."""

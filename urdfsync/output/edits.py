@@ -5,13 +5,11 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
-
-import msgspec
+from typing import TypedDict
 
 from urdfsync.engine.edits import EditedFile, RobotEdits
 from urdfsync.files import shown
-from urdfsync.merge.edits import find_edits, in_words
+from urdfsync.merge.edits import Edit, find_edits, in_words
 from urdfsync.output.conflicts import difference_lines
 from urdfsync.output.console import StyledLine, findings, first_lines, line
 from urdfsync.output.markdown import Mark, Section, Table
@@ -35,7 +33,23 @@ def robot_lines(edited: RobotEdits, *, verbose: bool) -> Iterator[StyledLine]:
         yield from edit_lines(file, edited.root, verbose)
 
 
-def to_json(edited: RobotEdits) -> dict[str, Any]:
+class FileDocument(TypedDict):
+    """A file that the user edited; `edits` is None if they can't be told by element."""
+
+    path: str
+    owner: str
+    edits: list[Edit] | None
+
+
+class EditsDocument(TypedDict):
+    """What the user edited in a package."""
+
+    name: str
+    failed: bool
+    files: list[FileDocument]
+
+
+def to_json(edited: RobotEdits) -> EditsDocument:
     """Return the edits of a robot as plain data."""
     return {"name": edited.robot, "failed": edited.failed, "files": list(map(_values, edited.files))}
 
@@ -53,10 +67,10 @@ def _summary(edited: RobotEdits) -> str:
     return f"{counted(len(edited.files), 'file')} edited" if edited.files else "nothing is edited"
 
 
-def _values(file: EditedFile) -> dict[str, Any]:
-    """Return an edited file as plain data; `edits` is None if they can't be told by element."""
+def _values(file: EditedFile) -> FileDocument:
+    """Return an edited file as plain data."""
     edits = None if file.base is None else find_edits(file.base, file.mine)
-    told = None if edits is None else [msgspec.structs.asdict(edit) for edit in edits if edit.element != "comments"]
+    told = None if edits is None else [edit for edit in edits if edit.element != "comments"]
     return {"path": file.path, "owner": file.owner, "edits": told}
 
 

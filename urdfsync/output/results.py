@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Container, Iterator, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypedDict, cast
 
 import msgspec
 
-from urdfsync.domain import ChangeClass
+from urdfsync.diagnostics import Diagnostic
+from urdfsync.domain import ChangeClass, ChangeKind, Role
 from urdfsync.engine.actions import Action, FileStatus, Kind, Reason
 from urdfsync.engine.result import Checked, Result
 from urdfsync.files import shown
@@ -20,6 +21,70 @@ from urdfsync.output.sections import build_section
 
 if TYPE_CHECKING:
     from urdfsync.changes import Changes
+
+
+class ActionDocument(TypedDict):
+    """What happens to a file."""
+
+    path: str
+    origin: str | None
+    status: FileStatus | None
+    action: Kind
+    reason: str
+    held: bool
+    owner: str
+    role: Role
+    text: str
+
+
+class ConflictDocument(TypedDict):
+    """A file in conflict."""
+
+    path: str
+    origin: str | None
+    merges: bool
+    reason: str
+    base: str | None
+    generated: str | None
+    merge: str | None
+
+
+Classified = TypedDict("Classified", {"class": ChangeClass})
+"""How far a change reaches, or all of them."""
+
+
+class ChangeDocument(Classified):
+    """A change of the model."""
+
+    path: list[str]
+    kind: ChangeKind
+    old: Any
+    new: Any
+    unit: str
+    noise: bool
+
+
+class RobotDocument(Classified):
+    """The result of a build of one robot."""
+
+    name: str
+    package: str
+    folder: str
+    failed: bool
+    locked: bool
+    built: bool
+    in_step: bool
+    broken: bool
+    writes: bool
+    summary: str
+    drawing: str | None
+    checked: Checked | None
+    not_expanded: Sequence[str]
+    changes: list[ChangeDocument]
+    actions: list[ActionDocument]
+    conflicts: list[ConflictDocument]
+    diagnostics: Sequence[Diagnostic]
+
 
 _STYLES = {Kind.WRITE: "green", Kind.DELETE: "magenta", Kind.CONFLICT: "bold red"}
 _STYLES_LEFT: dict[FileStatus | None, str] = {FileStatus.EDITED: "cyan", FileStatus.ORPHAN: "yellow"}
@@ -121,7 +186,7 @@ def result_lines(
         yield line((f"  diagram: {shown(result.drawing)}", ""))
 
 
-def result_values(result: Result) -> dict[str, Any]:
+def result_values(result: Result) -> RobotDocument:
     """Return a result as plain data, the same in all documents; paths are relative to the configuration's folder."""
     changes = result.changes
     return {
@@ -140,7 +205,8 @@ def result_values(result: Result) -> dict[str, Any]:
         "not_expanded": result.stale,
         "class": changes.change_class if changes else ChangeClass.NONE,
         "changes": [
-            {**msgspec.to_builtins(change), "noise": change.noise} for change in (changes.changes if changes else ())
+            cast("ChangeDocument", {**msgspec.to_builtins(change), "noise": change.noise})
+            for change in (changes.changes if changes else ())
         ],
         "actions": [_action_values(action, changes) for action in result.actions],
         "conflicts": [
@@ -149,16 +215,18 @@ def result_values(result: Result) -> dict[str, Any]:
                 "origin": target.action.origin,
                 "merges": target.merges,
                 "reason": describe(target),
-                **dict.fromkeys(("base", "generated", "merge")),
-                **saved_texts(target),
+                "base": saved.get("base"),
+                "generated": saved.get("generated"),
+                "merge": saved.get("merge"),
             }
             for target in find_conflicts([result])
+            for saved in (saved_texts(target),)
         ],
-        "diagnostics": list(map(msgspec.structs.asdict, result.diagnostics)),
+        "diagnostics": result.diagnostics,
     }
 
 
-def _action_values(action: Action, changes: Changes | None) -> dict[str, Any]:
+def _action_values(action: Action, changes: Changes | None) -> ActionDocument:
     """Return what happens to a file as plain data; `changes` tell why, if it is because of them."""
     return {
         "path": action.path,

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TypedDict
 
-import msgspec
-
+from urdfsync.diagnostics import Diagnostic
 from urdfsync.output.console import StyledLine, findings, html, line
-from urdfsync.simulation.fmu import AGREEMENT, KINDS, WrittenFmu
+from urdfsync.simulation.fmu import AGREEMENT, KINDS, Trial, WrittenFmu
 from urdfsync.simulation.results import JointResult, Range, SimulateResult
 
 _HEADER = ("joint", "position", "limits", "speed/limit", "effort/limit")
@@ -72,7 +71,39 @@ def _digits(number: float) -> str:
     return f"{0 if abs(number) < _NOTHING else number:.3g}"
 
 
-def to_json(result: SimulateResult, files: Mapping[str, Path]) -> dict[str, Any]:
+class SimulationDocument(TypedDict):
+    """A simulation without its series."""
+
+    name: str
+    model: str
+    stop: float
+    step: float
+    tolerance: float
+    points: int
+    seconds: float
+    known: bool
+    joints: Sequence[JointResult]
+    files: dict[str, str]
+    diagnostics: Sequence[Diagnostic]
+
+
+class FmuDocument(TypedDict):
+    """An FMU that was written."""
+
+    name: str
+    model: str
+    fmu: str
+    tool: str
+    fmi: str
+    kinds: list[str]
+    tolerance: float
+    bytes: int
+    seconds: float
+    trial: Trial | None
+    diagnostics: Sequence[Diagnostic]
+
+
+def to_json(result: SimulateResult, files: Mapping[str, Path]) -> SimulationDocument:
     """Return a simulation as plain data, without its series."""
     return {
         "name": result.robot,
@@ -83,9 +114,9 @@ def to_json(result: SimulateResult, files: Mapping[str, Path]) -> dict[str, Any]
         "points": len(result.series["time"]),
         "seconds": result.seconds,
         "known": result.is_known,
-        "joints": list(map(msgspec.to_builtins, result.joints)),
+        "joints": result.joints,
         "files": {name: str(file) for name, file in files.items()},
-        "diagnostics": list(map(msgspec.structs.asdict, result.diagnostics)),
+        "diagnostics": result.diagnostics,
     }
 
 
@@ -107,7 +138,7 @@ def fmu_lines(written: WrittenFmu) -> Iterator[StyledLine]:
     yield line(("  fmu: ", ""), (str(written.file), "bold"))
 
 
-def fmu_to_json(written: WrittenFmu) -> dict[str, Any]:
+def fmu_to_json(written: WrittenFmu) -> FmuDocument:
     """Return an FMU as plain data."""
     exported = written.exported
     return {
@@ -120,6 +151,6 @@ def fmu_to_json(written: WrittenFmu) -> dict[str, Any]:
         "tolerance": exported.tolerance,
         "bytes": len(exported.content),
         "seconds": exported.seconds,
-        "trial": written.trial and msgspec.structs.asdict(written.trial),
-        "diagnostics": list(map(msgspec.structs.asdict, written.diagnostics)),
+        "trial": written.trial,
+        "diagnostics": written.diagnostics,
     }

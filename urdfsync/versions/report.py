@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import Any
+from collections.abc import Iterator, Sequence
 
 import msgspec
 
+from urdfsync.domain import Effect
 from urdfsync.engine.actions import USERS, Kind, Reason
 from urdfsync.engine.findings import CONNECTORS
 from urdfsync.output.conflicts import settle_hint, shown_path
@@ -15,7 +15,7 @@ from urdfsync.output.markdown import Mark, Section, Table
 from urdfsync.output.outline import effect_rows
 from urdfsync.output.phrases import change_counts, change_lines, counted, error_count, generator_change
 from urdfsync.output.phrases import summary as build_summary
-from urdfsync.output.results import action_word, change_line, file_line, headline, result_values
+from urdfsync.output.results import RobotDocument, action_word, change_line, file_line, headline, result_values
 from urdfsync.output.sections import build_section, change_parts
 from urdfsync.versions.comparison import Comparison
 
@@ -24,6 +24,14 @@ _CHANGES, _FILES, _EFFECTS = 60, 12, 8
 _SILENT = frozenset({Reason.UNCHANGED, Reason.KEEP, Reason.FORGET})
 _EDITED = USERS | {Reason.UNOWNED, Reason.MOVED_AWAY}
 """Actions on files that the user edited: these are always named."""
+
+
+class ComparisonDocument(RobotDocument):
+    """A source compared with an older version of it."""
+
+    source: str
+    against: str | None
+    effects: Sequence[Effect]
 
 
 def all_lines(compared: Comparison) -> Iterator[StyledLine]:
@@ -38,11 +46,16 @@ def robot_lines(compared: Comparison, *, verbose: bool) -> Iterator[StyledLine]:
     yield from _lines(compared, verbose)
 
 
-def to_json(compared: Comparison) -> dict[str, Any]:
+def to_json(compared: Comparison) -> ComparisonDocument:
     """Return what changed in a source as plain data."""
-    values = result_values(compared.result)
-    values |= {"source": compared.source, "against": compared.against, "summary": _summary(compared)}
-    return values | {"in_step": compared.in_step, "effects": msgspec.to_builtins(compared.effects)}
+    return {
+        **result_values(compared.result),
+        "source": compared.source,
+        "against": compared.against,
+        "summary": _summary(compared),
+        "in_step": compared.in_step,
+        "effects": compared.effects,
+    }
 
 
 def to_section(compared: Comparison) -> Section:

@@ -121,8 +121,9 @@ def event_values(event: events.Event, time: datetime.datetime) -> dict[str, Any]
             inside["actions"] = [action for action in inside["actions"] if action["reason"] != Reason.UNCHANGED.word]
             values |= {"robot": inside["name"], **inside}
         else:
-            values[name] = msgspec.to_builtins(value, enc_hook=str)
-    return values
+            values[name] = value
+    plain: dict[str, Any] = msgspec.to_builtins(values, enc_hook=str)
+    return plain
 
 
 def show_json(event: events.Event) -> None:

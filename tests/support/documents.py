@@ -1,0 +1,33 @@
+"""Documents of `--json` held against the schema of their command, which names each of their keys."""
+
+from __future__ import annotations
+
+import functools
+from typing import Any
+
+import jsonschema
+
+from urdfsync.commands.schema import document_schema
+
+
+def is_described(document: Any, command: str) -> bool:
+    """Whether a document is as its schema says, and has no key that this does not name. Raises ValidationError."""
+    _validator(command).validate(document)
+    return True
+
+
+@functools.cache
+def _validator(command: str) -> jsonschema.Draft202012Validator:
+    schema = document_schema(command)
+    jsonschema.Draft202012Validator.check_schema(schema)
+    return jsonschema.Draft202012Validator(_closed(schema))
+
+
+def _closed(schema: Any) -> Any:
+    """The schema without objects that may have more keys."""
+    if isinstance(schema, list):
+        return [_closed(part) for part in schema]
+    if not isinstance(schema, dict):
+        return schema
+    closed = {key: _closed(part) for key, part in schema.items()}
+    return {"additionalProperties": False, **closed} if "properties" in closed and "type" in closed else closed
