@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 
@@ -10,11 +9,11 @@ from urdfsync.domain import Deviation, Part, Quantity, Target
 from urdfsync.modelica.literals import string
 from urdfsync.modelica.parser import parse
 from urdfsync.modelica.syntax import Class, Component, Modifier, Name
+from urdfsync.modelica.tree import SyntaxTree, read_tree
 from urdfsync.urdf.connectors import Drive, connector_names, input_vector
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options
 
-_CONNECT = re.compile(r"\bconnect\(([\w.]+(?:\[\d+\])?), ([\w.]+(?:\[\d+\])?)\)")
 _REFERENCES = {"position": ("phi_ref", "s_ref"), "velocity": ("w_ref", "v_ref"), "effort": ("tau", "f")}
 """Inputs of sources, by what they are told."""
 _BENCHES = ("PartialBench", "PartialMobileBench")
@@ -59,9 +58,13 @@ def _read(texts: Mapping[str, bytes], name: str) -> tuple[Class | None, Mapping[
     """Return a class of the package, and the ends that each end in it is connected to."""
     text = texts.get(f"{name}.mo", b"").decode()
     ends = defaultdict[str, list[str]](list)
-    for first, second in _CONNECT.findall(text):
-        ends[first].append(second)
-        ends[second].append(first)
+    tree = read_tree(text)
+    body = tree.find("body") if tree else None
+    for part in body.node.parts if body and isinstance(body.node, SyntaxTree) else ():
+        kind, *pair = part.key.split()
+        if kind == "connect":
+            ends[pair[0]].append(pair[1])
+            ends[pair[1]].append(pair[0])
     return next(iter(parse(text).classes), None), ends
 
 
