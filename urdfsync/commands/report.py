@@ -4,17 +4,25 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
+from typing import TypedDict
 
 from urdfsync.commands import arguments
 from urdfsync.config import working_folder
 from urdfsync.engine.result import Exit
 from urdfsync.files import shown
 from urdfsync.output.console import Console, line
-from urdfsync.pages.content import gather
-from urdfsync.pages.page import is_page, page
 from urdfsync.simulation.files import check_file, input_files, not_writable, write_file
 
 _SUFFIXES = (".html", ".htm")
+
+
+class PageDocument(TypedDict):
+    """A page that was written."""
+
+    name: str
+    file: str
+    bytes: int
+    summary: str
 
 
 def add(commands: arguments.Commands) -> None:
@@ -36,6 +44,9 @@ def add(commands: arguments.Commands) -> None:
 
 def run(args: argparse.Namespace, console: Console) -> int:
     """Write the page of one robot, and say where it is."""
+    from urdfsync.pages.content import gather  # with numpy 100 ms, which `urdfsync --help` does without
+    from urdfsync.pages.page import is_page, page
+
     configuration = arguments.configuration(args)
     robots = arguments.select_robots(args, configuration, console)
     robot = configuration.select_one([robot.name for robot in robots], "report")
@@ -50,6 +61,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     text = page(content)
     write_file(file, text)
     section, place = content.section, shown(file)
-    console.add_robot({"name": robot.name, "file": place, "bytes": len(text), "summary": section.summary})
+    document: PageDocument = {"name": robot.name, "file": place, "bytes": len(text), "summary": section.summary}
+    console.add_robot(document)
     console.tell([line((robot.name, "bold"), (f": {section.summary}", "")), line((f"  page: {place}", ""))])
     return console.end(Exit.IN_STEP)

@@ -42,6 +42,7 @@ class Nothing(TypedDict):
 _ROBOTS = {
     **dict.fromkeys(("build", "status", "resolve", "remove", "adopt", "hook"), "output.results:RobotDocument"),
     "diff": "versions.report:ComparisonDocument output.edits:EditsDocument",
+    "report": "commands.report:PageDocument",
     "check": "checks.report:CheckDocument",
     "simulate": "simulation.report:SimulationDocument",
     "fmu": "simulation.report:FmuDocument",
