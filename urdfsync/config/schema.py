@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -42,6 +42,9 @@ def config_schema() -> dict[str, Any]:
         properties["class"]["pattern"] = f"^$|{CLASS_PATTERN}"
     inherited = {key: value for properties in keys.values() for key, value in properties.items() if key not in OWN_KEYS}
     inherited |= {"domain": inherited["domain"] | {"enum": domains}}
+    robot: dict[str, Any] = {"properties": {"domain": {"enum": domains}}}
+    if len(domains) == 1:  # without conditions editors say what is wrong, and where
+        robot = {"$ref": f"#/$defs/{domains[0]}"}
     schema = {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "urdfsync.toml",
@@ -49,10 +52,10 @@ def config_schema() -> dict[str, Any]:
         "properties": {
             "defaults": _closed(inherited),
             "check": _closed(_properties(CheckConfig, meanings)),
-            "robots": {"type": "object", "propertyNames": {"pattern": ROBOT_PATTERN}},
+            "robots": {"type": "object", "propertyNames": {"pattern": ROBOT_PATTERN}, "additionalProperties": robot},
         },
         "additionalProperties": False,
-        "anyOf": [_by_default(domain, domains) for domain in domains],
+        **({"allOf": [_by_default(domain, domains) for domain in domains]} if len(domains) > 1 else {}),
         "$defs": {name: _robot(properties) for name, properties in keys.items()},
     }
     _refuse_control_characters(schema)
@@ -98,14 +101,18 @@ def _robot(properties: Mapping[str, Any]) -> dict[str, Any]:
     }
 
 
-def _by_default(default: str, domains: list[str]) -> dict[str, Any]:
-    """Return what the robots are if `[defaults]` has this domain: others name theirs."""
-    named = {"properties": {"domain": {"const": default}}}
-    robots = [{"$ref": f"#/$defs/{name}"} | ({} if name == default else {"required": ["domain"]}) for name in domains]
-    tables = {"robots": {"additionalProperties": {"anyOf": robots} if len(robots) > 1 else robots[0]}}
-    if default == DEFAULT_DOMAIN:
-        return {"properties": {**tables, "defaults": named}}
-    return {"properties": {**tables, "defaults": named | {"required": ["domain"]}}, "required": ["defaults"]}
+def _by_default(default: str, domains: Sequence[str]) -> dict[str, Any]:
+    """Return what the robots are if `[defaults]` has this domain; of one domain there is no such case."""
+    robots = [{"if": _has_domain(name, name == default), "then": {"$ref": f"#/$defs/{name}"}} for name in domains]
+    tables = {"properties": {"defaults": _has_domain(default, default == DEFAULT_DOMAIN)}}
+    return {
+        "if": tables if default == DEFAULT_DOMAIN else tables | {"required": ["defaults"]},
+        "then": {"properties": {"robots": {"additionalProperties": {"allOf": robots}}}},
+    }
+
+
+def _has_domain(name: str, may_be_left_out: bool) -> dict[str, Any]:
+    return {"properties": {"domain": {"const": name}}} | ({} if may_be_left_out else {"required": ["domain"]})
 
 
 def _refuse_control_characters(schema: Any) -> None:
