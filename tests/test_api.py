@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 import subprocess
 import sys
@@ -90,3 +91,15 @@ def test_all_names_are_there_and_on_the_page_and_nothing_is_loaded_before() -> N
         _ = urdfsync.biuld  # type: ignore[attr-defined]
     code = "import sys, urdfsync; sys.exit(any(name.startswith(('urdfsync.', 'msgspec')) for name in sys.modules))"
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+
+
+@pytest.mark.slow
+def test_a_script_that_starts_processes_needs_no_main_guard(folder: Path) -> None:
+    source = ROBOTS / "planar_platform/planar_platform.urdf"
+    Path("urdfsync.toml").write_text(f"[robots.platform]\nsource = '{source}'\npackage = 'Platform'\n")
+    Path("script.py").write_text("import urdfsync\nurdfsync.build()\nprint(urdfsync.check()[0].diagnostics)\n")
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
+    command = [sys.executable, "script.py"]
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=200, check=True)
+    assert done.stderr == ""
+    assert "check-crashed" not in done.stdout

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+import sys
 from collections.abc import Callable, Iterator
 from concurrent.futures import Executor, Future
 from concurrent.futures.process import ProcessPoolExecutor
@@ -14,6 +15,7 @@ from multiprocessing import get_context
 from multiprocessing.connection import Connection
 from multiprocessing.queues import SimpleQueue
 from signal import SIG_IGN, SIGINT, signal
+from types import ModuleType
 from typing import Any, TypeVar
 
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
@@ -109,14 +111,16 @@ def _connect(address: str) -> Any:
 def _safe_path() -> Iterator[None]:
     """Start Python processes that import nothing from the working folder, which may be a stranger's repository.
 
-    An executor starts some when it is made, for its locks, and others when work is submitted. The variable is removed
-    afterwards: a command of the user's that runs later may want its own folder on the path.
+    They do not import the main module either: it may be a script that calls the API, and would do so again. An executor
+    starts some when it is made, for its locks, and others when work is submitted. The variable is removed afterwards: a
+    command of the user's that runs later may want its own folder on the path.
     """
-    before = os.environ.get("PYTHONSAFEPATH")
-    os.environ["PYTHONSAFEPATH"] = "1"
+    before, main = os.environ.get("PYTHONSAFEPATH"), sys.modules["__main__"]
+    os.environ["PYTHONSAFEPATH"], sys.modules["__main__"] = "1", ModuleType("__main__")
     try:
         yield
     finally:
+        sys.modules["__main__"] = main
         if before is None:
             del os.environ["PYTHONSAFEPATH"]
         else:
