@@ -19,6 +19,7 @@ from urdfsync.checks.libraries import NEXT, OLDEST
 from urdfsync.checks.results import MOST_SINGLE_EDITS, TOLERANCE, CheckOptions
 from urdfsync.domain import Target
 from urdfsync.engine.result import Exit
+from urdfsync.output.markdown import FOLDED
 from urdfsync.simulation.motion import MOST_ROWS
 from urdfsync.simulation.results import STEPS, STOP, SimulateOptions
 from urdfsync.simulation.results import TOLERANCE as SIMULATED_TO
@@ -114,6 +115,10 @@ def test_numbers_of_the_check_are_those_in_use() -> None:
     assert MOST_SINGLE_EDITS == 6
     assert "Up to six edited files are tried one by one" in page
     assert f"`--timeout` ({defaults.timeout:.0f} s)" in page
+
+
+def test_numbers_of_comments_are_those_in_use() -> None:
+    assert f"folded beyond {FOLDED} rows" in text_of("git")
 
 
 def test_numbers_of_simulations_are_those_in_use() -> None:
