@@ -110,7 +110,9 @@ def compile_task(model: str, *libraries: str, runs: Sequence[Run] = (), values: 
     return Task(task.source, task.model, runs, values)
 
 
-def execute(library: Path, packages: Iterable[Path], todo: Sequence[Task], own: Path = URDFSYNC) -> list[Outcome]:
+def execute(
+    library: Path, packages: Iterable[Path], todo: Sequence[Task], own: Path = URDFSYNC, tool: str = "rumoca"
+) -> list[Outcome]:
     """Compile and run tasks in a child process, with the standard library, UrdfSync and the folders `packages`.
 
     A child that dies gives outcomes with its last words as the error.
@@ -123,7 +125,7 @@ def execute(library: Path, packages: Iterable[Path], todo: Sequence[Task], own: 
         tasks.append(CompileTask(task.model, task.source, tuple(runs), tuple(task.values), task.pattern))
     CACHE.trim()
     try:
-        results = run_job(Tool("rumoca"), CompileJob(roots, tuple(tasks)), CACHE, Limits("a test", 3600, 16e9))
+        results = run_job(Tool(tool), CompileJob(roots, tuple(tasks)), CACHE, Limits("a test", 3600, 16e9))
     except CompilerError as error:
         return [Outcome(str(error)) for _ in todo]
     outcomes = []
@@ -136,15 +138,19 @@ def execute(library: Path, packages: Iterable[Path], todo: Sequence[Task], own: 
     return outcomes
 
 
-def simulate_all(library: Path, packages: Iterable[Path], todo: Sequence[Task], own: Path = URDFSYNC) -> list[Series]:
+def simulate_all(
+    library: Path, packages: Iterable[Path], todo: Sequence[Task], own: Path = URDFSYNC, tool: str = "rumoca"
+) -> list[Series]:
     """Execute tasks that compile; returns all their runs, those that came to no end among them."""
-    outcomes = execute(library, packages, todo, own)
+    outcomes = execute(library, packages, todo, own, tool)
     assert [outcome.error for outcome in outcomes] == [""] * len(todo)
     return [run for outcome in outcomes for run in outcome.runs]
 
 
-def simulate(library: Path, packages: Iterable[Path], todo: Sequence[Task], own: Path = URDFSYNC) -> list[Series]:
+def simulate(
+    library: Path, packages: Iterable[Path], todo: Sequence[Task], own: Path = URDFSYNC, tool: str = "rumoca"
+) -> list[Series]:
     """Execute tasks that compile, and whose runs all come to their end; returns these runs."""
-    runs = simulate_all(library, packages, todo, own)
+    runs = simulate_all(library, packages, todo, own, tool)
     assert [run.error for run in runs] == [""] * len(runs)
     return runs
