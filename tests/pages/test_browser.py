@@ -11,7 +11,12 @@ import numpy as np
 import pytest
 from support.browser import NEEDS_CHROMIUM, Page
 
-from urdfsync import cli
+from urdfsync import cli, config
+from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.engine.options import BuildOptions
+from urdfsync.pages.content import gather
+from urdfsync.pages.page import page as page_of
+from urdfsync.simulation.results import JointResult, PassedLimit, Range, SimulateResult
 
 pytestmark = [NEEDS_CHROMIUM, pytest.mark.slow]
 Report = Callable[..., Path]
@@ -114,6 +119,33 @@ def test_changed_links_have_the_colour_and_the_old_robot_is_there(arm: Path, rep
     page.run("chooseVersion('now')")
     assert page.run(color) == page.run("page.now.bodies.get('link forearm').layers.visual[0].userData.color.getHex()")
     assert page.run("page.before.root.visible") is False
+    assert page.problems == []
+
+
+def test_a_simulation_moves_the_robot_and_stands_beside_its_limits(arm: Path, tmp_path: Path, chromium: Page) -> None:
+    loaded = config.load(Path("urdfsync.toml"))
+    content = gather(loaded, loaded.robots[0], None, BuildOptions(), tmp_path)
+    series = {"time": [0.0, 1.0, 2.0], "elbow.phi": [0.0, 0.5, math.nan], "elbow.tau": [0.0, 150.0, -3.0]}
+    position = Range("elbow.phi", "rad", 0.0, 0.5, -3.49, 0.6)
+    effort = Range("elbow.tau", "N·m", -3.0, 150.0, -130.0, 130.0)
+    passed = (PassedLimit("effort", 130.0, 0.9, 20.0, 0.2),)
+    warning = Diagnostic(Severity.WARNING, "limit-passed", "effort passes its limit")
+    joint = JointResult("joint elbow", "robot", position, None, effort, passed=passed)
+    result = SimulateResult("arm", "Arm.ArmTest", 2.0, 1.0, 1e-6, (joint,), series, (warning,), 1.0, is_known=False)
+    file = tmp_path / "motion.html"
+    file.write_bytes(page_of(content, result))
+    page = opened(chromium, file)
+    page.run("page.player.seek(0.5)")
+    assert page.run("page.now.positions.get('joint elbow')") == 0.25
+    assert page.run("document.querySelectorAll('.charts').length") == 1
+    assert page.run("document.querySelectorAll('.chart .limit').length") == 2  # lower limits are far
+    assert "passed" in page.run("document.querySelector('figcaption.removed').textContent")
+    assert "effort passes its limit" in page.run("element('motion').textContent")
+    page.run("page.player.seek(1.9), page.player.toggle()")  # real time: the end comes after a tenth of a second
+    page.run(
+        "new Promise((go) => { const wait = () => page.player.isPlaying ? setTimeout(wait, 20) : go(1); wait(); })"
+    )
+    assert page.run("page.player.time") == 2
     assert page.problems == []
 
 

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import csv
+import json
+import re
 from pathlib import Path
 
 import pytest
@@ -54,6 +56,18 @@ def test_series_are_written_with_all_digits(compiler: Compiler, execute: Execute
     assert Path("a.csv").read_bytes() == Path("b.csv").read_bytes()
 
 
+def test_a_page_has_the_motion(compiler: Compiler, execute: Execute) -> None:
+    printed = execute("simulate", "--report", "arm.html")
+    assert printed.lines[-1] == "  report: arm.html"
+    page = Path("arm.html").read_text("utf-8")
+    (data,) = re.findall('<script type="application/json" id="data">(.*?)</script>', page)
+    motion = json.loads(data)["motion"]
+    assert [joint["element"] for joint in motion["joints"]] == ["joint shoulder", "joint elbow"]
+    assert motion["times"] == list(compiler.values["time"])
+    assert motion["joints"][0]["passed"] == ["position"]
+    assert "position passes its limit, 2 rad" in page
+
+
 def test_parquet_has_the_same_numbers(compiler: Compiler, execute: Execute) -> None:
     parquet = pytest.importorskip("pyarrow.parquet")
     execute("simulate", "--parquet", "a.parquet")
@@ -72,6 +86,7 @@ def test_parquet_has_the_same_numbers(compiler: Compiler, execute: Execute) -> N
         (("--input", "m.csv", "--csv", "m.csv"), "the file with the inputs has this name"),
         (("--plot", "a.pdf"), "a plot is one of .png, .svg"),
         (("--csv", "a.svg", "--plot", "a.svg"), "two outputs have this name"),
+        (("--report", "a.pdf"), "a page's name ends with .html"),
         (("--input", "absent.csv"), "absent.csv"),
         (("--stop", "0"), "'0' is no amount"),
         (("--step", "nan"), "'nan' is no amount"),

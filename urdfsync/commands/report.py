@@ -11,9 +11,7 @@ from urdfsync.config import working_folder
 from urdfsync.engine.result import Exit
 from urdfsync.files import shown
 from urdfsync.output.console import Console, line
-from urdfsync.simulation.files import check_file, input_files, not_writable, write_file
-
-_SUFFIXES = (".html", ".htm")
+from urdfsync.simulation.files import input_files, not_writable, write_file
 
 
 class PageDocument(TypedDict):
@@ -45,18 +43,16 @@ def add(commands: arguments.Commands) -> None:
 def run(args: argparse.Namespace, console: Console) -> int:
     """Write the page of one robot, and say where it is."""
     from urdfsync.pages.content import gather  # with numpy 100 ms, which `urdfsync --help` does without
-    from urdfsync.pages.page import is_page, page
+    from urdfsync.pages.page import check_page, is_page, page
 
     configuration = arguments.configuration(args)
     robots = arguments.select_robots(args, configuration, console)
     robot = configuration.select_one([robot.name for robot in robots], "report")
     file = args.output or working_folder() / f"{robot.name}.html"
-    if file.suffix.lower() not in _SUFFIXES:
-        raise not_writable(file, "a page's name ends with .html", "name such a file")
     if args.output is None and (file.is_symlink() or (file.exists() and not is_page(file))):
         hint = "name a file with `--output`, this one to replace it"
         raise not_writable(file, "it is there, and urdfsync did not write it", hint)
-    check_file(file, input_files(configuration, robot, None))
+    check_page(file, input_files(configuration, robot, None))
     content = gather(configuration, robot, args.against, arguments.request(args, console), working_folder())
     text = page(content)
     write_file(file, text)

@@ -8,29 +8,45 @@ const VERSIONS = { now: "Now", both: "Both", before: "Before" };
 /* The state of the page; tests read it. `ready` is a promise of the picture. */
 const page = {
   selected: null,
-  layers: { visual: true, collision: false, frame: false, mass: false, inertia: false },
+  layers: { visual: true, collision: false, frame: data.now.missing.length > 0 || !data.now.bodies.some((body) => body.shapes.length), mass: false, inertia: false },
   version: data.before ? "both" : "now",
   positions: new Map(data.now.hinges.map((hinge) => [hinge.element, hinge.start])),
   now: null,
   before: null,
-  frames: [],
   pose: (element) => page.now.pose(element),
+  player: null,
   ready: null,
 };
 
 const element = (id) => document.getElementById(id);
-const stage = { renderer: null, scene: null, orbit: null, waiting: false, lamp: null };
+const stage = { renderer: null, scene: null, orbit: null, waiting: false, lamp: null, isSlow: false, timer: 0 };
+const SOFTWARE = /swiftshader|llvmpipe|software|basic render/i;
+const REST = 300; // milliseconds without a change, after which a slow picture gets all its pixels
+
+/* Returns whether no graphics card draws: then a picture takes a second, most of it for its pixels. */
+function isDrawnBySoftware() {
+  const context = document.createElement("canvas").getContext("webgl");
+  const info = context?.getExtension("WEBGL_debug_renderer_info");
+  return Boolean(info) && SOFTWARE.test(context.getParameter(info.UNMASKED_RENDERER_WEBGL));
+}
 
 function draw() {
   if (!stage.renderer || stage.waiting) return;
   stage.waiting = true;
   requestAnimationFrame(() => {
     stage.waiting = false;
-    const begin = performance.now();
-    stage.lamp.position.copy(stage.orbit.camera.position);
-    stage.renderer.render(stage.scene, stage.orbit.camera);
-    page.frames.push(performance.now() - begin);
+    if (stage.isSlow) {
+      clearTimeout(stage.timer);
+      stage.timer = setTimeout(() => render(1), REST);
+    }
+    render(stage.isSlow ? 0.4 : Math.min(devicePixelRatio, 2));
   });
+}
+
+function render(ratio) {
+  if (stage.renderer.getPixelRatio() !== ratio) stage.renderer.setPixelRatio(ratio);
+  stage.lamp.position.copy(stage.orbit.camera.position);
+  stage.renderer.render(stage.scene, stage.orbit.camera);
 }
 
 function move(name, position) {
@@ -44,6 +60,15 @@ function move(name, position) {
     }
   }
   if (page.before) for (const old of page.before.hinges.keys()) if ((data.renamed[old] || old) === name) page.before.move(old, position);
+  hideSame();
+  showPositions(page.positions);
+  draw();
+}
+
+/* Sets many positions at once. */
+function moveAll(positions) {
+  for (const view of [page.now, page.before]) view?.moveAll(positions, view === page.before ? data.renamed : {});
+  for (const [name, position] of positions) page.positions.set(name, position);
   hideSame();
   showPositions(page.positions);
   draw();
@@ -139,15 +164,35 @@ function resize() {
   stage.orbit.update();
 }
 
+/* Sets up the simulation, if the page has one: it moves the robot, and what is moved by hand stays until it goes on. */
+function setUpMotion() {
+  const { motion } = data;
+  if (!motion || motion.times.length < 2) return;
+  const moveCursors = fillCharts(element("charts"), motion, (time) => page.player.seek(time), select);
+  const button = make("button", { type: "button", id: "play", title: "Play or pause (space)" }, "▶", { click: () => page.player.toggle() });
+  const slider = make("input", { type: "range", step: "any", min: motion.times[0], max: motion.times[motion.times.length - 1], "aria-label": "Time" }, [], { input: () => page.player.seek(Number(slider.value)) });
+  const told = make("output", {}, "");
+  element("player").append(button, slider, told);
+  element("player").hidden = false;
+  page.player = new Player(motion, (player) => {
+    button.textContent = player.isPlaying ? "⏸" : "▶";
+    slider.value = player.time;
+    told.textContent = `${player.time.toFixed(2)} s`;
+    moveCursors(player.time);
+    moveAll(positionsAt(motion, player.time));
+  });
+  page.player.seek(motion.times[0]);
+}
+
 async function show() {
   const canvas = element("view");
+  stage.isSlow = isDrawnBySoftware();
   try {
-    stage.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: true }); // else it is not printed
+    stage.renderer = new THREE.WebGLRenderer({ canvas, antialias: !stage.isSlow, alpha: true, preserveDrawingBuffer: true }); // else it is not printed
   } catch (error) {
     throw new Error("This browser shows no 3D: WebGL is not there, or switched off. All else on the page works.", { cause: error });
   }
   stage.renderer.outputEncoding = THREE.sRGBEncoding;
-  stage.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
   const packed = element("meshes"), meshes = packed ? await loadMeshes(packed.textContent) : new Map();
   page.now = new RobotView(data.now, meshes);
   stage.scene = new THREE.Scene();
@@ -159,7 +204,7 @@ async function show() {
     stage.scene.add(page.before.root);
     box.union(page.before.bounds());
   }
-  const cell = 10 ** Math.round(Math.log10(page.now.size / 5));
+  const decade = 10 ** Math.floor(Math.log10(page.now.size / 8)), cell = decade * [5, 2, 1].find((step) => step * decade <= page.now.size / 8);
   stage.grid = new THREE.GridHelper(20 * cell, 20, 0xffffff, 0xffffff);
   Object.assign(stage.grid.material, { transparent: true, opacity: 0.9, vertexColors: false });
   stage.grid.rotateX(Math.PI / 2);
@@ -170,6 +215,7 @@ async function show() {
   resize();
   stage.orbit.fit(box);
   setTheme(document.documentElement.dataset.theme);
+  setUpMotion();
 }
 
 const showPositions = fillAxes(element("axes"), data, move, select);
@@ -210,6 +256,10 @@ document.addEventListener("keydown", (event) => {
   if (layer) toggle(layer);
   else if (event.key === "b" && data.before) chooseVersion(versions[(versions.indexOf(page.version) + 1) % versions.length]);
   else if (event.key === "r") reset();
+  else if (event.key === " " && page.player && !event.target.matches("button, a, summary, [role=treeitem]")) {
+    page.player.toggle();
+    event.preventDefault();
+  }
   else if (event.key === "d") element("theme").click();
   else if (event.key === "Escape") select(null);
 });

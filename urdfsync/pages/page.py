@@ -9,6 +9,7 @@ import base64
 import gzip
 import hashlib
 import json
+import math
 import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -16,6 +17,7 @@ from typing import Any
 
 import jinja2
 import markupsafe
+import msgspec
 import numpy as np
 
 from urdfsync import __version__
@@ -26,21 +28,26 @@ from urdfsync.output.phrases import reason
 from urdfsync.pages import threejs
 from urdfsync.pages.content import Content
 from urdfsync.scene import Scene, Triangles, plain
+from urdfsync.simulation.files import check_file, not_writable
+from urdfsync.simulation.results import SimulateResult
 
-SCRIPTS = ("robot.js", "orbit.js", "panels.js", "page.js")
+SCRIPTS = ("robot.js", "orbit.js", "panels.js", "motion.js", "page.js")
 """Our own scripts, in the order in which they run: each may use what those before it declare."""
 _FOLDER = Path(__file__).parent
 _STYLE = re.compile("<style>(.*?)</style>", re.DOTALL)
 _CODE = re.compile("`([^`]+)`")
+_MOST_INSTANTS = 1000
+"""Instants of a simulation that the page has."""
 _MOST_LINES = 400
 """Lines of one difference that are shown."""
+_SUFFIXES = (".html", ".htm")
 _GENERATOR, _BEGINNING = b'<meta name="generator" content="urdfsync', 2000
 """What every page has in so many of its first bytes."""
 _ESCAPES = {ord(char): f"\\u{ord(char):04x}" for char in "<>&\u2028\u2029"}
 
 
-def page(content: Content) -> bytes:
-    """Return the page. Raises UrdfsyncError if three.js can't be had."""
+def page(content: Content, simulation: SimulateResult | None = None) -> bytes:
+    """Return the page, with a simulation that plays. Raises UrdfsyncError if three.js can't be had."""
     library = threejs.load()
     scripts = [library.text, *((_FOLDER / name).read_text("utf-8") for name in SCRIPTS)]
     style = (_FOLDER / "page.css").read_text("utf-8")
@@ -61,7 +68,7 @@ def page(content: Content) -> bytes:
         policy=_policy(scripts, styles),
         style=markupsafe.Markup(style),  # noqa: S704 - our own
         scripts=[markupsafe.Markup(script) for script in scripts],  # noqa: S704 - our own, and those of trimesh
-        data=markupsafe.Markup(_json(_data(content))),  # noqa: S704 - escaped for a script element
+        data=markupsafe.Markup(_json(_data(content) | {"motion": simulation and _motion(simulation)})),  # noqa: S704 - escaped for a script element
         meshes=base64.b64encode(gzip.compress(_glb(content.meshes), 6, mtime=0)).decode() if content.meshes else "",
         section=section,
         findings=findings_table(section.findings),
@@ -72,12 +79,20 @@ def page(content: Content) -> bytes:
         edited=[_edited(file.path, file.base, file.mine) for file in content.edits.files if file.base is not None],
         conflicts=list(map(_conflict, content.conflicts)),
         notes=content.notes,
+        motion=simulation and _motion_words(simulation),
         against=content.against,
         has_diagram=bool(content.diagram),
         bodies=content.now.bodies,
         library=library,
     )
     return text.encode("utf-8", "replace")
+
+
+def check_page(file: Path, inputs: Mapping[str, Path]) -> None:
+    """Raise OutputError for a page that can't be written, or would replace one of `inputs`."""
+    if file.suffix.lower() not in _SUFFIXES:
+        raise not_writable(file, "a page's name ends with .html", "name such a file")
+    check_file(file, inputs)
 
 
 def is_page(file: Path) -> bool:
@@ -148,6 +163,44 @@ def _glb(meshes: Mapping[str, Triangles]) -> bytes:
         scene.add_geometry(triangles, node_name=f"m{number}", geom_name=f"m{number}")
     content: bytes = trimesh.exchange.gltf.export_glb(scene, include_normals=False)
     return content
+
+
+# --- a simulation ---------------------------------------------------------------------------------------------------
+
+
+def _motion(result: SimulateResult) -> dict[str, Any]:
+    """Return the series of the joints of one robot, in so many instants as a page shows; what is no number is null."""
+    robots = [joint.robot for joint in result.joints]
+    robot = "robot" if "robot" in robots else next(iter(robots), "")
+    step = math.ceil(len(result.series["time"]) / _MOST_INSTANTS)
+
+    def values(name: str) -> list[float | None]:
+        series = result.series[name]
+        return [float(f"{value:.7g}") if math.isfinite(value) else None for value in [*series[:-1:step], series[-1]]]
+
+    joints = []
+    for joint in result.joints:
+        if joint.robot == robot:
+            ranges = {name: getattr(joint, name) for name in ("position", "speed", "effort")}
+            quantities = {
+                name: {
+                    "values": values(each.variable),
+                    "unit": each.unit,
+                    "least": each.least if math.isfinite(each.least) else 0.0,
+                    "greatest": each.greatest if math.isfinite(each.greatest) else 0.0,
+                    "lower": each.lower,
+                    "upper": each.upper,
+                }
+                for name, each in ranges.items()
+                if each is not None
+            }
+            joints.append({"element": joint.element, **quantities, "passed": [each.quantity for each in joint.passed]})
+    return {"times": values("time"), "joints": joints}
+
+
+def _motion_words(result: SimulateResult) -> dict[str, Any]:
+    findings = msgspec.structs.replace(findings_table(result.diagnostics), title="Findings of the simulation")
+    return {"model": result.model, "stop": f"{result.series['time'][-1]:g}", "findings": findings}
 
 
 # --- texts ----------------------------------------------------------------------------------------------------------

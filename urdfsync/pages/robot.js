@@ -10,38 +10,47 @@ function themeColor(name) {
   return new THREE.Color(getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim()).convertSRGBToLinear();
 }
 
-/* Returns a geometry of triangles whose normals are smooth but at edges. */
+/* Returns a geometry of triangles whose normals are smooth but at edges. Corners with one normal are one vertex. */
 function creased(points, faces) {
-  const corners = faces.length, normals = new Float32Array(3 * corners), positions = new Float32Array(3 * corners);
+  const corners = faces.length, count = points.length / 3;
   const flat = new Float32Array(corners), areas = new Float32Array(corners / 3); // of faces: unit normal, and its length
-  const begin = new Uint32Array(points.length / 3 + 1), around = new Uint32Array(corners);
-  for (let corner = 0; corner < corners; corner++) {
-    begin[faces[corner] + 1]++;
-    positions.set(points.subarray(3 * faces[corner], 3 * faces[corner] + 3), 3 * corner);
-  }
-  for (let point = 1; point < begin.length; point++) begin[point] += begin[point - 1];
+  const begin = new Uint32Array(count + 1), around = new Uint32Array(corners);
+  for (let corner = 0; corner < corners; corner++) begin[faces[corner] + 1]++;
+  for (let point = 1; point <= count; point++) begin[point] += begin[point - 1];
   const next = begin.slice();
   for (let corner = 0; corner < corners; corner++) around[next[faces[corner]]++] = corner / 3 | 0;
   const a = new THREE.Vector3(), b = new THREE.Vector3(), c = new THREE.Vector3();
   for (let face = 0; face < corners / 3; face++) {
-    a.fromArray(positions, 9 * face), b.fromArray(positions, 9 * face + 3), c.fromArray(positions, 9 * face + 6);
+    a.fromArray(points, 3 * faces[3 * face]), b.fromArray(points, 3 * faces[3 * face + 1]), c.fromArray(points, 3 * faces[3 * face + 2]);
     b.sub(a).cross(c.sub(a));
     areas[face] = b.length();
     b.normalize().toArray(flat, 3 * face);
   }
+  const positions = [], normals = [], index = new Uint32Array(corners), previous = [];
+  const last = new Int32Array(count).fill(-1); // the last vertex at each point; `previous` leads to those before it
   for (let corner = 0; corner < corners; corner++) {
-    const own = 3 * (corner / 3 | 0), last = Math.min(begin[faces[corner] + 1], begin[faces[corner]] + MOST_AROUND);
+    const point = faces[corner], own = 3 * (corner / 3 | 0), end = Math.min(begin[point + 1], begin[point] + MOST_AROUND);
     a.set(flat[own], flat[own + 1], flat[own + 2]).multiplyScalar(areas[own / 3]);
-    for (let place = begin[faces[corner]]; place < last; place++) {
+    for (let place = begin[point]; place < end; place++) {
       const other = 3 * around[place];
       const cosine = flat[own] * flat[other] + flat[own + 1] * flat[other + 1] + flat[own + 2] * flat[other + 2];
       if (other !== own && cosine > CREASE) a.addScaledVector(b.fromArray(flat, other), areas[other / 3]);
     }
-    a.normalize().toArray(normals, 3 * corner);
+    a.normalize();
+    let vertex = last[point];
+    while (vertex >= 0 && a.dot(b.fromArray(normals, 3 * vertex)) < 0.9999) vertex = previous[vertex];
+    if (vertex < 0) {
+      vertex = previous.push(last[point]) - 1;
+      last[point] = vertex;
+      positions.push(points[3 * point], points[3 * point + 1], points[3 * point + 2]);
+      normals.push(a.x, a.y, a.z);
+    }
+    index[corner] = vertex;
   }
   const geometry = new THREE.BufferGeometry();
-  geometry.setAttribute("position", new THREE.BufferAttribute(positions, 3));
-  geometry.setAttribute("normal", new THREE.BufferAttribute(normals, 3));
+  geometry.setAttribute("position", new THREE.Float32BufferAttribute(positions, 3));
+  geometry.setAttribute("normal", new THREE.Float32BufferAttribute(normals, 3));
+  geometry.setIndex(new THREE.BufferAttribute(index, 1));
   return geometry;
 }
 
@@ -135,6 +144,11 @@ class RobotView {
       points.push(...end.map((part) => -part), ...end);
       colors.push(.95, .55, 0, .95, .55, 0);
     }
+    for (const { parent, pose } of this.scene.hinges) { // bones, to the frames of the next bodies
+      if (parent !== data.element) continue;
+      points.push(0, 0, 0, ...pose.slice(12, 15));
+      colors.push(.5, .5, .55, .5, .5, .55);
+    }
     this.#add(body, "frame", lines(points, colors));
     if (!data.inertia) return;
     const heaviest = Math.max(...this.scene.bodies.map((each) => each.mass));
@@ -175,6 +189,15 @@ class RobotView {
   move(element, position) {
     if (!this.hinges.has(element)) return;
     this.positions.set(element, position);
+    this.place();
+  }
+
+  /* Sets the positions of many axes; `renamed` has their names in the other version. */
+  moveAll(positions, renamed) {
+    for (const element of this.positions.keys()) {
+      const position = positions.get(renamed[element] || element);
+      if (position !== undefined) this.positions.set(element, position);
+    }
     this.place();
   }
 
@@ -222,7 +245,7 @@ class RobotView {
         material.depthWrite = material.opacity > 0.5;
         material.emissive.copy(glow || new THREE.Color(0));
       }
-      body.layers.frame[0].scale.setScalar(glow ? 2 : 1);
+      body.layers.frame[0].material.opacity = glow ? 1 : 0.75;
     }
   }
 }

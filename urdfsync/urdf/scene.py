@@ -78,8 +78,9 @@ def _principal(inertial: Inertial) -> tuple[Pose, tuple[float, ...]]:
     moments, axes = np.linalg.eigh(tensor)
     axes[:, 2] *= np.sign(np.linalg.det(axes))  # right-handed
     turned = poses.compose(frame, (tuple(map(tuple, axes.tolist())), (0.0, 0.0, 0.0)))  # type: ignore[arg-type]
-    squares = 6 / inertial.mass * (moments.sum() - 2 * moments)
-    is_body = bool((squares > -_NO_BOX).all() and (squares > _NO_BOX).any())
+    with np.errstate(over="ignore"):
+        squares = 6 / inertial.mass * (moments.sum() - 2 * moments)
+    is_body = bool(np.isfinite(squares).all() and (squares > -_NO_BOX).all() and (squares > _NO_BOX).any())
     return _matrix(turned), tuple(np.sqrt(np.maximum(squares, 0.0)).tolist()) if is_body else ()
 
 
