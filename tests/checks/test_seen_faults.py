@@ -130,7 +130,16 @@ CART = robot(
     standing(link("base", 8.0), 'sphere radius="0.02"', "0.3 0 -0.081"),
     *(standing(link(side, 1.0), 'cylinder radius="0.1" length="0.04"') for side in ("left", "right")),
     *(
-        joint(side, "continuous", "base", f"{side}", xyz=f"-0.1 {y} 0", rpy="-1.5707963267948966 0 0", axis="0 0 1")
+        joint(
+            side,
+            "continuous",
+            "base",
+            side,
+            xyz=f"-0.1 {y} 0",
+            rpy="-1.5707963267948966 0 0",
+            axis="0 0 1",
+            inside=['<limit effort="0.5" velocity="9"/>'],
+        )
         for side, y in (("left", 0.2), ("right", -0.2))
     ),
     '<gazebo reference="base"><minDepth>0.001</minDepth></gazebo>',
