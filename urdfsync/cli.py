@@ -78,7 +78,7 @@ def _main(given: list[str]) -> int:
     except SystemExit as stop:  # --help and --version
         return stop.code if isinstance(stop.code, int) else Exit.ERROR
     except arguments.UsageError as error:
-        if not console.json:
+        if not console.is_document:
             sys.stderr.write(error.usage)
         problems, code = error.diagnostics, Exit.ERROR
     except UrdfsyncError as error:

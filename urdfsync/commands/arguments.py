@@ -214,7 +214,7 @@ def _may_be_xacro(source: Path) -> bool:
 
 def is_confirmed(question: str, done: str, console: Console) -> bool:
     """Ask the user whether something is to be `done`. Raises UrdfsyncError if nobody is there to answer."""
-    if console.json or sys.stdin is None or not sys.stdin.isatty():
+    if console.is_document or sys.stdin is None or not sys.stdin.isatty():
         message, hint = f"nothing was {done}: there is no terminal to ask on", "look at what is shown, then give --yes"
         raise UrdfsyncError.of("not-confirmed", message, hint=hint)
     sys.stdout.write(f"{question} [y/N] ")

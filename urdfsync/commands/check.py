@@ -56,7 +56,7 @@ def show_result(console: Console, result: CheckResult, *, strict: bool) -> None:
     """Show the result of one robot."""
     if console.format is Format.JSON:
         console.add_robot(to_json(result, strict))
-    elif console.json:
+    elif console.is_document:
         console.add_section(to_section(result, strict))
     elif not console.quiet or result.status(strict) is not CheckStatus.RIGHT:
         marks = has_marks(sys.stdout)

@@ -47,7 +47,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
         if console.format is Format.JSON:
             console.add_robot(to_json(compared))
             return
-        if console.json:
+        if console.is_document:
             console.add_section(to_section(compared))
             return
         told = [diagnostic for diagnostic in compared.result.diagnostics if diagnostic.code != CONNECTORS]

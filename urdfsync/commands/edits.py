@@ -17,7 +17,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     def show(edited: RobotEdits) -> None:
         if console.format is Format.JSON:
             console.add_robot(to_json(edited))
-        elif console.json:
+        elif console.is_document:
             console.add_section(to_section(edited))
         console.findings(edited.diagnostics)
         if not edited.failed:

@@ -79,7 +79,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
         raise SourceError.of("git", str(error), hint="without a repository, use `urdfsync build --check`") from None
     results = [fault.result for fault in faults if fault.result]
     for result in results:
-        if console.json or result.failed or result.conflicts or result.is_broken:
+        if console.is_document or result.failed or result.conflicts or result.is_broken:
             show_result(console, result)
     code = Exit.ERROR if errors else exit_code(results) or (Exit.OUT_OF_STEP if faults else Exit.IN_STEP)
     return console.end(code, [*(fault.diagnostic for fault in faults), *errors])

@@ -32,8 +32,8 @@ def run(_args: argparse.Namespace, console: Console) -> int:
         command = f"set MODELICAPATH={folder};%MODELICAPATH%"
     else:
         command = f'export MODELICAPATH={shlex.quote(folder)}"${{MODELICAPATH:+:$MODELICAPATH}}"'
-    if not console.json and sys.stdout.isatty():
+    if not console.is_document and sys.stdout.isatty():
         console.print([line((folder, "")), line((command, ""))])
-    elif not console.json:
+    elif not console.is_document:
         sys.stdout.write(f"{command}\n")  # as it is: a shell reads it
     return console.end(Exit.IN_STEP, values={"folder": folder, "line": command})

@@ -59,7 +59,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
         is_written = _write(written.text, named[0], file, force=args.force)
         console.tell([line((f"{file} {'written' if is_written else 'unchanged'}: record {written.class_}", ""))])
         return console.end(Exit.IN_STEP, values=values | {"file": str(file), "written": is_written})
-    if not console.json:
+    if not console.is_document:
         if hasattr(sys.stdout, "reconfigure") and not sys.stdout.isatty():
             sys.stdout.reconfigure(encoding="utf-8", newline="\n")  # a file is what Modelica tools read
         sys.stdout.write(written.text)

@@ -64,7 +64,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
 
 def _show(console: Console, result: Result, words: str) -> None:
     """Show what was done, or would be, with each file that goes, changes or stays."""
-    if console.json or result.failed:
+    if console.is_document or result.failed:
         show_result(console, result)
         return
     console.findings(result.diagnostics)

@@ -34,7 +34,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
         message = "none of your models uses a name that is known to have another one now"
         hint = "" if given else "give names that an earlier build renamed: --rename-uses OLD=NEW"
         told.append(Diagnostic(Severity.NOTE, "no-old-names", message, hint=hint))
-    console.warnings([*told, *(_notes(renamed) if console.json else ())])
+    console.warnings([*told, *(_notes(renamed) if console.is_document else ())])
     console.tell(_lines(renamed))
     if not renamed.texts or args.dry_run:
         return console.end(code)

@@ -31,7 +31,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     """Show how each robot's package stands."""
 
     def show(result: Result) -> None:
-        if console.json:
+        if console.is_document:
             console.add_robot(result_values(result))
             return
         show_findings(console, result, result.diagnostics)

@@ -60,7 +60,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     from urdfsync.watch.report import Report, show_json
 
     with contextlib.ExitStack() as stack:
-        listener = show_json if console.json else stack.enter_context(Report(console)).show
+        listener = show_json if console.is_document else stack.enter_context(Report(console)).show
         options = WatchOptions(
             file=args.config or config.find(config.working_folder()),
             robots=(*args.robots, *(args.robot or ())),

@@ -168,8 +168,8 @@ class Console:
         self._bar: tuple[Progress, TaskID] | None = None
 
     @property
-    def json(self) -> bool:
-        """Whether programs read the output: a document takes the place of lines."""
+    def is_document(self) -> bool:
+        """Whether a document takes the place of lines on the output stream."""
         return self.format is not Format.TEXT
 
     def print(self, lines: Iterable[StyledLine], *, error: bool = False) -> None:
@@ -179,12 +179,12 @@ class Console:
 
     def tell(self, lines: Iterable[StyledLine]) -> None:
         """Write lines on the output stream, unless the user wants JSON or errors alone."""
-        if not (self.json or self.quiet):
+        if not (self.is_document or self.quiet):
             self.print(lines)
 
     def findings(self, diagnostics: Sequence[Diagnostic]) -> None:
         """Show diagnostics to people."""
-        if not self.json and diagnostics:
+        if not self.is_document and diagnostics:
             self.print(findings(diagnostics, quiet=self.quiet, verbose=self.verbose), error=True)
 
     def warnings(self, diagnostics: Sequence[Diagnostic]) -> None:
@@ -208,7 +208,7 @@ class Console:
         That in JSON has these values, else the robots.
         """
         self.stop_progress()
-        if not self.json:
+        if not self.is_document:
             self.findings(diagnostics)
             return code
         sys.stdout.write(self._document(code, (*self._warnings, *diagnostics), values))
@@ -236,7 +236,7 @@ class Console:
 
     def progress(self, what: str, done: int, total: int) -> None:
         """Show a step of the work, once the work takes long enough for anybody to wonder."""
-        is_wanted = not self.json and not self.quiet and sys.stderr.isatty()
+        is_wanted = not self.is_document and not self.quiet and sys.stderr.isatty()
         if not is_wanted or time.monotonic() - self._begin < BAR_AFTER:
             return
         if self._bar is None:

@@ -129,7 +129,7 @@ def show_result(console: Console, result: Result, *, explain: bool = False, name
     if console.format is Format.JSON:
         console.add_robot(result_values(result))
         return
-    if console.json:
+    if console.is_document:
         console.add_section(build_section(result))
         return
     show_findings(console, result, result.diagnostics)
