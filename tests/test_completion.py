@@ -84,6 +84,7 @@ HOSTILE = {
     "no UTF-8": b"\xff\xfe",
     "no tables": b"robots = 3",
     "names that do harm": b'[robots."$(touch harm)"]\n[robots."a b"]\n["robots"."\\u001b[2J"]\n',
+    "large": b"[robots.x]\n" + b"#" * 500_000,
     "deep": b"a = " + b"[" * 5000,
 }
 
