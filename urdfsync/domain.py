@@ -264,7 +264,7 @@ class Quantity(enum.StrEnum):
     """Whether a limit is passed: 1 if so, else 0."""
     CONNECTION = "connection"
     """Whether a bench is connected as it should be: 0 if so, else 1."""
-    GROUND = "force of the ground"
+    GROUND = "ground force"
 
 
 class Deviation(msgspec.Struct, frozen=True):

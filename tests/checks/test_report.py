@@ -148,7 +148,7 @@ def test_contacts_are_plausible_within_a_hundredth(capsys: Capture, difference: 
     ground = Deviation(Quantity.GROUND, "robot", difference, 100.0, 100.0, "N", Part.CONTACTS)
     first, *others = shown(capsys, msgspec.structs.replace(RIGHT, tools=tools(deviations=(*AGREEING, ground))))
     assert f"; {word};" in first
-    told = any("robot: force of the ground differs from its own numbers by 2 N" in line for line in others)
+    told = any("robot: ground force differs from its own numbers by 2 N" in line for line in others)
     assert told is (difference > 1)
 
 

@@ -38,11 +38,6 @@ class Point(NamedTuple):
     """As part of the spring force, in s/m."""
     contact: Contact
 
-    def force(self, depth: float, rise: float = 0.0) -> float:
-        """Return the normal force at a depth and a speed upward."""
-        spring = self.stiffness * depth * max(0.0, 1 - self.damping * rise)
-        return self.share * max(0.0, spring - (self.contact.kd or 0.0) * rise) if depth > 0 else 0.0
-
 
 class Stand(NamedTuple):
     """A robot of a given weight on the points that carry it."""
@@ -56,7 +51,9 @@ class Stand(NamedTuple):
         """Return the force on the robot while it moves upward and sideways."""
         total, speed = np.zeros(3), math.hypot(*slide)
         for point in self.points:
-            normal = point.force(self.depth + self.lowest - point.place[2], rise)
+            depth = max(0.0, self.depth + self.lowest - point.place[2])
+            spring = point.stiffness * depth * max(0.0, 1 - point.damping * rise)
+            normal = point.share * max(0.0, spring - (point.contact.kd or 0.0) * rise) if depth else 0.0
             mu = FRICTION if point.contact.mu is None else point.contact.mu
             slip = SLIP_SPEED * max(1.0, mu / FRICTION)
             total[:2] -= mu * normal / math.hypot(speed, slip) * np.array(slide)
