@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import hashlib
 import json
+import math
 import re
 import shutil
 import subprocess
@@ -17,10 +18,16 @@ import pytest
 from support.commands import Execute
 from support.git import NEEDS_GIT, Repository
 
-from urdfsync import cli
+from urdfsync import cli, config
+from urdfsync.checks.cache import UserCache
+from urdfsync.checks.results import CheckResult, CompiledModel, EditEffect, ToolResult
+from urdfsync.domain import Deviation, Quantity
+from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Exit
 from urdfsync.pages import page as page_module
+from urdfsync.pages.content import gather
 from urdfsync.pages.page import SCRIPTS
+from urdfsync.pages.page import page as page_of
 
 Report = Callable[..., Path]
 STILL = '<robot name="still"><link name="only"/></robot>'
@@ -169,6 +176,37 @@ def test_a_source_that_can_not_be_read_writes_no_page(arm: Path, execute: Execut
     arm.write_text("<robot>")
     assert "error" in execute("report", code=Exit.ERROR).err
     assert not Path("arm.html").exists()
+
+
+def test_a_check_has_its_verdict_and_a_scale_for_each_difference(arm: Path, tmp_path: Path) -> None:
+    loaded = config.load(Path("urdfsync.toml"))
+    content = gather(loaded, loaded.robots[0], None, BuildOptions(), tmp_path)
+    right = Deviation(Quantity.EFFORT, "joint elbow", 1e-13, 20.0, 100.0, "N·m")
+    wrong = Deviation(Quantity.POSITION, "link <b>hand</b>", math.nan, 1.0, 1.0, "m")
+    effect = EditEffect(("Joints/Elbow.mo",), (Deviation(Quantity.EFFORT, "joint elbow", 0.67, 20.0, 100.0, "N·m"),))
+    tool = ToolResult("rumoca", deviations=(right, wrong), effects=(effect,))
+    page = _Elements(page_of(content, check=CheckResult("arm", "Arm", tools=(tool,), reference="Pinocchio 3")).decode())
+    meters = [each for tag, each in page.tags if tag == "meter"]
+    assert [each["value"] for each in meters] == ["0.00", "-15.00"]  # the worst first
+    assert meters[0]["high"] == "-10.00"
+    assert "link <b>hand</b>" in page.words
+    assert "Joints/Elbow.mo" in page.words
+    assert "0.67 N·m" in page.words
+
+
+def test_what_a_check_found_of_this_package_is_told(arm: Path, report: Report, monkeypatch: pytest.MonkeyPatch) -> None:
+    kept = CheckResult("arm", "Arm", tools=(ToolResult("rumoca", (CompiledModel("Arm", 7),)),))
+    asked = list[str]()
+
+    def load(_: UserCache, key: str, kind: type) -> CheckResult | None:
+        asked.append(key)
+        return kept if len(asked) == 2 else None
+
+    monkeypatch.setattr(UserCache, "load", load)
+    page = read(report())
+    assert len(set(asked)) == 2  # with physics, and without
+    assert "Check" in page.words
+    assert "1 model compiles" in page.words
 
 
 def test_a_domain_without_a_picture_says_so(project: Path, execute: Execute) -> None:

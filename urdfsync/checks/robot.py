@@ -29,6 +29,21 @@ from urdfsync.files import shown
 from urdfsync.workers import tell
 
 
+def known_check(config: Config, robot: RobotConfig, package_paths: tuple[Path, ...]) -> CheckResult | None:
+    """Return what an earlier check found of the package as it is, best with physics; None if that is not known.
+
+    Only checks by the embedded compiler count, and only those that found nothing wrong are remembered.
+    """
+    if config.check.tool != "rumoca":  # the key has the version of OpenModelica, which nobody wants to start here
+        return None
+    cache = UserCache.default()
+    for physics in (True, False):
+        key = fingerprint(config, robot, CheckOptions(physics=physics, package_paths=package_paths))
+        if key and (result := cache.load(key, CheckResult)):
+            return result
+    return None
+
+
 def check_robot(config: Config, robot: RobotConfig, options: CheckOptions, folder: Path | None = None) -> CheckResult:
     """Check one robot; copies of its package are made in `folder`, or where there is place if that is None.
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import sys
+from pathlib import Path
 
 from urdfsync.api import check
 from urdfsync.checks.compilers import COMPILERS
@@ -11,7 +12,8 @@ from urdfsync.checks.report import closing_lines, robot_lines, to_json, to_secti
 from urdfsync.checks.results import CheckOptions, CheckResult, CheckStatus, exit_code
 from urdfsync.checks.tools import BOTH
 from urdfsync.commands import arguments
-from urdfsync.output.console import Console, Format, has_marks
+from urdfsync.commands.report import check_report, write_report
+from urdfsync.output.console import Console, Format, has_marks, line
 
 
 def add(commands: arguments.Commands) -> None:
@@ -30,6 +32,7 @@ def add(commands: arguments.Commands) -> None:
     )
     option = parser.add_argument
     option("--physics", action="store_true", help="compare poses, torques and masses with a reference")
+    option("--report", type=Path, metavar="FILE.html", help="write a page with the result, as `report` does; one robot")
     option("--strict", action="store_true", help="what comes from an edit, or was not checked, counts as a difference")
     arguments.add_tool(parser, (*COMPILERS, BOTH))
     jobs = "robots at the same time (default: as cores and memory allow)"
@@ -39,6 +42,8 @@ def add(commands: arguments.Commands) -> None:
 def run(args: argparse.Namespace, console: Console) -> int:
     """Check the packages of the robots, and show each as soon as it is checked; then what holds for all."""
     results = list[CheckResult]()
+    if args.report:
+        check_report(args)
 
     def show(result: CheckResult) -> None:
         results.append(result)
@@ -49,6 +54,9 @@ def run(args: argparse.Namespace, console: Console) -> int:
         arguments.call(check, CheckOptions, args, console, on_result=show, **extra)
     finally:
         console.tell(closing_lines(results, strict=args.strict))
+    if args.report:
+        write_report(args, console, check=results[0])
+        console.tell([line((f"  report: {args.report}", ""))])
     return console.end(exit_code(results, args.strict))
 
 

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import argparse
+import os
 from pathlib import Path
-from typing import TypedDict
+from typing import Any, TypedDict
 
+from urdfsync import config
 from urdfsync.commands import arguments
 from urdfsync.config import working_folder
 from urdfsync.engine.result import Exit
@@ -42,6 +44,7 @@ def add(commands: arguments.Commands) -> None:
 
 def run(args: argparse.Namespace, console: Console) -> int:
     """Write the page of one robot, and say where it is."""
+    from urdfsync.checks.robot import known_check
     from urdfsync.pages.content import gather  # with numpy 100 ms, which `urdfsync --help` does without
     from urdfsync.pages.page import check_page, is_page, page
 
@@ -54,10 +57,30 @@ def run(args: argparse.Namespace, console: Console) -> int:
         raise not_writable(file, "it is there, and urdfsync did not write it", hint)
     check_page(file, input_files(configuration, robot, None))
     content = gather(configuration, robot, args.against, arguments.request(args, console), working_folder())
-    text = page(content)
+    text = page(content, check=known_check(configuration, robot, config.ros_package_path(os.environ)))
     write_file(file, text)
     section, place = content.section, shown(file)
     document: PageDocument = {"name": robot.name, "file": place, "bytes": len(text), "summary": section.summary}
     console.add_robot(document)
     console.tell([line((robot.name, "bold"), (f": {section.summary}", "")), line((f"  page: {place}", ""))])
     return console.end(Exit.IN_STEP)
+
+
+def check_report(args: argparse.Namespace, motion: Path | None = None) -> None:
+    """Raise an error for a `--report` that can't be written, before what it shows is worked out."""
+    from urdfsync.pages.page import check_page  # see above
+
+    configuration = arguments.configuration(args)
+    robot = configuration.select_one([*args.robots, *(args.robot or [])], args.command)
+    check_page(args.report, input_files(configuration, robot, motion))
+
+
+def write_report(args: argparse.Namespace, console: Console, **results: Any) -> None:
+    """Write the `--report` of a command with its results, as `page` takes them."""
+    from urdfsync.pages.content import gather  # see above
+    from urdfsync.pages.page import page
+
+    configuration = arguments.configuration(args)
+    robot = configuration.select_one([*args.robots, *(args.robot or [])], args.command)
+    content = gather(configuration, robot, None, arguments.request(args, console), working_folder())
+    write_file(args.report, page(content, **results))

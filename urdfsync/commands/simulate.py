@@ -8,13 +8,12 @@ from pathlib import Path
 from urdfsync.api import simulate
 from urdfsync.checks.compilers import COMPILERS
 from urdfsync.commands import arguments
-from urdfsync.config import working_folder
+from urdfsync.commands.report import check_report, write_report
 from urdfsync.diagnostics import Severity
 from urdfsync.engine.result import Exit
 from urdfsync.output.console import Console
-from urdfsync.simulation.files import input_files, write_file
 from urdfsync.simulation.report import result_lines, to_json
-from urdfsync.simulation.results import STEPS, STOP, TOLERANCE, SimulateOptions, SimulateResult
+from urdfsync.simulation.results import STEPS, STOP, TOLERANCE, SimulateOptions
 
 FILES = ("csv", "parquet", "plot")
 """The options that name a file to write."""
@@ -60,34 +59,14 @@ def run(args: argparse.Namespace, console: Console) -> int:
     """Simulate one robot, write what was asked for, and show what came out."""
     files = {kind: file for kind in FILES if (file := getattr(args, kind)) is not None}
     if args.report:
-        _check_report(args)
+        check_report(args, args.motion)
     extra = {"files": files, "tool": args.tool, "trusted": args.trusted}
     result = arguments.call(simulate, SimulateOptions, args, console, **extra)
     if args.report:
         files["report"] = args.report
-        _write_report(args, console, result)
+        write_report(args, console, simulation=result)
     console.add_robot(to_json(result, files))
     console.tell(result_lines(result, files))
     console.findings(result.diagnostics)
     stopped = any(finding.severity is Severity.ERROR for finding in result.diagnostics)
     return console.end(Exit.ERROR if stopped else Exit.IN_STEP)
-
-
-def _check_report(args: argparse.Namespace) -> None:
-    """Raise an error for a page that can't be written, before the simulation."""
-    from urdfsync.pages.page import check_page  # most simulations write none
-
-    configuration = arguments.configuration(args)
-    robot = configuration.select_one([*args.robots, *(args.robot or [])], "simulate")
-    check_page(args.report, input_files(configuration, robot, args.motion))
-
-
-def _write_report(args: argparse.Namespace, console: Console, result: SimulateResult) -> None:
-    """Write the page of the robot, in which the simulation plays."""
-    from urdfsync.pages.content import gather
-    from urdfsync.pages.page import page
-
-    configuration = arguments.configuration(args)
-    (robot,) = configuration.select([result.robot])
-    content = gather(configuration, robot, None, arguments.request(args, console), working_folder())
-    write_file(args.report, page(content, result))

@@ -193,7 +193,7 @@ async function show() {
     throw new Error("This browser shows no 3D: WebGL is not there, or switched off. All else on the page works.", { cause: error });
   }
   stage.renderer.outputEncoding = THREE.sRGBEncoding;
-  const packed = element("meshes"), meshes = packed ? await loadMeshes(packed.textContent) : new Map();
+  const packed = element("meshes"), meshes = packed ? await loadMeshes(packed.textContent, data.meshes) : new Map();
   page.now = new RobotView(data.now, meshes);
   stage.scene = new THREE.Scene();
   stage.lamp = new THREE.DirectionalLight(0xffffff, 0.55);

@@ -11,19 +11,20 @@ import hashlib
 import json
 import math
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import jinja2
 import markupsafe
 import msgspec
-import numpy as np
 
 from urdfsync import __version__
+from urdfsync.checks.report import to_section as check_section
+from urdfsync.checks.results import CheckResult, agrees, relative, tolerance
 from urdfsync.output.conflicts import DisputedFile, describe, difference_lines, settle_hint
 from urdfsync.output.edits import to_section as edits_section
-from urdfsync.output.markdown import findings_table
+from urdfsync.output.markdown import Table, findings_table
 from urdfsync.output.phrases import reason
 from urdfsync.pages import threejs
 from urdfsync.pages.content import Content
@@ -38,6 +39,8 @@ _STYLE = re.compile("<style>(.*?)</style>", re.DOTALL)
 _CODE = re.compile("`([^`]+)`")
 _MOST_INSTANTS = 1000
 """Instants of a simulation that the page has."""
+_MOST_COMPARED, _LEAST = 300, 1e-17
+"""Deviations of a check that the page lists, and the least one that its scale has."""
 _MOST_LINES = 400
 """Lines of one difference that are shown."""
 _SUFFIXES = (".html", ".htm")
@@ -46,8 +49,8 @@ _GENERATOR, _BEGINNING = b'<meta name="generator" content="urdfsync', 2000
 _ESCAPES = {ord(char): f"\\u{ord(char):04x}" for char in "<>&\u2028\u2029"}
 
 
-def page(content: Content, simulation: SimulateResult | None = None) -> bytes:
-    """Return the page, with a simulation that plays. Raises UrdfsyncError if three.js can't be had."""
+def page(content: Content, simulation: SimulateResult | None = None, check: CheckResult | None = None) -> bytes:
+    """Return the page, with a simulation that plays, and a check. Raises UrdfsyncError if three.js can't be had."""
     library = threejs.load()
     scripts = [library.text, *((_FOLDER / name).read_text("utf-8") for name in SCRIPTS)]
     style = (_FOLDER / "page.css").read_text("utf-8")
@@ -69,7 +72,7 @@ def page(content: Content, simulation: SimulateResult | None = None) -> bytes:
         style=markupsafe.Markup(style),  # noqa: S704 - our own
         scripts=[markupsafe.Markup(script) for script in scripts],  # noqa: S704 - our own, and those of trimesh
         data=markupsafe.Markup(_json(_data(content) | {"motion": simulation and _motion(simulation)})),  # noqa: S704 - escaped for a script element
-        meshes=base64.b64encode(gzip.compress(_glb(content.meshes), 6, mtime=0)).decode() if content.meshes else "",
+        meshes=_packed(content.meshes.values()),
         section=section,
         findings=findings_table(section.findings),
         tables=[table for table in section.tables if table.rows],
@@ -80,6 +83,7 @@ def page(content: Content, simulation: SimulateResult | None = None) -> bytes:
         conflicts=list(map(_conflict, content.conflicts)),
         notes=content.notes,
         motion=simulation and _motion_words(simulation),
+        check=check and _check(check),
         against=content.against,
         has_diagram=bool(content.diagram),
         bodies=content.now.bodies,
@@ -134,6 +138,7 @@ def _data(content: Content) -> dict[str, Any]:
         "now": _scene(content.now, names),
         "before": _scene(content.before, names) if content.before else None,
         "against": content.against,
+        "meshes": [[len(mesh.points), len(mesh.faces)] for mesh in content.meshes.values()],
         "statuses": content.statuses,
         "renamed": content.renamed,
         "changes": content.changes,
@@ -143,7 +148,7 @@ def _data(content: Content) -> dict[str, Any]:
 
 
 def _scene(scene: Scene, names: Mapping[str, str]) -> dict[str, Any]:
-    """Return a scene whose meshes have the names of the nodes in the GLB; without shapes that can't be shown."""
+    """Return a scene whose meshes are named by their numbers; without shapes that can't be shown."""
     values = plain(scene)
     for body in values["bodies"]:
         for shape in body["shapes"]:
@@ -152,17 +157,15 @@ def _scene(scene: Scene, names: Mapping[str, str]) -> dict[str, Any]:
     return values
 
 
-def _glb(meshes: Mapping[str, Triangles]) -> bytes:
-    """Return meshes as GLB; the nodes are `m0`, `m1`, … in their order."""
-    import trimesh  # half a second, which robots without meshes need not wait for
+def _packed(meshes: Iterable[Triangles]) -> str:
+    """Return the points and the faces of meshes, one after the other; `_data` says how many there are of each.
 
-    scene = trimesh.Scene()
-    for number, mesh in enumerate(meshes.values()):
-        faces = mesh.faces if len(mesh.faces) else np.zeros((1, 3), dtype=np.uint32)  # no mesh without triangles
-        triangles = trimesh.Trimesh(mesh.points, faces, process=False)
-        scene.add_geometry(triangles, node_name=f"m{number}", geom_name=f"m{number}")
-    content: bytes = trimesh.exchange.gltf.export_glb(scene, include_normals=False)
-    return content
+    GLB by trimesh would hold the same numbers, and takes 0.7 s to import: more than all else of a small robot.
+    """
+    content = b"".join(
+        part.astype(kind).tobytes() for each in meshes for part, kind in ((each.points, "<f4"), (each.faces, "<u4"))
+    )
+    return base64.b64encode(gzip.compress(content, 6, mtime=0)).decode() if content else ""
 
 
 # --- a simulation ---------------------------------------------------------------------------------------------------
@@ -201,6 +204,40 @@ def _motion(result: SimulateResult) -> dict[str, Any]:
 def _motion_words(result: SimulateResult) -> dict[str, Any]:
     findings = msgspec.structs.replace(findings_table(result.diagnostics), title="Findings of the simulation")
     return {"model": result.model, "stop": f"{result.series['time'][-1]:g}", "findings": findings}
+
+
+# --- a check ------------------------------------------------------------------------------------------------------
+
+
+def _check(result: CheckResult) -> dict[str, Any]:
+    """Return the verdict, all that was compared, the worst first, and what each edit does."""
+    section = check_section(result, strict=False)
+    deviations = sorted(result.deviations, key=lambda each: relative(each) / tolerance(each), reverse=True)
+    compared = [
+        {
+            "element": each.element,
+            "what": f"{each.quantity}{f', {each.detail}' if each.detail else ''}",
+            "amount": f"{each.difference:.2g} {each.unit} of {each.size:.4g}",
+            "relative": f"{each.relative:.1e}",
+            "log": f"{math.log10(min(max(relative(each), _LEAST), 1.0)):.2f}",
+            "most": f"{math.log10(tolerance(each)):.2f}",
+            "agrees": agrees(each),
+        }
+        for each in deviations
+    ]
+    effects = [
+        (", ".join(effect.files), each.element, str(each.quantity), f"{each.difference:.4g} {each.unit}".rstrip())
+        for effect in result.effects
+        for each in effect.deviations
+    ]
+    return {
+        "section": section,
+        "findings": msgspec.structs.replace(findings_table(section.findings), title="Findings of the check"),
+        "reference": result.reference,
+        "compared": compared[:_MOST_COMPARED],
+        "rest": max(0, len(compared) - _MOST_COMPARED),
+        "effects": Table("What your edits change", ("Files", "Element", "Quantity", "By up to"), effects),
+    }
 
 
 # --- texts ----------------------------------------------------------------------------------------------------------

@@ -54,17 +54,16 @@ function creased(points, faces) {
   return geometry;
 }
 
-/* Returns the geometries of the page's meshes by their names. */
-async function loadMeshes(text) {
+/* Returns the geometries of the page's meshes by their names; `sizes` has the numbers of their points and faces. */
+async function loadMeshes(text, sizes) {
   const packed = Uint8Array.from(atob(text), (char) => char.charCodeAt(0));
   const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
-  const buffer = await new Response(stream).arrayBuffer();
-  const loaded = await new Promise((resolve, reject) => new THREE.GLTFLoader().parse(buffer, "", resolve, reject));
-  const meshes = new Map();
-  loaded.scene.traverse((node) => {
-    if (node.isMesh) {
-      meshes.set(node.userData.name || node.name, creased(node.geometry.attributes.position.array, node.geometry.index.array));
-    }
+  const buffer = await new Response(stream).arrayBuffer(), meshes = new Map();
+  let place = 0;
+  sizes.forEach(([points, faces], number) => {
+    const corners = new Float32Array(buffer, place, 3 * points);
+    meshes.set(`m${number}`, creased(corners, new Uint32Array(buffer, place + 12 * points, 3 * faces)));
+    place += 12 * (points + faces);
   });
   return meshes;
 }

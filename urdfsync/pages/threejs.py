@@ -1,7 +1,7 @@
 """three.js, as trimesh brings it for its own viewer.
 
 The repository has no JavaScript of others. The page gets it when it is written, from the installed package of trimesh,
-which reads meshes anyway: three.js r140 with a loader of GLB, 0.7 MB, under the MIT licence. In meshcat and in viser
+which reads meshes anyway: three.js r140, 0.7 MB, under the MIT licence. In meshcat and in viser
 it can't be told from their own programs, 0.9 and 0.8 MB in one file, and both would be a further dependency.
 """
 
