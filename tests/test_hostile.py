@@ -25,14 +25,17 @@ TESTS = Path(__file__).parent
 ROBOTS = 6
 """So many stale robots are planned in several processes."""
 PATIENCE = 120.0
-READING = (["build", "--check"], ["build", "--dry-run"], ["status", "--verbose"], ["diff"], ["hook", "check"])
+READING = (
+    *(["build", "--check"], ["build", "--dry-run"], ["status", "--verbose"], ["diff"], ["hook", "check"]),
+    ["report", "arm", "--output", "page.html"],
+)
 WRITING = (["build"], ["resolve", "--all", "--take"], ["hook", "build"])
 OF_SOURCES = (["record", "arm.urdf"], ["init", "--config", "new.toml"])
 """Commands that read no configuration and no state."""
 SOURCES = ("source", "chain", "entities", "numbers", "terminal", "meshes")
 """Words of the attacks that those commands can meet."""
 LARGE = ("a long chain", "200 MB", "meshes")
-READ = (".urdfsync/stamp", ".urdfsync/lock", ".git/index")
+READ = (".urdfsync/stamp", ".urdfsync/lock", ".git/index", "page.html")
 """What commands that read may change in the project; a link is changed only where it leads, which is outside."""
 WRITTEN = (*READ, "modelica/Arm", ".urdfsync", "new.toml", "modelica/package.order")
 

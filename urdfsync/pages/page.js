@@ -247,6 +247,13 @@ element("tabs").addEventListener("keydown", (event) => {
 });
 for (const button of document.querySelectorAll("[data-element]")) button.addEventListener("click", () => select(button.dataset.element));
 element("theme").addEventListener("click", () => setTheme(document.documentElement.dataset.theme === "dark" ? "light" : "dark"));
+let theme = "light"; // paper is
+addEventListener("beforeprint", () => {
+  theme = document.documentElement.dataset.theme;
+  setTheme("light");
+  if (stage.renderer) render(1); // a frame would come too late
+});
+addEventListener("afterprint", () => setTheme(theme));
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", (event) => setTheme(event.matches ? "dark" : "light"));
 
 document.addEventListener("keydown", (event) => {

@@ -146,7 +146,10 @@ function drawDiagram(place, data, select) {
     svg.style.width = isWhole ? "100%" : "";
     svg.style.height = isWhole ? "auto" : "";
   };
-  fit(natural < 2 * place.clientWidth);
+  const isNarrow = () => natural < 2 * place.clientWidth;
+  fit(isNarrow());
+  addEventListener("beforeprint", () => fit(true));
+  addEventListener("afterprint", () => fit(isNarrow()));
   const icons = new Map(), components = new Map([...data.now.bodies, ...data.now.hinges].map((each) => [each.component, each.element]));
   for (const title of svg.querySelectorAll("g > title")) {
     const element = components.get(title.textContent);
