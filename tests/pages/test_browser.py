@@ -149,6 +149,14 @@ def test_a_simulation_moves_the_robot_and_stands_beside_its_limits(arm: Path, tm
     assert page.problems == []
 
 
+def test_atlas_without_its_meshes_is_a_skeleton(corpus: Path, report: Report, chromium: Page) -> None:
+    page = opened(chromium, report((corpus / "robots/matlab/Atlas/urdf/atlas.urdf").read_text("utf-8")))
+    assert page.run("page.layers.frame") is True
+    assert page.run("document.querySelectorAll('[data-link]').length") == page.run("page.now.bodies.size")
+    assert "is not in the package" in page.run("document.body.textContent")
+    assert page.problems == []
+
+
 SCRIPT = "</script><script>alert(1)</script><img src=x onerror=\"alert(2)\"> 'quoted' & <!-- `"
 
 
