@@ -103,7 +103,8 @@ def binary_stl(mesh: Triangles) -> bytes:
 
 def stl_corners(content: bytes) -> npt.NDArray[np.float32]:
     """Return the corners (n × 3 × 3) of the triangles of a binary STL file; those that are no numbers are left out."""
-    corners = np.frombuffer(content, dtype=_FACET, offset=len(_HEADER) + 4)["corners"]
+    facets = np.frombuffer(content, dtype=_FACET, offset=len(_HEADER) + 4)
+    corners: npt.NDArray[np.float32] = facets["corners"]
     return corners[np.isfinite(corners).all(axis=(1, 2))]
 
 
