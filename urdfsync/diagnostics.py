@@ -70,8 +70,12 @@ class Diagnostic(msgspec.Struct, frozen=True):
         """Return the finding as one line: `file:line:column: severity: message; hint [code]`."""
         numbers = [str(number) for number in (self.line, self.column) if number]
         place = ":".join([self.file, *numbers]) + ": " if self.file else ""
-        hint = f"; {self.hint}" if self.hint else ""
-        return " ".join(f"{place}{self.severity}: {self.message}{hint} [{self.code}]".split())
+        return " ".join(f"{place}{self.severity}: {self.sentence} [{self.code}]".split())
+
+    @property
+    def sentence(self) -> str:
+        """The message, and what to do."""
+        return "; ".join(filter(None, (self.message, self.hint)))
 
 
 def internal_error(error: Exception, what: str = "") -> Diagnostic:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 import msgspec
 
@@ -97,9 +97,3 @@ class Triangles(msgspec.Struct, frozen=True):
 
 
 Meshes: TypeAlias = Mapping[str, Triangles]
-
-
-def plain(scene: Scene) -> dict[str, Any]:
-    """Return a scene as plain data."""
-    values: dict[str, Any] = msgspec.to_builtins(scene)
-    return values

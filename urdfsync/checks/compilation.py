@@ -202,8 +202,7 @@ class Compilation:
                 except (UrdfsyncError, OSError) as error:
                     done[label], faults = [], findings_of(error)
                     if label == _USERS:  # the package itself may be right
-                        reason = "; ".join(filter(None, (faults[0].message, faults[0].hint)))
-                        self.gaps.append(f"your models outside of the package were not compiled: {reason}")
+                        self.gaps.append(f"your models outside of the package were not compiled: {faults[0].sentence}")
                     else:
                         self.diagnostics += faults
         return done

@@ -106,7 +106,7 @@ def findings_table(findings: Sequence[Diagnostic]) -> Table:
         (
             f"{_SEVERITIES[finding.severity]}{finding.severity}",
             ":".join([finding.file, *(str(number) for number in (finding.line,) if number)]),
-            "; ".join(filter(None, (finding.message, finding.hint))),
+            finding.sentence,
             finding.code,
         )
         for finding in sorted(findings, key=lambda finding: order.index(finding.severity))

@@ -28,7 +28,7 @@ from urdfsync.output.markdown import Table, findings_table
 from urdfsync.output.phrases import reason
 from urdfsync.pages import threejs
 from urdfsync.pages.content import Content
-from urdfsync.scene import Scene, Triangles, plain
+from urdfsync.scene import Scene, Triangles
 from urdfsync.simulation.files import check_file, not_writable
 from urdfsync.simulation.results import SimulateResult
 
@@ -149,7 +149,7 @@ def _data(content: Content) -> dict[str, Any]:
 
 def _scene(scene: Scene, names: Mapping[str, str]) -> dict[str, Any]:
     """Return a scene whose meshes are named by their numbers; without shapes that can't be shown."""
-    values = plain(scene)
+    values: dict[str, Any] = msgspec.to_builtins(scene)
     for body in values["bodies"]:
         for shape in body["shapes"]:
             shape["mesh"] = names.get(shape["mesh"], "")
