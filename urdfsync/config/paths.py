@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+import re
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 import urdfsync
@@ -11,6 +12,9 @@ from urdfsync import dependencies
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
 from urdfsync.domain import Domain
 from urdfsync.modelica.names import LIBRARY
+
+_ROW = re.compile(r"^\| `[^|]*` \|.*\|$", re.MULTILINE)
+_LINK = re.compile(r"\[([^\]]*)\]\([^)]*\)")
 
 
 def working_folder() -> Path:
@@ -45,9 +49,15 @@ def templates_folder(domain: Domain) -> Path:
     return domain.templates or _data_folder("templates") / domain.name
 
 
-def docs_page(name: str) -> Path:
-    """Return a page of the documentation: what it explains, SARIF and the schema say in its words."""
-    return _data_folder("docs") / name
+def explained(page: str) -> Iterator[tuple[str, list[str]]]:
+    """Yield the names that the tables of a page of the documentation explain, each with the cells beside it.
+
+    SARIF and the schema say what they mean in the words of that page.
+    """
+    text = _LINK.sub(r"\1", (_data_folder("docs") / page).read_text(encoding="utf-8"))
+    for row in _ROW.findall(text):
+        names, *cells = (cell.strip() for cell in row.strip("|").split("|"))
+        yield from ((name, cells) for name in re.findall("`([^`]+)`", names))
 
 
 def _data_folder(name: str) -> Path:

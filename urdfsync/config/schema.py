@@ -7,7 +7,6 @@ that get one name, an output in `.urdfsync`. `load` reports these.
 from __future__ import annotations
 
 import json
-import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -16,15 +15,13 @@ import msgspec
 
 from urdfsync import registry
 from urdfsync.config.names import CLASS_PATTERN, LAST_PATTERN, PACKAGE_PATTERN, ROBOT_PATTERN
-from urdfsync.config.paths import docs_page
+from urdfsync.config.paths import explained
 from urdfsync.config.settings import DEFAULT_DOMAIN, OWN_KEYS, CheckConfig, Keys
 from urdfsync.diagnostics import IGNORABLE
 
 SCHEMA_FILE = "schema.json"
 """Its name in the state folder."""
 _NO_CONTROL = "^[^\\u0000-\\u001f\\u007f]*$"
-_ROW = re.compile(r"^\| (`[^|]*`) \|[^|]*\| ([^|]*) \|$", re.MULTILINE)
-_LINK = re.compile(r"\[([^\]]*)\]\([^)]*\)")
 _GIVEN = {"type": "array", "minItems": 1}
 
 
@@ -127,9 +124,4 @@ def _refuse_control_characters(schema: Any) -> None:
 
 def _meanings() -> dict[str, str]:
     """Return what the keys mean, as docs/configuration.md says it."""
-    page = docs_page("configuration.md").read_text(encoding="utf-8")
-    return {
-        key: _LINK.sub(r"\1", meaning).strip()
-        for keys, meaning in _ROW.findall(page)
-        for key in re.findall("`([^`]+)`", keys)
-    }
+    return {key: cells[1] for key, cells in explained("configuration.md") if len(cells) == 2}

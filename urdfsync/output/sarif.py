@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import json
 import os
-import re
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
@@ -20,8 +19,6 @@ from urdfsync.engine.result import Exit
 from urdfsync.output.markdown import Section
 
 _SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
-_ROW = re.compile(r"^\| (`[^|]*`) \| ([^|]*) \|(?: ([^|]*) \|)?$", re.MULTILINE)
-_LINK = re.compile(r"\[([^\]]*)\]\([^)]*\)")
 
 
 def log(sections: Iterable[Section], findings: Sequence[Diagnostic], code: int) -> str:
@@ -35,7 +32,7 @@ def log(sections: Iterable[Section], findings: Sequence[Diagnostic], code: int) 
     results, notifications = [], []
     top = _top()
     for finding in told:
-        values = {"level": str(finding.severity), "message": {"text": _message(finding)}}
+        values = {"level": str(finding.severity), "message": {"text": finding.sentence}}
         if finding.file:
             place = {"locations": [{"physicalLocation": _location(finding, top)}]}
             results.append({"ruleId": finding.code, "ruleIndex": rules[finding.code], **values, **place})
@@ -56,20 +53,14 @@ def log(sections: Iterable[Section], findings: Sequence[Diagnostic], code: int) 
 
 def read_meanings() -> dict[str, str]:
     """Return the meaning of each code that docs/findings.md explains, and what is done then."""
-    page = _LINK.sub(r"\1", config.docs_page("findings.md").read_text(encoding="utf-8"))
     return {
-        code: f"{meaning} ({consequence})" if consequence else meaning
-        for codes, meaning, consequence in _ROW.findall(page)
-        for code in re.findall("`([^`]+)`", codes)
+        code: f"{meaning} ({''.join(consequence)})" if any(consequence) else meaning
+        for code, (meaning, *consequence) in config.explained("findings.md")
     }
 
 
 def _rule(code: str, meaning: str) -> dict[str, Any]:
     return {"id": code, **{key: {"text": meaning} for key in ("shortDescription", "fullDescription", "help")}}
-
-
-def _message(finding: Diagnostic) -> str:
-    return "; ".join(filter(None, (finding.message, finding.hint)))
 
 
 def _location(finding: Diagnostic, top: Path) -> dict[str, Any]:
