@@ -12,7 +12,7 @@ from urdfsync.checks.report import closing_lines, robot_lines, to_json, to_secti
 from urdfsync.checks.results import CheckOptions, CheckResult, CheckStatus, exit_code
 from urdfsync.checks.tools import BOTH
 from urdfsync.commands import arguments
-from urdfsync.commands.report import check_report, write_report
+from urdfsync.commands.report import prepare_report
 from urdfsync.output.console import Console, Format, has_marks, line
 
 
@@ -42,8 +42,7 @@ def add(commands: arguments.Commands) -> None:
 def run(args: argparse.Namespace, console: Console) -> int:
     """Check the packages of the robots, and show each as soon as it is checked; then what holds for all."""
     results = list[CheckResult]()
-    if args.report:
-        check_report(args)
+    write_report = prepare_report(args, console) if args.report else None
 
     def show(result: CheckResult) -> None:
         results.append(result)
@@ -54,8 +53,8 @@ def run(args: argparse.Namespace, console: Console) -> int:
         arguments.call(check, CheckOptions, args, console, on_result=show, **extra)
     finally:
         console.tell(closing_lines(results, strict=args.strict))
-    if args.report:
-        write_report(args, console, check=results[0])
+    if write_report:
+        write_report(check=results[0])
         console.tell([line((f"  report: {args.report}", ""))])
     return console.end(exit_code(results, args.strict))
 

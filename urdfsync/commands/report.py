@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import os
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any, TypedDict
 
@@ -66,21 +67,20 @@ def run(args: argparse.Namespace, console: Console) -> int:
     return console.end(Exit.IN_STEP)
 
 
-def check_report(args: argparse.Namespace, motion: Path | None = None) -> None:
-    """Raise an error for a `--report` that can't be written, before what it shows is worked out."""
-    from urdfsync.pages.page import check_page  # see above
+def prepare_report(args: argparse.Namespace, console: Console, motion: Path | None = None) -> Callable[..., None]:
+    """Return a function that writes the `--report` of a command with its results, as `page` takes them.
+
+    Raises an error for one that can't be written, before what it shows is worked out.
+    """
+    from urdfsync.pages.content import gather  # see above
+    from urdfsync.pages.page import check_page, page
 
     configuration = arguments.configuration(args)
     robot = configuration.select_one([*args.robots, *(args.robot or [])], args.command)
     check_page(args.report, input_files(configuration, robot, motion))
 
+    def write(**results: Any) -> None:
+        content = gather(configuration, robot, None, arguments.request(args, console), working_folder())
+        write_file(args.report, page(content, **results))
 
-def write_report(args: argparse.Namespace, console: Console, **results: Any) -> None:
-    """Write the `--report` of a command with its results, as `page` takes them."""
-    from urdfsync.pages.content import gather  # see above
-    from urdfsync.pages.page import page
-
-    configuration = arguments.configuration(args)
-    robot = configuration.select_one([*args.robots, *(args.robot or [])], args.command)
-    content = gather(configuration, robot, None, arguments.request(args, console), working_folder())
-    write_file(args.report, page(content, **results))
+    return write

@@ -8,7 +8,7 @@ from pathlib import Path
 from urdfsync.api import simulate
 from urdfsync.checks.compilers import COMPILERS
 from urdfsync.commands import arguments
-from urdfsync.commands.report import check_report, write_report
+from urdfsync.commands.report import prepare_report
 from urdfsync.diagnostics import Severity
 from urdfsync.engine.result import Exit
 from urdfsync.output.console import Console
@@ -58,13 +58,12 @@ def add(commands: arguments.Commands) -> None:
 def run(args: argparse.Namespace, console: Console) -> int:
     """Simulate one robot, write what was asked for, and show what came out."""
     files = {kind: file for kind in FILES if (file := getattr(args, kind)) is not None}
-    if args.report:
-        check_report(args, args.motion)
+    write_report = prepare_report(args, console, args.motion) if args.report else None
     extra = {"files": files, "tool": args.tool, "trusted": args.trusted}
     result = arguments.call(simulate, SimulateOptions, args, console, **extra)
-    if args.report:
+    if write_report:
         files["report"] = args.report
-        write_report(args, console, simulation=result)
+        write_report(simulation=result)
     console.add_robot(to_json(result, files))
     console.tell(result_lines(result, files))
     console.findings(result.diagnostics)
