@@ -57,6 +57,7 @@ def sorted_by_name(robot: Robot) -> Robot:
         joints=tuple(sorted(robot.joints, key=lambda joint: joint.name)),
         extensions=tuple(sorted(robot.extensions, key=msgspec.structs.astuple)),
         sensors=tuple(sorted(robot.sensors, key=lambda sensor: sensor.name)),
+        loops=tuple(sorted(robot.loops, key=lambda loop: loop.name)),
     )
 
 

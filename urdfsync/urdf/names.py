@@ -38,6 +38,7 @@ _UNFIT = re.compile(r"[^A-Za-z0-9_]")
 _PARTS = re.compile(r"[0-9]+|[^0-9]+")
 _RESERVED = KEYWORDS | {name.lower() for name in FUNCTIONS} | RESERVED_CLASSES | DEVICES
 _DIGITS = 8
+_RANKS = {"link": 0, "joint": 1, "loop": 2}
 
 
 class Identifier(msgspec.Struct, frozen=True):
@@ -86,16 +87,16 @@ def natural_key(name: str) -> tuple[tuple[int, int, str, str], ...]:
 
 
 def identify(names: Iterable[ElementKey], taken: Iterable[str] = ()) -> Mapping[ElementKey, Identifier]:
-    """Return identifiers of all links and joints; no two are equal when case is folded, none is in `taken`.
+    """Return identifiers of all links, joints and loops; no two are equal when case is folded, none is in `taken`.
 
-    A name keeps its spelling if that is free and not reserved; links go before joints, names that
-    need no change before others. A name that gives way gets `_link` or `_joint`, then a number.
+    A name keeps its spelling if that is free and not reserved; links go before joints, these before
+    loops, names that need no change before others. A name that gives way gets the kind of its element, then a number.
     """
     spelled = {key: spell(key[1], key[0]) for key in names}
     folded, taken = {spelling.lower() for spelling in spelled.values()}, {name.lower() for name in taken}
     if len(folded) == len(spelled) and folded.isdisjoint(taken) and not any(map(is_reserved, folded)):
         return {key: Identifier(spelling) for key, spelling in spelled.items()}  # nearly always: no name gives way
-    keys = sorted(spelled, key=lambda key: (key[0] != "link", spelled[key] != key[1], natural_key(key[1])))
+    keys = sorted(spelled, key=lambda key: (_RANKS[key[0]], spelled[key] != key[1], natural_key(key[1])))
     used = set(taken)
     result: dict[ElementKey, Identifier] = {}
     for key in keys:

@@ -33,6 +33,7 @@ _ACCELERATION = Unit("rad/s²", "m/s²")
 
 JointType = Literal["fixed", "continuous", "revolute", "prismatic", "planar", "floating"]
 SensorKind = Literal["imu", "force_torque", "camera", "lidar"]
+LoopKind = Literal["ball", "revolute", "universal", "fixed"]
 Command = Literal["position", "velocity", "effort"]
 Motion = Literal["rotational", "translational"]
 MOTIONS: tuple[Motion, ...] = get_args(Motion)
@@ -251,6 +252,26 @@ class Joint(msgspec.Struct, frozen=True, gc=False):
     """Position at which a simulation begins; None to go by the limits: see `kinematics.poses.start_positions`."""
 
 
+class Loop(msgspec.Struct, frozen=True, gc=False):
+    """A joint that closes a chain: it holds a frame of link `child` at a frame of link `parent`.
+
+    The links and joints of a robot are a tree without it. It has no drive, no limits and no losses.
+    """
+
+    name: str
+    kind: LoopKind
+    parent: str
+    child: str
+    origin: Origin = Origin()
+    """Pose of the frame in the parent link."""
+    child_origin: Origin = Origin()
+    """Pose of the frame in the child link; a loop is closed where both frames have one origin."""
+    axis: Vector = (0.0, 0.0, 1.0)
+    """Unit vector, in both frames, about which a revolute one turns; the first axis of a universal one, in `origin`."""
+    child_axis: Vector = (1.0, 0.0, 0.0)
+    """The second axis of a universal one, in `child_origin`; the joint holds it perpendicular to the first."""
+
+
 def reflected_inertia(joint: Joint) -> float | None:
     """Return the inertia that the drive adds about or along the axis; None if the source has no number of it."""
     armature = joint.dynamics.armature if joint.dynamics else None
@@ -358,3 +379,4 @@ class Robot(msgspec.Struct, frozen=True, gc=False):
     joints: tuple[Joint, ...] = ()
     extensions: tuple[Extension, ...] = ()
     sensors: tuple[Sensor, ...] = ()
+    loops: tuple[Loop, ...] = ()

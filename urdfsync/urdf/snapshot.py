@@ -4,7 +4,8 @@
      "links": {name: {"inertial": {…}, "visuals": [{…}], "collisions": [{…}]}},
      "joints": {name: {"type": …, "parent": …, "child": …, "origin": {"xyz": […], "rpy": […]}, …}},
      "extensions": {owner: {tag: [text, …]}},
-     "sensors": {name: {"kind": …, "at": …, "origin": {…}, …}}}   if there are any
+     "sensors": {name: {"kind": …, "at": …, "origin": {…}, …}},   if there are any
+     "loops": {name: {"kind": …, "parent": …, "child": …, "origin": {…}, "child_origin": {…}, …}}}   if there are any
 
 Elements are sorted by name, so their order in the file makes no difference; visuals and collisions keep theirs.
 A part that the model does not have is left out: inertial, limit, colour, drive. So a diff shows its coming and going as
@@ -20,7 +21,7 @@ from typing import Any
 import msgspec
 
 from urdfsync.domain import Snapshot
-from urdfsync.urdf.robot import Joint, Link, Robot, Sensor
+from urdfsync.urdf.robot import Joint, Link, Loop, Robot, Sensor
 
 
 def to_snapshot(robot: Robot) -> Snapshot:
@@ -32,11 +33,14 @@ def to_snapshot(robot: Robot) -> Snapshot:
     joints = {joint.name: _plain(joint) for joint in sorted(robot.joints, key=by_name)}
     links = {link.name: _plain(link) for link in sorted(robot.links, key=by_name)}
     snapshot: Snapshot = {"extensions": extensions, "joints": joints, "links": links, "name": robot.name}
-    sensors = {sensor.name: _plain(sensor) for sensor in sorted(robot.sensors, key=by_name)}
-    return {**snapshot, "sensors": sensors} if sensors else snapshot
+    if robot.sensors:
+        snapshot["sensors"] = {sensor.name: _plain(sensor) for sensor in sorted(robot.sensors, key=by_name)}
+    if robot.loops:
+        snapshot["loops"] = {loop.name: _plain(loop) for loop in sorted(robot.loops, key=by_name)}
+    return snapshot
 
 
-def _plain(element: Link | Joint | Sensor) -> Mapping[str, Any]:
+def _plain(element: Link | Joint | Sensor | Loop) -> Mapping[str, Any]:
     """Return an element as plain data but for its name."""
     data = _without_none(msgspec.json.decode(msgspec.json.encode(element, order="sorted")))
     del data["name"]
@@ -72,7 +76,7 @@ def from_snapshot(snapshot: Snapshot) -> Robot:
     ]
     elements = {
         kind: [{"name": name, **element} for name, element in snapshot.get(kind, {}).items()]
-        for kind in ("links", "joints", "sensors")
+        for kind in ("links", "joints", "sensors", "loops")
     }
     return msgspec.convert({"name": snapshot["name"], "extensions": extensions, **elements}, Robot)
 

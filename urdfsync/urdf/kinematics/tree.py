@@ -14,7 +14,19 @@ from msgspec.structs import replace
 
 from urdfsync.domain import ElementKey
 from urdfsync.urdf.names import Identifier, identify, natural_key
-from urdfsync.urdf.robot import MOTION_KINDS, Joint, Link, Mimic, Motion, Origin, Robot, Sensor, effective, structure
+from urdfsync.urdf.robot import (
+    MOTION_KINDS,
+    Joint,
+    Link,
+    Loop,
+    Mimic,
+    Motion,
+    Origin,
+    Robot,
+    Sensor,
+    effective,
+    structure,
+)
 
 
 class KinematicTree(msgspec.Struct, frozen=True):
@@ -28,10 +40,12 @@ class KinematicTree(msgspec.Struct, frozen=True):
     names: Mapping[ElementKey, Identifier]
     sensors: tuple[Sensor, ...] = ()
     """In natural order of their names."""
+    loops: tuple[Loop, ...] = ()
+    """In natural order of their names."""
 
     def __hash__(self) -> int:
         """Return a hash of the elements; the mapping of their names has none."""
-        return hash((self.links, self.joints, self.sensors))
+        return hash((self.links, self.joints, self.sensors, self.loops))
 
     @classmethod
     def of(cls, robot: Robot, taken: Iterable[str] = ()) -> KinematicTree:
@@ -56,7 +70,9 @@ class KinematicTree(msgspec.Struct, frozen=True):
         keys = [("link", link.name) for link in robot.links] + [("joint", joint.name) for joint in joints]
         order = (links[root], *(links[joint.child] for joint in joints))
         sensors = tuple(sorted(robot.sensors, key=lambda sensor: natural_key(sensor.name)))
-        return cls(order, tuple(joints), identify(keys, taken), sensors)
+        loops = tuple(sorted(robot.loops, key=lambda loop: natural_key(loop.name)))
+        keys += [("loop", loop.name) for loop in loops]
+        return cls(order, tuple(joints), identify(keys, taken), sensors, loops)
 
     def structure(self) -> KinematicTree:
         """Return the tree without numbers."""
@@ -64,7 +80,8 @@ class KinematicTree(msgspec.Struct, frozen=True):
         sensors = [
             replace(sensor, origin=Origin(), update_rate=0.0, camera=None, lidar=None) for sensor in self.sensors
         ]
-        return KinematicTree(links, tuple(map(structure, self.joints)), self.names, tuple(sensors))
+        loops = [Loop(loop.name, loop.kind, loop.parent, loop.child) for loop in self.loops]
+        return KinematicTree(links, tuple(map(structure, self.joints)), self.names, tuple(sensors), tuple(loops))
 
     def link(self, name: str) -> Identifier:
         """Return the identifier of a link."""
@@ -73,6 +90,10 @@ class KinematicTree(msgspec.Struct, frozen=True):
     def joint(self, name: str) -> Identifier:
         """Return the identifier of a joint."""
         return self.names["joint", name]
+
+    def loop(self, name: str) -> Identifier:
+        """Return the identifier of a loop."""
+        return self.names["loop", name]
 
     def children(self) -> Mapping[str, tuple[Joint, ...]]:
         """Return the joints that start at each link, in canonical order; links without any are left out."""
