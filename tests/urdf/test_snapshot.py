@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from support.urdfs import parsed
 
-from urdfsync.urdf.robot import Joint, Link, Robot, Sensor
+from urdfsync.urdf.robot import Joint, Link, Loop, Robot, Sensor
 from urdfsync.urdf.snapshot import from_snapshot, to_snapshot
 
 NUMBERS = st.floats(allow_nan=False, allow_infinity=False)
@@ -27,7 +27,7 @@ def values(kind: Any) -> st.SearchStrategy[Any]:
     if get_origin(kind) is Literal:
         return st.sampled_from(inside)
     if get_origin(kind) is tuple and inside[1:] == (...,):
-        unique = (lambda one: one.name) if inside[0] in (Link, Joint, Sensor) else None
+        unique = (lambda one: one.name) if inside[0] in (Link, Joint, Loop, Sensor) else None
         return st.lists(values(inside[0]), max_size=3, unique_by=unique).map(tuple)
     if get_origin(kind) is tuple:
         return st.tuples(*map(values, inside))

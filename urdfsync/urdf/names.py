@@ -38,7 +38,7 @@ _UNFIT = re.compile(r"[^A-Za-z0-9_]")
 _PARTS = re.compile(r"[0-9]+|[^0-9]+")
 _RESERVED = KEYWORDS | {name.lower() for name in FUNCTIONS} | RESERVED_CLASSES | DEVICES
 _DIGITS = 8
-_RANKS = {"link": 0, "joint": 1, "loop": 2}
+_KINDS = ("link", "joint", "loop", "sensor")
 
 
 class Identifier(msgspec.Struct, frozen=True):
@@ -96,7 +96,7 @@ def identify(names: Iterable[ElementKey], taken: Iterable[str] = ()) -> Mapping[
     folded, taken = {spelling.lower() for spelling in spelled.values()}, {name.lower() for name in taken}
     if len(folded) == len(spelled) and folded.isdisjoint(taken) and not any(map(is_reserved, folded)):
         return {key: Identifier(spelling) for key, spelling in spelled.items()}  # nearly always: no name gives way
-    keys = sorted(spelled, key=lambda key: (_RANKS[key[0]], spelled[key] != key[1], natural_key(key[1])))
+    keys = sorted(spelled, key=lambda key: (_KINDS.index(key[0]), spelled[key] != key[1], natural_key(key[1])))
     used = set(taken)
     result: dict[ElementKey, Identifier] = {}
     for key in keys:

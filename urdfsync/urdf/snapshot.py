@@ -32,7 +32,7 @@ def to_snapshot(robot: Robot) -> Snapshot:
     by_name = operator.attrgetter("name")
     joints = {joint.name: _plain(joint) for joint in sorted(robot.joints, key=by_name)}
     links = {link.name: _plain(link) for link in sorted(robot.links, key=by_name)}
-    snapshot: Snapshot = {"extensions": extensions, "joints": joints, "links": links, "name": robot.name}
+    snapshot = {"extensions": extensions, "joints": joints, "links": links, "name": robot.name}
     if robot.sensors:
         snapshot["sensors"] = {sensor.name: _plain(sensor) for sensor in sorted(robot.sensors, key=by_name)}
     if robot.loops:
