@@ -78,11 +78,8 @@ def link_poses(tree: KinematicTree, positions: Mapping[str, float]) -> Mapping[s
     return poses
 
 
-def start_positions(tree: KinematicTree) -> Mapping[str, float]:
-    """Return where each joint starts: at its `start`, else as close to zero as all limits allow.
-
-    Limits are those of the joint and of its followers.
-    """
+def position_ranges(tree: KinematicTree) -> Mapping[str, tuple[float, float]]:
+    """Return the smallest and largest position of each joint, by its own limits and those of its followers."""
     ranges = {joint.name: own_range(joint) for joint in tree.joints}
     followers = tree.followers_by_leader()
     for joint in reversed(tree.leaders_first()):
@@ -91,6 +88,12 @@ def start_positions(tree: KinematicTree) -> Mapping[str, float]:
                 ends = sorted((_near(end) - mimic.offset) / mimic.multiplier for end in ranges[follower.name])
                 lower, upper = ranges[joint.name]
                 ranges[joint.name] = max(lower, ends[0]), min(upper, ends[1])
+    return ranges
+
+
+def start_positions(tree: KinematicTree) -> Mapping[str, float]:
+    """Return where each joint starts: at its `start`, else as close to zero as all limits allow."""
+    ranges = position_ranges(tree)
     positions: dict[str, float] = {}
     for joint in tree.leaders_first():
         if joint.mimic is not None:
