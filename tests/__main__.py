@@ -29,6 +29,8 @@ OPTIONS = ("--long", "--tests")
 def main() -> int:
     """Run every check, even after one has failed; the exit code is 1 if any did."""
     failed = []
+    # without bytecode on disk each of thousands of processes compiles all modules: three quarters of their time
+    environment = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
     given = [argument for argument in sys.argv[1:] if argument not in OPTIONS]
     checks = ({} if "--tests" in sys.argv else STATIC) | EXAMPLES | (LONG if "--long" in sys.argv else QUICK)
     for name, (module, *arguments) in checks.items():
@@ -37,7 +39,7 @@ def main() -> int:
         command = [sys.executable, "-m", module]
         if module == "lint-imports":  # which is no module
             command = [str(Path(sys.executable).with_name(module))]
-        if subprocess.run([*command, *arguments, *extra], cwd=ROOT, check=False).returncode:
+        if subprocess.run([*command, *arguments, *extra], cwd=ROOT, env=environment, check=False).returncode:
             failed.append(name)
     print(f"failed: {', '.join(failed)}" if failed else "all checks passed", flush=True)  # noqa: T201
     return 1 if failed else 0
