@@ -9,6 +9,11 @@ from support import urdfs
 from support.commands import Execute
 from support.networks import edit
 
+from urdfsync.domain import Role
+from urdfsync.engine.actions import Action, Reason
+from urdfsync.engine.conflicts import find_conflict, resolve
+from urdfsync.state.record import Choice, UsersChoice
+
 FORE, HAND, WRIST = (
     "modelica/Arm/Links/ForeParameters.mo",
     "modelica/Arm/Links/Hand.mo",
@@ -76,3 +81,17 @@ def test_what_is_exported_meanwhile_is_written_and_the_end_is_a_fresh_build(
     wanted = {path.relative_to(fresh).as_posix(): path.read_text() for path in sorted(fresh.rglob("*.mo"))}
     assert {path: text.replace("  // mine\n", "") for path, text in built.items()} == wanted
     assert sum("// mine" in text for text in built.values()) == bool(then)
+
+
+def test_who_keeps_his_text_has_answered_the_export() -> None:
+    action = Action("a.txt", Reason.CONFLICT, Role.MODEL, "", "base", "new", mine="mine")
+    choices = {"a.txt": UsersChoice(Choice.KEEP, action.sides)}
+    (kept,), _ = resolve([action], {"a.txt": find_conflict(action, ["1\n"], "2\n", "3\n")}, choices, merging=True)
+    assert (kept.reason, kept.base, kept.choice) == (Reason.KEEP, "new", Choice.KEEP)
+
+
+def test_bases_of_two_branches_that_give_different_merges_give_none() -> None:
+    action = Action("a.txt", Reason.CONFLICT, Role.MODEL)
+    both = find_conflict(action, ["1\n", "2\n"], "1\n", "2\n")
+    assert both.merged(Choice.MERGE) is None
+    assert both.rejected == "two branches recorded different bases, which give different merges"

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
+from typing import Any
 
+import msgspec
 import pytest
 from support.files import unchanged
 from support.networks import LADDER, edit, resistor, run, said, source
 from support.networks import inner_kinds as kinds
 
+from urdfsync import registry
+from urdfsync.domain import Conversion, Dependency
 from urdfsync.engine.actions import Reason
 
 
@@ -75,6 +79,22 @@ def test_an_edited_copy_is_kept_and_the_older_one_serves_until_its_source_is_bac
     assert kinds(run()) == {"Resources/step.txt": Reason.UPDATE}
     assert "0.1 7.0" in copy.read_text()
     assert run().in_step
+
+
+def test_a_further_file_of_an_import_that_is_gone_comes_back(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    domain = registry.domain("rcnetwork")
+
+    def convert(dependency: Dependency, *arguments: Any) -> Conversion:
+        return msgspec.structs.replace(real(dependency, *arguments), more=(Conversion(b"2", {}),))
+
+    real = domain.convert
+    monkeypatch.setattr(type(domain), "convert", lambda _, *arguments: convert(*arguments))
+    run()
+    further = Path(LADDER, "Resources/step_1.txt")
+    assert further.read_text() == "2"
+    further.unlink()
+    assert kinds(run(full=True)) == {"Resources/step_1.txt": Reason.RESTORE}
+    assert further.read_text() == "2"
 
 
 LFS = b"version https://git-lfs.github.com/spec/v1\noid sha256:4d\nsize 12\n"

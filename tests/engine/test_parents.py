@@ -9,9 +9,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from support.networks import edit, failure, kinds, make_parent, run, said, set_keys
 
-from urdfsync import cli
+from urdfsync import cli, config
 from urdfsync.engine.actions import Reason
-from urdfsync.engine.parents import merge_order
+from urdfsync.engine.parents import check, merge_order
 
 
 def package(folder: Path, order: str | None = None) -> Path:
@@ -33,6 +33,8 @@ def test_the_library_is_hidden_by_nobody_but_builds_its_own_examples(project: Pa
     edit("urdfsync.toml", "UrdfSync.Ladder", "UrdfSync.Examples.Ladder")
     run()
     assert (examples / "package.order").read_text() == "Ladder\n"
+    loaded = config.load(Path("urdfsync.toml"))
+    assert check(loaded, loaded.robots[0], [("UrdfSync", "1")]).diagnostics == (), "no library needs itself"
 
 
 def test_a_build_begins_no_order_file_beside_classes_that_it_does_not_know(project: Path) -> None:

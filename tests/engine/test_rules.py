@@ -256,6 +256,12 @@ def test_a_file_that_the_user_moved_himself_has_its_old_base(mine: str, reason: 
     assert {one.path: (one.reason, one.base) for one in actions}["New.mo"] == (reason, "A")
 
 
+def test_an_untouched_file_that_moves_takes_no_place_of_the_users() -> None:
+    old, new = File(Role.MODEL, "", FileRecord(("A",)), "A"), File(Role.MODEL, on_disk="mine", generated="new")
+    reasons = {action.path: action.reason for action in decide({"Old.mo": old, "New.mo": new}, {"New.mo": "Old.mo"})}
+    assert reasons == {"Old.mo": Reason.DELETE, "New.mo": Reason.UNOWNED}
+
+
 def test_while_something_is_open_files_count_that_are_as_generated() -> None:
     files = {reason.name: reason for reason in (Reason.ADOPT, Reason.UNCHANGED, Reason.UPDATE, Reason.KEEP)}
     actions = [Action(path, reason, Role.MODEL, base="old", generated="new") for path, reason in files.items()]

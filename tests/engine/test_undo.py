@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from support.commands import Execute
 from support.files import unchanged
-from support.networks import LADDER, add_resistor, edit, resistor, run
+from support.networks import LADDER, add_resistor, conflicts, edit, resistor, run
 
 from urdfsync import config
 from urdfsync.engine.build import build
@@ -126,6 +126,13 @@ def test_a_file_that_was_saved_since_is_not_given_back(merged: Path, execute: Ex
         assert "or you saved the file since" in execute("resolve", MODEL, "--undo", code=2).err
 
 
+def test_a_merge_that_another_export_goes_beyond_is_not_undone(merged: Path) -> None:
+    both = Path(MODEL).read_text()
+    add_resistor("R4")
+    assert conflicts(choices={MODEL: Choice.UNDO}) == [MODEL]
+    assert Path(MODEL).read_text() == both
+
+
 def test_undo_outlives_builds_that_write_other_files(merged: Path, execute: Execute) -> None:
     edit("ladder.json", "220.5", "330")
     execute("build")
@@ -186,6 +193,9 @@ def test_what_was_put_aside_goes_once_its_file_is_saved(merged: Path, execute: E
     resistor(120)
     execute("build")
     assert put_aside() == ["Elements/R1Parameters.mo"]
+    edit("ladder.json", "220.5", "330")
+    execute("build")
+    assert put_aside() == ["Elements/R2Parameters.mo"]
 
 
 def test_of_files_that_nobody_edited_many_are_not_put_aside(

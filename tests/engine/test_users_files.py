@@ -119,3 +119,9 @@ def test_of_a_text_without_end_no_names_are_looked_at(project: Path) -> None:
     edited = Path("modelica/Ladder/Ladder.mo")
     edited.write_text(edited.read_text().replace("\nequation", f"\n  // {'long ' * 200_000}\n\nequation"))
     assert [one.file for one in run().diagnostics] == ["Bench.mo", str(edited)]
+
+
+def test_of_classes_with_one_name_nobody_knows_which_is_meant() -> None:
+    paths = map(Path, ("a/Cell.mo", "b/Cell.mo", "Plant/package.mo", "Plant/Line.mo", "One.mo"))
+    tops = users_files.UsersFiles(dict.fromkeys(paths, b""), {}).tops()
+    assert tops == {"Plant": Path("Plant"), "One": Path("One.mo")}

@@ -45,6 +45,11 @@ def test_new_parts_do_not_lie_on_each_other() -> None:
     assert len(set(places)) == 30
 
 
+def test_parts_side_by_side_do_not_lie_on_each_other() -> None:
+    text = merged(BASE, model(A + MOVED_B + placed("mine", 80, 60), BENT), EXPORT)
+    assert placed("c", 100, 60) in text
+
+
 def test_a_diagram_full_of_boxes_upon_each_other_takes_no_minutes() -> None:
     """Free places are looked for so long only; all parts are there."""
     boxes = "".join(placed(f"n{number}", 0, 0) for number in range(2_000))

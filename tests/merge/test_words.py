@@ -66,3 +66,10 @@ def test_long_texts_are_cut() -> None:
     found = describe(Contradiction(("body", f"equation {'a + ' * 40}", "equation"), "a", "b" * 99, "c"))
     assert len(found) < 200
     assert found.count("…") == 2
+
+
+def test_of_long_texts_that_differ_at_once_the_beginning_is_shown() -> None:
+    texts = (f"{first} + {' + '.join(f'term{number}' for number in range(20))}" for first in ("one", "two", "ten"))
+    told = describe(Contradiction(("body", "component m", "value", "expression"), *texts))
+    assert "you set `m = two + term0" in told
+    assert "the export changes one + term0" in told

@@ -72,8 +72,8 @@ def test_a_sum_beside_another_one_is_none() -> None:
     """Of two branches each has its own, and a third one may fit."""
     sums = [line for line in TEXT.split("\n") if line.startswith("sum ")]
     assert len(sums) == 1
-    assert united(f'sum "{B}"').is_united
-    assert loads(TEXT.replace(sums[0], ""), "arm.state").is_united
+    for text in (f'{TEXT}\nsum "{B}"', f'sum "{B}"\n{TEXT}', TEXT.replace(sums[0], "")):
+        assert loads(text, "arm.state").is_united
 
 
 def test_the_greatest_revision_counts_wherever_it_stands() -> None:
@@ -121,6 +121,7 @@ BROKEN = {
     f"file {A}  ../Arm.mo": "the recorded path '../Arm.mo' does not belong to the package `Plant.Arm`",
     f"file {A}  .git/config.mo": "does not belong to the package",
     f"file {A}  C:/Arm.mo": "the recorded path 'C:/Arm.mo' does not belong to the package",
+    f"file {A}  Arm\x7f.mo": "does not belong to the package",
     f"file {A}  package.order": "does not belong to the package",
     'import ["x",{"target":"../x","source_hash":"","target_hash":"","converter":1,"facts":{}}]': "'../x' does not",
     "format 2": "a newer urdfsync wrote this state (format 2; this one knows 1)",

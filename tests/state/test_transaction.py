@@ -277,6 +277,22 @@ def test_what_is_written_through_an_open_handle_takes_its_place_again(
     assert changes[0].path.read_bytes().startswith(b"mine")
 
 
+@pytest.mark.parametrize(("number", "name"), [(0, "exchange"), (1, "replace")])
+def test_of_saves_between_look_and_change_the_last_counts(
+    tmp_path: Path, transactions: Transactions, changes: list[FileChange], number: int, name: str
+) -> None:
+    path, saves = changes[number].path, iter([b"first", b"second"])
+
+    def save(operation: Operation) -> None:
+        if operation.name == name and path in operation.paths and (text := next(saves, None)):
+            path.write_bytes(text)
+
+    with before_each(save):
+        applied = transactions.apply("arm", changes)
+    assert applied.not_done == (path, changes[3].path)
+    assert path.read_bytes() == (b"first" if number else b"second"), "a deletion is not tried again"
+
+
 def test_an_overtaken_build_leaves_no_planned_hashes(
     tmp_path: Path, transactions: Transactions, changes: list[FileChange]
 ) -> None:
