@@ -7,8 +7,9 @@ is chosen in a fixed order by one tolerance, and the start is refined in decimal
 
 from __future__ import annotations
 
+import itertools
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from decimal import Decimal
 from typing import Any, NamedTuple
 
@@ -16,9 +17,9 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from urdfsync.urdf.kinematics.poses import own_range, position_ranges, start_positions
+from urdfsync.urdf.kinematics.poses import dot, own_range, position_ranges, start_positions
 from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.robot import MOTION_KINDS, Joint, Loop, Origin, Vector
+from urdfsync.urdf.robot import MOTION_KINDS, MOTIONS, Joint, Loop, Origin, Vector
 
 Array = NDArray[Any]
 
@@ -93,200 +94,172 @@ class LoopFault(msgspec.Struct, frozen=True):
     hint: str
 
 
-class _Rows(NamedTuple):
-    """Equations of a loop: translations as rows, then rotations as pairs of rows and their products."""
+class Rows(NamedTuple):
+    """Equations of loops: u·w = product, for the vectors u and w in the frames of the parent and the child.
 
-    along: Array
+    A translation has for w the origin of the child's frame, seen from that of the parent's: the last of `v` is 1.
+    """
+
+    loops: Array
     u: Array
     v: Array
     products: Array
 
-    @classmethod
-    def of(cls, closure: Closure, dtype: type = float) -> _Rows:
-        u, v = [u for u, _ in closure.rotations], [v for _, v in closure.rotations]
-        along, u_rows, v_rows = (_array(vectors, dtype).reshape(-1, 3) for vectors in (closure.translations, u, v))
-        return cls(along, u_rows, v_rows, np.zeros(len(u), int))
-
-    @classmethod
-    def of_kind(cls, loop: Loop) -> _Rows:
-        """Return more equations than are independent: they leave most where a loop is closed the wrong way round."""
-        if loop.kind == "fixed":
-            u, v = np.repeat(np.eye(3), 3, axis=0), np.tile(np.eye(3), (3, 1))
-        elif loop.kind == "revolute":
-            u, v = np.eye(3), np.tile(loop.axis, (3, 1))
-        else:
-            pairs = [(loop.axis, loop.child_axis)] if loop.kind == "universal" else []
-            u, v = (np.array(vectors).reshape(-1, 3) for vectors in ([u for u, _ in pairs], [v for _, v in pairs]))
-        return cls(np.eye(3), u, v, np.zeros(len(u)) if loop.kind == "universal" else (u * v).sum(axis=1))
-
-
-class _Chain(NamedTuple):
-    """A loop in the arrays of a mechanism."""
-
-    loop: Loop
-    joints: list[int]
-    """Joints on the way from one frame to the other, that have one axis."""
-    signs: Array
-    """1 for those that move the child, -1 for those that move the parent."""
-    links: tuple[int, int]
-    frames: Array
-    """Poses of both frames in their links."""
+    def take(self, chosen: Sequence[int], dtype: type = float) -> Rows:
+        """Return some of the equations."""
+        loops, *numbers = (array[list(chosen)] for array in self)
+        return Rows(loops, *(_array(array, dtype) for array in numbers))
 
 
 class Mechanism:
-    """The joints between the root and the frames of all loops, in numpy. `dtype` may be object, for decimals."""
+    """The joints between the root and the frames of all loops, in numpy; `dtype` is float, or object for decimals.
+
+    Positions are those of the `independent` joints: all that loops concern, without followers.
+    """
 
     def __init__(self, tree: KinematicTree, dtype: type = float) -> None:
         by_child = {joint.child: joint for joint in tree.joints}
-        paths = {link: list(_path(by_child, link)) for loop in tree.loops for link in (loop.parent, loop.child)}
-        on_paths = {joint.name for path in paths.values() for joint in path}
+        self.loops, self._dtype = tree.loops, dtype
+        paths = [[{*_path(by_child, link)} for link in (loop.parent, loop.child)] for loop in tree.loops]
+        on_paths = {name for pair in paths for path in pair for name in path}
         self.joints = [joint for joint in tree.joints if joint.name in on_paths]
-        self._dtype = dtype
         index = {joint.child: k for k, joint in enumerate(self.joints, 1)}
         self._parents = [index.get(joint.parent, 0) for joint in self.joints]
+        self._still = _poses([Origin()] * (len(self.joints) + 1), dtype)
         self._origins = _poses([joint.origin for joint in self.joints], dtype)
         self._axes = _array([joint.axis for joint in self.joints], dtype).reshape(-1, 3)
-        self.turns = np.array([MOTION_KINDS.get(joint.type) == "rotational" for joint in self.joints])
-        slides = np.array([MOTION_KINDS.get(joint.type) == "translational" for joint in self.joints])
-        self._turning, self._sliding = self.turns.astype(int), slides.astype(int)
-        self.chains = [self._chain(loop, paths, index) for loop in tree.loops]
-        roots = _roots(tree)
-        moving = {roots[self.joints[k].name][0] for chain in self.chains for k in chain.joints}
-        self.independent = [joint for joint in tree.joints if joint.name in moving and joint.type in MOTION_KINDS]
+        motions = [MOTION_KINDS.get(joint.type) for joint in self.joints]
+        self.turns, self.slides = (np.array([motion == kind for motion in motions], int)[:, None] for kind in MOTIONS)
+        signs = [[(j.name in child) - (j.name in parent) for j in self.joints] for parent, child in paths]
+        self.signs = np.array(signs, int).reshape(len(paths), -1) * (self.turns + self.slides).T
+        """Of each loop, 1 for joints that move the child's frame against the parent's, -1 the other way round."""
+        self._links = np.array([[index.get(loop.parent, 0), index.get(loop.child, 0)] for loop in tree.loops]).T
+        ends = ([loop.origin for loop in tree.loops], [loop.child_origin for loop in tree.loops])
+        self._frames = [_poses(origins, dtype) for origins in ends]
+        roots, starts = _roots(tree), start_positions(tree)
+        moving = {roots[joint.name][0] for joint, used in zip(self.joints, self.signs.any(axis=0), strict=True) if used}
+        self.independent = [j for j in tree.joints if j.name in moving and j.type in MOTION_KINDS]
         column = {joint.name: k for k, joint in enumerate(self.independent)}
-        self._gears = _array(np.zeros((len(self.joints), len(column))), dtype)
-        offsets = start_positions(tree)  # those of joints that no loop moves stay
-        self._offsets = _array([offsets[joint.name] for joint in self.joints], dtype)
+        gears, offsets = np.zeros((len(self.joints), len(column))), [starts[joint.name] for joint in self.joints]
         for k, joint in enumerate(self.joints):
             leader, multiplier, offset = roots[joint.name]
             if leader in column:
-                self._gears[k, column[leader]] = _array(multiplier, dtype)
-                self._offsets[k] = _array(offset, dtype)
-
-    def _chain(self, loop: Loop, paths: Mapping[str, list[Joint]], index: Mapping[str, int]) -> _Chain:
-        sides = paths[loop.parent], paths[loop.child]
-        names = [{joint.name for joint in side} for side in sides]
-        only = names[0] ^ names[1]
-        joints = [k for k, joint in enumerate(self.joints) if joint.name in only and joint.type in MOTION_KINDS]
-        signs = np.array([1.0 if self.joints[k].name in names[1] else -1.0 for k in joints])
-        frames = _poses([loop.origin, loop.child_origin], self._dtype)
-        return _Chain(loop, joints, signs, (index.get(loop.parent, 0), index.get(loop.child, 0)), frames)
+                gears[k, column[leader]], offsets[k] = multiplier, offset
+        self.gears, self._offsets = _array(gears, dtype), _array(offsets, dtype)
+        self.start = np.array([starts[joint.name] for joint in self.independent])
 
     def poses(self, q: Array) -> Array:
-        """Return the poses of the root and of each joint's child, as matrices, at positions of independent joints."""
-        positions = self._gears @ q + self._offsets
-        moved: Array = np.zeros((len(self.joints), 4, 4), self._dtype)
-        moved[:, :3, :3] = _turns(self._axes, positions * self._turning)
-        moved[:, :3, 3] = self._axes * (positions * self._sliding)[:, None]
-        moved[:, 3, 3] = 1
-        local = self._origins @ moved
-        poses: list[Array] = [np.eye(4, dtype=self._dtype)]
-        for parent, pose in zip(self._parents, local, strict=True):
+        """Return the poses of the root and of each joint's child, as matrices."""
+        positions = (self.gears @ q + self._offsets)[:, None]
+        moved = self._still[1:].copy()
+        moved[:, :3, :3] = _turns(self._axes, positions * self.turns)
+        moved[:, :3, 3] = self._axes * (positions * self.slides)
+        poses: list[Array] = [self._still[0]]
+        for parent, pose in zip(self._parents, self._origins @ moved, strict=True):
             poses.append(poses[parent] @ pose)
         return np.array(poses)
 
-    def frames(self, poses: Array, chain: _Chain) -> tuple[Array, Array]:
-        """Return the poses of both frames of a loop."""
-        return poses[chain.links[0]] @ chain.frames[0], poses[chain.links[1]] @ chain.frames[1]
+    def frames(self, poses: Array) -> tuple[Array, Array]:
+        """Return the poses of the frames of all loops, in the parents and in the children."""
+        a, b = (poses[links] @ frames for links, frames in zip(self._links, self._frames, strict=True))
+        return a, b
 
-    def axes(self, poses: Array, chain: _Chain) -> tuple[Array, Array]:
-        """Return the directions of the axes of a loop's joints, and the origins of these joints."""
-        ends = poses[[k + 1 for k in chain.joints]]
-        return np.einsum("kij,kj->ki", ends[:, :3, :3], self._axes[chain.joints]), ends[:, :3, 3]
+    def twists(self, poses: Array) -> tuple[Array, Array]:
+        """Return for each joint how fast it turns all that it moves, and moves what is at the origin of the root."""
+        ends = poses[1:]
+        axes = (ends[:, :3, :3] @ self._axes[:, :, None])[:, :, 0]
+        turns = axes * self.turns
+        return turns, axes * self.slides + _cross(ends[:, :3, 3], turns)
 
-    def gaps(self, q: Array, rows: Sequence[_Rows]) -> Array:
-        """Return what the equations of all loops leave: lengths in m, and cosines."""
-        poses, gaps = self.poses(q), []
-        for chain, (along, u, v, products) in zip(self.chains, rows, strict=True):
-            a, b = self.frames(poses, chain)
-            cosines = ((u @ a[:3, :3].T) * (v @ b[:3, :3].T)).sum(axis=1)
-            gaps += [along @ (a[:3, :3].T @ (b[:3, 3] - a[:3, 3])), cosines - products]
-        return np.concatenate(gaps)
+    def evaluate(self, q: Array, rows: Rows) -> tuple[Array, Array]:
+        """Return what the equations leave, in m and without unit, and the derivatives of that by positions."""
+        poses = self.poses(q)
+        (a, b), (turns, moves) = self.frames(poses), self.twists(poses)
+        u = (a[rows.loops, :3, :3] @ rows.u[:, :, None])[:, :, 0]
+        w = (b[rows.loops, :3] @ rows.v[:, :, None])[:, :, 0]
+        is_translation = rows.v[:, 3:]
+        gaps = (u * (w - is_translation * a[rows.loops, :3, 3])).sum(axis=1) - rows.products
+        derivatives = ((u * is_translation) @ moves.T + _cross(w, u) @ turns.T) * self.signs[rows.loops]
+        return gaps, derivatives @ self.gears
 
-    def jacobian(self, q: Array, rows: Sequence[_Rows]) -> Array:
-        """Return the derivative of `gaps` by the positions of the independent joints."""
-        poses, blocks = self.poses(q), []
-        for chain, (along, u, v, _) in zip(self.chains, rows, strict=True):
-            a, b = self.frames(poses, chain)
-            axes, points = self.axes(poses, chain)
-            turning, signed = self.turns[chain.joints][:, None], axes * chain.signs[:, None]
-            moves = np.where(turning, np.cross(signed, b[:3, 3] - points), signed)
-            turns = np.where(turning, signed, 0.0)
-            translations = along @ a[:3, :3].T @ moves.T
-            rotations = np.cross(v @ b[:3, :3].T, u @ a[:3, :3].T) @ turns.T
-            blocks.append(np.concatenate([translations, rotations]) @ self._gears[chain.joints])
-        return np.concatenate(blocks)
-
-    def gap(self, q: Array, chain: _Chain) -> Gap:
-        """Return how far a pose is from closing a loop as its kind demands."""
-        a, b = self.frames(self.poses(q), chain)
-        rotation, loop, angle = a[:3, :3].T @ b[:3, :3], chain.loop, 0.0
-        axis, child_axis = np.array(loop.axis), np.array(loop.child_axis)
-        if loop.kind == "revolute":
-            turned = rotation @ axis
-            angle = math.atan2(float(np.linalg.norm(np.cross(axis, turned))), float(axis @ turned))
-        elif loop.kind == "universal":
-            angle = abs(math.asin(min(max(float(axis @ rotation @ child_axis), -1.0), 1.0)))
-        elif loop.kind == "fixed":
-            sines = rotation - rotation.T
-            angle = math.atan2(float(np.linalg.norm(sines)) / math.sqrt(2), float(np.trace(rotation)) - 1)
-        return Gap(float(np.linalg.norm(b[:3, 3] - a[:3, 3])), angle)
+    def gaps(self, q: Array) -> list[Gap]:
+        """Return how far a pose is from closing each loop as its kind demands."""
+        gaps, (a, b) = [], self.frames(self.poses(q))
+        for loop, parent, child in zip(self.loops, a, b, strict=True):
+            rotation, angle = parent[:3, :3].T @ child[:3, :3], 0.0
+            if loop.kind == "fixed":  # the length of R - I has all digits, of small angles, too
+                angle = 2 * math.asin(min(1.0, math.sqrt(((rotation - np.eye(3)) ** 2).sum() / 8)))
+            elif loop.kind == "revolute":
+                angle = 2 * math.asin(min(1.0, math.dist(rotation @ loop.axis, loop.axis) / 2))
+            elif loop.kind == "universal":
+                angle = math.asin(min(1.0, abs(float(np.array(loop.axis) @ rotation @ loop.child_axis))))
+            gaps.append(Gap(math.dist(parent[:3, 3], child[:3, 3]), angle))
+        return gaps
 
 
 class _Problem:
-    """A mechanism with equations, without units."""
+    """Closing the loops of a mechanism, without units: lengths of a loop are divided by its size."""
 
-    def __init__(self, mechanism: Mechanism, q: Array, lower: Array, upper: Array) -> None:
-        self.mechanism, self.lower, self.upper = mechanism, lower, upper
-        poses = mechanism.poses(q)
-        sizes = [_size(mechanism, poses, chain) for chain in mechanism.chains]
-        self.sizes, self.units = sizes, np.ones(len(q))
-        for chain, size in reversed(list(zip(mechanism.chains, sizes, strict=True))):
-            for k, joint in enumerate(mechanism.independent):
-                if joint.type == "prismatic" and mechanism._gears[chain.joints, k].any():
-                    self.units[k] = size  # of the first loop that it moves
+    def __init__(self, tree: KinematicTree) -> None:
+        self.mechanism = mechanism = Mechanism(tree)
+        ranges = position_ranges(tree)
+        limits = [_given_limits(ranges[joint.name]) for joint in mechanism.independent]
+        lower, upper = np.array(limits).reshape(-1, 2).T
+        self.lower, self.upper = np.minimum(lower, mechanism.start), np.maximum(upper, mechanism.start)
+        poses = mechanism.poses(mechanism.start)
+        levers = np.linalg.norm(poses[None, 1:, :3, 3] - mechanism.frames(poses)[1][:, None, :3, 3], axis=2)
+        sizes = (levers * (mechanism.signs != 0) * mechanism.turns.T).max(axis=1)
+        self.sizes = np.where(sizes > 0, sizes, 1.0)
+        """Of each loop, the distance from its frames to the farthest axis; 1 without axes."""
+        self.units = np.ones(len(limits))
+        for k, joint in enumerate(mechanism.independent):
+            if joint.type == "prismatic":  # it moves the first of its loops by the size of that
+                self.units[k] = self.sizes[np.argmax(mechanism.signs @ mechanism.gears[:, k] != 0)]
 
-    def scales(self, rows: Sequence[_Rows]) -> Array:
-        """Return the units of all equations."""
-        pairs = zip(self.sizes, rows, strict=True)
-        return np.concatenate([[size] * len(row.along) + [1.0] * len(row.u) for size, row in pairs])
+    def evaluate(self, q: Array, rows: Rows) -> tuple[Array, Array]:
+        """Return what the equations leave, and the derivatives of that, without units."""
+        gaps, jacobian = self.mechanism.evaluate(q, rows)
+        scales = np.where(rows.v[:, 3] == 1, self.sizes[rows.loops], 1.0)
+        return gaps / scales, jacobian * self.units / scales[:, None]
 
-    def jacobian(self, q: Array, rows: Sequence[_Rows]) -> Array:
-        """Return the Jacobian without units."""
-        return self.mechanism.jacobian(q, rows) * self.units / self.scales(rows)[:, None]
+    def jacobian(self, q: Array, rows: Rows) -> Array:
+        """Return the derivatives alone."""
+        return self.evaluate(q, rows)[1]
 
-    def close(self, start: Array, rows: Sequence[_Rows], free: Array | None = None, *, bounded: bool = True) -> Array:
+    def close(self, start: Array, rows: Rows, free: Array | None = None, *, bounded: bool = True) -> Array:
         """Return where the equations leave least near a start, by Levenberg's method with the free joints.
 
         Directions in which the equations are dependent count for nothing: what inexact numbers leave there stays.
         """
-        q, scales, damping = start, self.scales(rows), 1e-3
-        lower, upper = (self.lower, self.upper) if bounded else (-np.inf, np.inf)
-        gaps = self.mechanism.gaps(q, rows) / scales
-        for _ in range(200):
+        q, caution, lower, upper = start, 1.0, self.lower, self.upper
+        if not bounded:
+            lower, upper = np.full(len(q), -math.inf), np.full(len(q), math.inf)
+        gaps, jacobian = self.evaluate(q, rows)
+        for _ in range(60):
             movable = np.ones(len(q), bool) if free is None else free.copy()
-            jacobian = self.jacobian(q, rows)
             while True:  # without the joints that would leave their limits from where they end
                 step = np.zeros(len(q))
-                step[movable] = -_damped_inverse(jacobian[:, movable], damping) @ gaps
+                squares, directions = _spectrum(jacobian[:, movable])
+                factors = (squares > _INDEPENDENT**2) / np.maximum(squares + caution * (gaps @ gaps), _INDEPENDENT**2)
+                step[movable] = -directions @ (factors * (directions.T @ (jacobian[:, movable].T @ gaps)))
                 blocked = movable & (((q <= lower) & (step < 0)) | ((q >= upper) & (step > 0)))
                 if not blocked.any():
                     break
                 movable &= ~blocked
             largest = float(np.abs(step).max(initial=0.0))
-            moved = np.clip(q + step * self.units * min(1.0, 0.3 / max(largest, 1e-9)), lower, upper)
-            new_gaps = self.mechanism.gaps(moved, rows) / scales
-            if new_gaps @ new_gaps < gaps @ gaps:
-                q, gaps, damping = moved, new_gaps, damping * 0.1 if damping > 1e-12 else 0.0
-            else:
-                damping = max(damping * 10, 1e-9)
-            if largest < 1e-14 or damping > 1e4:
+            if largest < 1e-13 or caution > 1e9:
                 break
+            moved = np.clip(q + step * self.units * min(1.0, 0.5 / largest), lower, upper)
+            new_gaps, new_jacobian = self.evaluate(moved, rows)
+            if new_gaps @ new_gaps < gaps @ gaps:
+                q, gaps, jacobian, caution = moved, new_gaps, new_jacobian, caution / 4
+            else:
+                caution *= 8
         return q
 
-    def is_closed(self, q: Array, rows: Sequence[_Rows], tolerance: float) -> bool:
-        """Return whether what the equations leave is small, without units."""
-        return bool(np.abs(self.mechanism.gaps(q, rows) / self.scales(rows)).max() < tolerance)
+    def openness(self, q: Array, rows: Rows) -> float:
+        """Return the largest of what the equations leave."""
+        return float(np.abs(self.evaluate(q, rows)[0]).max(initial=0.0))
 
 
 def assemble(tree: KinematicTree, wanted: frozenset[str], named: frozenset[str]) -> Assembly | tuple[LoopFault, ...]:
@@ -295,73 +268,60 @@ def assemble(tree: KinematicTree, wanted: frozenset[str], named: frozenset[str])
     `wanted` joints are to be driven; of these the source or the options name `named` as drives. If none of these is in
     a loop, the first wanted ones that are independent are driven.
     """
-    mechanism = Mechanism(tree)
+    problem = _Problem(tree)
+    mechanism = problem.mechanism
     if faults := tuple(_structural_faults(tree, mechanism)):
         return faults
-    starts, ranges = start_positions(tree), position_ranges(tree)
-    start = np.array([starts[joint.name] for joint in mechanism.independent])
-    lower, upper = np.array([ranges[joint.name] for joint in mechanism.independent]).T
-    is_free = lower == upper  # exporters leave limits out, which then are both zero
-    lower, upper = (
-        np.where(is_free, -np.inf, np.minimum(lower, start)),
-        np.where(is_free, np.inf, np.maximum(upper, start)),
-    )
-    problem = _Problem(mechanism, start, lower, upper)
-    full = [_Rows.of_kind(chain.loop) for chain in mechanism.chains]
-    gaps = {chain.loop.name: mechanism.gap(start, chain) for chain in mechanism.chains}
-    closed = _closed_near(problem, start, full)
-    if faults := tuple(_open_faults(mechanism, start, closed)):
+    whole = _rows([_equations_of_kind(loop) for loop in tree.loops])
+    names = [joint.name for joint in mechanism.independent]
+    closed = _closed_near(problem, whole, np.array([name in named for name in names]))
+    if faults := tuple(_open_faults(mechanism, closed)):
         return faults
-    generic = _generic_poses(problem, closed, full)
-    candidates = [_Rows.of(_full_closure(mechanism, start, chain)) for chain in mechanism.chains]
+    normals = [_normal(mechanism, k) for k in range(len(tree.loops))]
+    candidates = _rows(map(_equations, tree.loops, normals))
+    generic = _generic_poses(problem, closed, whole)
     chosen = _independent([problem.jacobian(q, candidates) for q in generic])
-    closures = _chosen_closures(mechanism, start, chosen)
+    rows = candidates.take(chosen)
+    closures = {loop.name: _closure(loop, candidates, rows, k, normals[k]) for k, loop in enumerate(tree.loops)}
     if faults := tuple(_redundant_faults(closures)):
         return faults
-    rows = [_Rows.of(closure) for closure in closures.values()]
     at_closed = problem.jacobian(closed, rows)
     if len(kept := _independent([at_closed])) < len(chosen):
-        owners = [name for name, closure in closures.items() for _ in range(_count(closure))]
-        loop = owners[next(k for k, row in enumerate([*kept, -1]) if k != row)]
-        return (_singular(loop, "its equations depend on each other at the start, though not elsewhere"),)
-    names = [joint.name for joint in mechanism.independent]
-    drives = [k for k, name in enumerate(names) if name in named] or [k for k, n in enumerate(names) if n in wanted]
-    spaces = [_null_space(problem.jacobian(q, rows)) for q in generic]
+        first = next(k for k, row in enumerate([*kept, -1]) if k != row)
+        reason = "its equations depend on each other at the start, though not elsewhere"
+        return (_singular(tree.loops[rows.loops[first]], reason),)
     here = _null_space(at_closed)
-    if named.intersection(names):
+    spaces = [_null_space(problem.jacobian(q, rows)) for q in generic]
+    drives = [k for k, name in enumerate(names) if name in named]
+    if drives:
         driven = [drives[k] for k in _independent([space[drives] for space in spaces])]
-        stuck = sorted(set(driven) - {driven[k] for k in _independent([here[driven]])})
-        if stuck:
-            name = names[stuck[0]]
-            loop = next(c.loop.name for c in mechanism.chains if mechanism._gears[c.joints, stuck[0]].any())
-            return (_singular(loop, f"joint {name!r} cannot move it there: it is at a dead point"),)
+        moving = [driven[k] for k in _independent([here[driven]])]
+        for k in set(driven).difference(moving):
+            loop = tree.loops[np.argmax(mechanism.signs @ mechanism.gears[:, k] != 0)]
+            return (_singular(loop, f"joint {names[k]!r} is at a dead point at the start, and moves nothing"),)
     else:
-        both = _independent([np.concatenate([space[drives], here[drives]], axis=1) for space in spaces])
-        driven = [drives[k] for k in both if k in _independent([here[drives]])]
+        drives = [k for k, name in enumerate(names) if name in wanted]
+        driven = [drives[k] for k in _independent([here[drives]])]
     states = _with_others(here, driven)
     free = np.array([k not in states for k in range(len(names))])
-    q = _start(problem, start, closed, rows, full, free)
-    if faults := tuple(_open_faults(mechanism, start, q)):
-        return faults
-    q = _refine(tree, mechanism, q, closures, free, lower, upper)
-    positions = {joint.name: starts[joint.name] for joint in tree.joints if joint.type in MOTION_KINDS}
-    positions.update(zip(names, map(float, q), strict=True))
-    for joint in tree.leaders_first():
-        if joint.mimic is not None and joint.name in positions:
-            leader = positions.get(joint.mimic.joint, starts[joint.mimic.joint])
-            positions[joint.name] = joint.mimic.multiplier * leader + joint.mimic.offset
-    in_loops = {mechanism.joints[k].name for chain in mechanism.chains for k in chain.joints} | set(names)
+    has_moved = ~free & (np.abs(closed - mechanism.start) > 1e-9)
+    q = np.where(
+        has_moved, np.clip(np.round(closed, 9), problem.lower, problem.upper), np.where(free, closed, mechanism.start)
+    )
+    q = problem.close(q, rows, free)
+    q = np.clip(_refine(tree, problem, q, rows, free), problem.lower, problem.upper)
+    in_loops = {j.name for k, j in enumerate(mechanism.joints) if mechanism.signs[:, k].any()} | set(names)
     moved = {names[k] for k in driven}
     return Assembly(
         joints=tuple(joint.name for joint in tree.joints if joint.name in in_loops),
-        freedoms=len(names) - len(chosen),
-        positions=positions,
+        freedoms=len(states),
+        positions=_all_positions(tree, dict(zip(names, map(float, q), strict=True))),
         states=tuple(names[k] for k in states),
-        driven=tuple(j.name for j in tree.joints if j.name in moved or j.name in wanted - in_loops),
+        driven=tuple(joint.name for joint in tree.joints if joint.name in moved | (wanted - in_loops)),
         excess=tuple(name for name in names if name in named - moved),
         reach=_reach(problem, q, rows, driven, free),
         closures=closures,
-        gaps=gaps,
+        gaps={loop.name: gap for loop, gap in zip(tree.loops, mechanism.gaps(mechanism.start), strict=True)},
     )
 
 
@@ -370,25 +330,34 @@ def _array(values: Any, dtype: type) -> Array:
     return array if dtype is float else np.vectorize(Decimal, otypes=[object])(array)
 
 
+def _given_limits(limits: tuple[float, float]) -> tuple[float, float]:
+    """Return limits, and none if they are equal: exporters leave them out, which then are both zero."""
+    return (-math.inf, math.inf) if limits[0] == limits[1] else limits
+
+
+def _cross(a: Array, b: Array) -> Array:
+    """Return the vector products of rows; numpy's own takes five times as long, and has most of the time."""
+    crossed: Array = a[:, [1, 2, 0]] * b[:, [2, 0, 1]] - a[:, [2, 0, 1]] * b[:, [1, 2, 0]]
+    return crossed
+
+
 def _turns(axes: Array, angles: Array) -> Array:
     """Return turns about axes as matrices, by Rodrigues' formula."""
     x, y, z = axes.T
     zero = x * 0
     skew = np.array([[zero, -z, y], [z, zero, -x], [-y, x, zero]]).transpose(2, 0, 1)
-    sines, cosines = _sines_cosines(angles)
-    turned: Array = np.eye(3, dtype=int) + sines[:, None, None] * skew + (1 - cosines)[:, None, None] * (skew @ skew)
+    angles = angles.reshape(-1, 1, 1)
+    if angles.dtype == object:
+        sines, cosines = np.vectorize(_series, otypes=[object, object])(angles)
+    else:
+        sines, cosines = np.sin(angles), np.cos(angles)
+    turned: Array = np.eye(3, dtype=int) + sines * skew + (1 - cosines) * (skew @ skew)
     return turned
-
-
-def _sines_cosines(angles: Array) -> tuple[Array, Array]:
-    if angles.dtype != object:
-        return np.sin(angles), np.cos(angles)
-    pairs = [_series(angle % _TAU) for angle in angles]
-    return np.array([sine for sine, _ in pairs], object), np.array([cosine for _, cosine in pairs], object)
 
 
 def _series(angle: Decimal) -> tuple[Decimal, Decimal]:
     """Return sine and cosine to about 25 digits, by their power series."""
+    angle %= _TAU
     sums, term, k = [Decimal(0), Decimal(0)], Decimal(1), 0
     while k < 8 or abs(term) > Decimal("1e-30"):
         sums[k % 2] += -term if k % 4 > 1 else term
@@ -403,14 +372,13 @@ def _poses(origins: Sequence[Origin], dtype: type) -> Array:
     poses[:, :3, 3] = _array([origin.xyz for origin in origins], dtype).reshape(-1, 3)
     angles = _array([origin.rpy for origin in origins], dtype).reshape(-1, 3)
     for k in (2, 1, 0):
-        axes = _array(np.tile(np.eye(3)[k], (len(origins), 1)), dtype)
-        poses[:, :3, :3] = poses[:, :3, :3] @ _turns(axes, angles[:, k])
+        poses[:, :3, :3] = poses[:, :3, :3] @ _turns(_array(np.eye(3)[[k] * len(origins)], dtype), angles[:, k])
     return poses
 
 
-def _path(by_child: Mapping[str, Joint], link: str) -> Iterator[Joint]:
+def _path(by_child: Mapping[str, Joint], link: str) -> Iterator[str]:
     while link in by_child:
-        yield by_child[link]
+        yield by_child[link].name
         link = by_child[link].parent
 
 
@@ -426,19 +394,13 @@ def _roots(tree: KinematicTree) -> Mapping[str, tuple[str, float, float]]:
     return roots
 
 
-def _size(mechanism: Mechanism, poses: Array, chain: _Chain) -> float:
-    """Return the largest distance from the closing frame to a joint of the loop; 1 if there is none."""
-    _, points = mechanism.axes(poses, chain)
-    _, frame = mechanism.frames(poses, chain)
-    distances = np.linalg.norm(points - frame[:3, 3], axis=1)[mechanism.turns[chain.joints]]
-    return float(distances.max(initial=0.0)) or 1.0
+def _spectrum(matrix: Array) -> tuple[Array, Array]:
+    """Return the squares of the singular values, smallest first, and the directions of columns that they belong to.
 
-
-def _damped_inverse(matrix: Array, damping: float) -> Array:
-    u, values, v = np.linalg.svd(matrix, full_matrices=False)
-    factors = np.where(values > _INDEPENDENT, values / np.maximum(values**2 + damping, _INDEPENDENT**2), 0.0)
-    inverse: Array = v.T @ (factors[:, None] * u.T)
-    return inverse
+    `numpy.linalg.svd` takes 50 ms for 40 joints on a busy machine, by its threads, and this half of one.
+    """
+    squares, directions = np.linalg.eigh(matrix.T @ matrix)
+    return squares, directions
 
 
 def _independent(matrices: Sequence[Array]) -> list[int]:
@@ -463,8 +425,7 @@ def _rest(row: Array, basis: Array) -> Array:
 
 def _null_space(matrix: Array) -> Array:
     """Return the directions that independent equations leave, as columns."""
-    space: Array = np.linalg.svd(matrix)[2][len(matrix) :].T
-    return space
+    return _spectrum(matrix)[1][:, : matrix.shape[1] - len(matrix)]
 
 
 def _with_others(space: Array, states: Sequence[int]) -> list[int]:
@@ -493,86 +454,97 @@ def _across(normal: Vector) -> tuple[Vector, Vector]:
     return (x, y, z), (b * z - c * y, c * x - a * z, a * y - b * x)
 
 
-def _normal(mechanism: Mechanism, q: Array, chain: _Chain) -> Vector | None:
+def _normal(mechanism: Mechanism, loop: int) -> Vector | None:
     """Return the normal of the plane in which a loop moves, in the frame of its parent; None if it is spatial."""
-    poses = mechanism.poses(q)
-    axes, _ = mechanism.axes(poses, chain)
-    turning = mechanism.turns[chain.joints]
-    if not turning.any():
+    poses = mechanism.poses(mechanism.start)
+    turns, moves = mechanism.twists(poses)
+    in_loop = mechanism.signs[loop] != 0
+    axes, ways = turns[in_loop & (mechanism.turns[:, 0] == 1)], moves[in_loop & (mechanism.slides[:, 0] == 1)]
+    if not len(axes) or np.linalg.norm(np.cross(axes, axes[0]), axis=1).max() > _PARALLEL:
         return None
-    normal = axes[turning][0]
-    if (np.linalg.norm(np.cross(axes[turning], normal), axis=1) > _PARALLEL).any():
+    if np.abs(ways @ axes[0]).max(initial=0.0) > _PARALLEL:
         return None
-    if (np.abs(axes[~turning] @ normal) > _PARALLEL).any():
-        return None
-    frame, _ = mechanism.frames(poses, chain)
-    x, y, z = (round(float(value), 9) + 0.0 for value in frame[:3, :3].T @ normal)
+    frame = mechanism.frames(poses)[0][loop]
+    x, y, z = (round(float(value), 9) + 0.0 for value in frame[:3, :3].T @ axes[0])
     sign = next((math.copysign(1.0, value) for value in (x, y, z) if value), 1.0)
     return sign * x + 0.0, sign * y + 0.0, sign * z + 0.0
 
 
-def _full_closure(mechanism: Mechanism, q: Array, chain: _Chain) -> Closure:
-    """Return all equations of the kind of a loop; those of its plane come first."""
-    loop, normal = chain.loop, _normal(mechanism, q, chain)
-    x, y, z = frame = (*_across(normal), normal) if normal else ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
-    rotations: tuple[tuple[Vector, Vector], ...] = ()
+_Equation = tuple[Vector, tuple[float, float, float, float], float]
+"""A row of `Rows`: u, v and the product."""
+_AXES: tuple[Vector, Vector, Vector] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+_ORIGIN = (0.0, 0.0, 0.0, 1.0)
+
+
+def _equations_of_kind(loop: Loop) -> list[_Equation]:
+    """Return more equations than are independent: they leave most where a loop is closed the wrong way round."""
+    axes = {"revolute": [loop.axis], "fixed": _AXES}.get(loop.kind, ())
+    pairs = [(u, v) for v in axes for u in _AXES] if axes else []
+    equations: list[_Equation] = [(u, _ORIGIN, 0.0) for u in _AXES]
+    equations += [(u, (*v, 0.0), dot(u, v)) for u, v in pairs]
+    return equations + ([(loop.axis, (*loop.child_axis, 0.0), 0.0)] if loop.kind == "universal" else [])
+
+
+def _equations(loop: Loop, normal: Vector | None) -> list[_Equation]:
+    """Return the equations of the kind of a loop; those of its plane come first."""
+    x, y, z = (*_across(normal), normal) if normal else _AXES
+    pairs: Sequence[tuple[Vector, Vector]] = ()
     if loop.kind == "revolute":
-        rotations = tuple((across, loop.axis) for across in _across(loop.axis))
+        pairs = [(across, loop.axis) for across in _across(loop.axis)]
     elif loop.kind == "universal":
-        rotations = ((loop.axis, loop.child_axis),)
+        pairs = [(loop.axis, loop.child_axis)]
     elif loop.kind == "fixed":
-        rotations = (x, y), (y, z), (z, x)
-    return Closure(frame, rotations, normal)
+        pairs = [(x, y), (y, z), (z, x)]
+    return [*((u, _ORIGIN, 0.0) for u in (x, y, z)), *((u, (*v, 0.0), 0.0) for u, v in pairs)]
 
 
-def _chosen_closures(mechanism: Mechanism, q: Array, chosen: Sequence[int]) -> Mapping[str, Closure]:
-    closures, first, rows = {}, 0, set(chosen)
-    for chain in mechanism.chains:
-        full = _full_closure(mechanism, q, chain)
-        kept = [first + k in rows for k in range(_count(full))]
-        translations = tuple(v for v, keep in zip(full.translations, kept, strict=False) if keep)
-        rotations = tuple(pair for pair, keep in zip(full.rotations, kept[3:], strict=True) if keep)
-        normal = full.planar if translations == full.translations[:2] else None
-        weaker = None
-        if sum(kept) < len(kept) and not (normal and (not rotations or chain.loop.kind == "fixed")):
-            weaker = f"closed by {sum(kept)} of {len(kept)} equations: the others follow from the rest of the robot"
-        closures[chain.loop.name] = Closure(translations, rotations, None if rotations else normal, weaker)
-        first += len(kept)
-    return closures
+def _rows(equations: Iterable[Sequence[_Equation]]) -> Rows:
+    """Return the equations of all loops as arrays."""
+    rows = [(k, *equation) for k, loop in enumerate(equations) for equation in loop]
+    loops, u, v, products = zip(*rows, strict=True)
+    return Rows(np.array(loops), np.array(u), np.array(v), np.array(products))
 
 
-def _count(closure: Closure) -> int:
-    return len(closure.translations) + len(closure.rotations)
+def _closure(loop: Loop, candidates: Rows, rows: Rows, k: int, normal: Vector | None) -> Closure:
+    """Return the chosen equations of one loop."""
+    equations = [(tuple(u), tuple(v)) for u, v in zip(rows.u.tolist(), rows.v.tolist(), strict=True)]
+    mine = [equation for equation, owner in zip(equations, rows.loops, strict=True) if owner == k]
+    translations = tuple(u for u, v in mine if v == _ORIGIN)
+    rotations = tuple((u, v[:3]) for u, v in mine if v != _ORIGIN)
+    whole = int((candidates.loops == k).sum())
+    is_planar = normal is not None and translations == _across(normal)
+    weaker = None
+    if len(mine) < whole and not (is_planar and len(rotations) == (loop.kind == "fixed")):
+        weaker = f"closed by {len(mine)} of {whole} equations: the others follow from these and the rest of the robot"
+    return Closure(translations, rotations, normal if is_planar and not rotations else None, weaker)
 
 
 def _motions(count: int) -> Iterator[Array]:
     """Yield motions of all joints between -1 and 1, without pattern and the same on every machine."""
+    index = np.arange(1, count + 1)
     for pose in range(1, 1 + 4 * _POSES):
-        yield np.array(
-            [2 * ((k * 0.6180339887498949 + pose * k * 0.4142135623730951) % 1) - 1 for k in range(1, count + 1)]
-        )
+        yield 2 * ((index * 0.6180339887498949 + pose * index * 0.4142135623730951) % 1) - 1
 
 
-def _closed_near(problem: _Problem, start: Array, rows: Sequence[_Rows]) -> Array:
-    """Return a closed pose near the start; if that leads to none, near poses around it; else the least open one."""
-    best = problem.close(start, rows)
-    for motion in _motions(len(start)):
-        if problem.is_closed(best, rows, _CLOSED_ANGLE):
-            break
-        near = np.clip(start + _AMPLITUDES[0] * motion * problem.units, problem.lower, problem.upper)
-        other = problem.close(near, rows)
-        gaps = [np.abs(problem.mechanism.gaps(q, rows) / problem.scales(rows)).max() for q in (best, other)]
-        best = other if gaps[1] < gaps[0] else best
-    return best
+def _closed_near(problem: _Problem, rows: Rows, held: Array) -> Array:
+    """Return a closed pose near the start, or the least open one. Where that is possible, some joints stay there."""
+    start, tried = problem.mechanism.start, list[Array]()
+    for motion in (np.zeros(len(start)), *itertools.islice(_motions(len(start)), _POSES)):
+        near = np.clip(start + 2 * _AMPLITUDES[0] * motion * problem.units, problem.lower, problem.upper)
+        for free in (~held, np.full(len(start), True)):
+            tried.append(problem.close(np.where(free, near, start), rows, free))
+            if problem.openness(tried[-1], rows) < _CLOSED_ANGLE:
+                return tried[-1]
+    return min(tried, key=lambda q: problem.openness(q, rows))
 
 
-def _generic_poses(problem: _Problem, closed: Array, rows: Sequence[_Rows]) -> list[Array]:
+def _generic_poses(problem: _Problem, closed: Array, rows: Rows) -> list[Array]:
     """Return closed poses around one, limits aside; that one if there are no others."""
-    poses = []
+    poses: list[Array] = []
     for motion in _motions(len(closed)):
         for amplitude in _AMPLITUDES:
             q = problem.close(closed + amplitude * motion * problem.units, rows, bounded=False)
-            if problem.is_closed(q, rows, 3 * _CLOSED_ANGLE):
+            if problem.openness(q, rows) < 3 * _CLOSED_ANGLE:
                 poses.append(q)
                 break
         if len(poses) == _POSES:
@@ -580,41 +552,26 @@ def _generic_poses(problem: _Problem, closed: Array, rows: Sequence[_Rows]) -> l
     return poses or [closed]
 
 
-def _start(
-    problem: _Problem, start: Array, closed: Array, rows: Sequence[_Rows], full: Sequence[_Rows], free: Array
-) -> Array:
-    """Return a closed start at which the states are where the source has them, or else near a closed pose."""
-    held = problem.close(start, rows, free)
-    is_regular = len(_independent([problem.jacobian(held, rows)[:, free]])) == int(free.sum())
-    if is_regular and problem.is_closed(held, rows, 1e-10) and problem.is_closed(held, full, _CLOSED_ANGLE):
-        return held
-    near = np.where(free, closed, np.round(closed, 9))
-    return problem.close(np.clip(near, problem.lower, problem.upper), rows, free)
-
-
-def _refine(
-    tree: KinematicTree,
-    mechanism: Mechanism,
-    q: Array,
-    closures: Mapping[str, Closure],
-    free: Array,
-    lower: Array,
-    upper: Array,
-) -> Array:
+def _refine(tree: KinematicTree, problem: _Problem, q: Array, rows: Rows, free: Array) -> Array:
     """Return the positions with twelve digits that do not depend on how a machine rounds."""
     exact, at = Mechanism(tree, object), _array(q, object)
-    rows = [_Rows.of(closure, object) for closure in closures.values()]
-    inverse = np.linalg.inv(mechanism.jacobian(q, [_Rows.of(closure) for closure in closures.values()])[:, free])
-    for _ in range(4):  # each step gains at least the digits that a float has
-        step = inverse @ exact.gaps(at, rows).astype(float)
-        at[free] = at[free] - _array(step, object)
-    rounded = np.array([float(round(value, 12)) + 0.0 for value in at])
-    return np.where(free, np.clip(rounded, lower, upper), q)
+    exact_rows = rows.take(range(len(rows.loops)), object)
+    inverse = np.linalg.inv(problem.mechanism.evaluate(q, rows)[1][:, free])
+    for _ in range(3):  # each step gains at least half the digits that a float has
+        at[free] = at[free] - _array(inverse @ exact.evaluate(at, exact_rows)[0].astype(float), object)
+    return np.where(free, [float(round(value, 12)) + 0.0 for value in at], q)
 
 
-def _reach(
-    problem: _Problem, q: Array, rows: Sequence[_Rows], driven: Sequence[int], free: Array
-) -> Mapping[str, float]:
+def _all_positions(tree: KinematicTree, closed: Mapping[str, float]) -> Mapping[str, float]:
+    """Return the positions of all joints with one axis; those that no loop concerns are at their start."""
+    positions = {**start_positions(tree), **closed}
+    for joint in tree.leaders_first():
+        if joint.mimic is not None:
+            positions[joint.name] = joint.mimic.multiplier * positions[joint.mimic.joint] + joint.mimic.offset
+    return {joint.name: positions[joint.name] for joint in tree.joints if joint.type in MOTION_KINDS}
+
+
+def _reach(problem: _Problem, q: Array, rows: Rows, driven: Sequence[int], free: Array) -> Mapping[str, float]:
     """Return the longest ways of the driven joints, by following the loops along the way that Test takes."""
     joints = problem.mechanism.independent
     reach = {k: _SWEEP[MOTION_KINDS[joints[k].type]] for k in driven}
@@ -628,14 +585,14 @@ def _reach(
 
 def _way(joint: Joint, start: float, reach: float) -> float:
     """Return the way that a sweep of the library takes: see Functions.sweepEnd."""
-    lower, upper = own_range(joint)
+    lower, upper = _given_limits(own_range(joint))
     velocity = math.inf if joint.limit is None or joint.limit.velocity is None else joint.limit.velocity
     room = min(_SWEEP_MARGIN * velocity * _SWEEP_PERIOD / math.pi, reach)
     above, below = min(room, _SWEEP_MARGIN * (upper - start)), min(room, _SWEEP_MARGIN * (start - lower))
     return above if above >= below else -below
 
 
-def _follow(problem: _Problem, q: Array, rows: Sequence[_Rows], ways: Mapping[int, float], free: Array) -> int:
+def _follow(problem: _Problem, q: Array, rows: Rows, ways: Mapping[int, float], free: Array) -> int:
     """Return the number of steps along the ways up to which the loops are closed, regular and within limits."""
     way, start, at = np.zeros(len(q)), q, q
     for k, value in ways.items():
@@ -645,40 +602,37 @@ def _follow(problem: _Problem, q: Array, rows: Sequence[_Rows], ways: Mapping[in
         at = problem.close(np.where(free, at, start + way * step / _STEPS), rows, free, bounded=False)
         is_within = ((at >= problem.lower - 1e-9) & (at <= problem.upper + 1e-9)).all()
         is_regular = _least(problem.jacobian(at, rows)[:, free]) > limit
-        if not (is_within and is_regular and problem.is_closed(at, rows, 1e-9)):
+        if not (is_within and is_regular and problem.openness(at, rows) < 1e-9):
             return step - 1
     return _STEPS
 
 
 def _least(matrix: Array) -> float:
     """Return the smallest singular value; infinite without any."""
-    return float(np.linalg.svd(matrix, compute_uv=False).min(initial=math.inf))
+    return math.sqrt(max(0.0, float(_spectrum(matrix)[0].min(initial=math.inf))))
 
 
 def _structural_faults(tree: KinematicTree, mechanism: Mechanism) -> Iterator[LoopFault]:
     """Yield loops that nothing moves, and those with joints that have more than one freedom."""
     by_child = {joint.child: joint for joint in tree.joints}
-    for chain in mechanism.chains:
-        loop = chain.loop
-        sides = [{joint.name: joint for joint in _path(by_child, link)} for link in (loop.parent, loop.child)]
-        joints = [{**sides[0], **sides[1]}[name] for name in sorted(sides[0].keys() ^ sides[1].keys())]
-        free = [joint for joint in joints if joint.type in ("planar", "floating")]
+    for loop, signs in zip(tree.loops, mechanism.signs, strict=True):
+        in_loop = {*_path(by_child, loop.parent)} ^ {*_path(by_child, loop.child)}
+        free = [j for j in mechanism.joints if j.name in in_loop and j.type in ("planar", "floating")]
         if free:
             message = f"loop {loop.name!r} has the {free[0].type} joint {free[0].name!r}, which no loop can hold"
             yield LoopFault("loop-free-joint", loop.name, message, "use joints with one axis in a loop")
-        elif not mechanism._gears[chain.joints].any():
+        elif not (signs @ mechanism.gears).any():
             message = f"loop {loop.name!r}: no joint moves link {loop.child!r} against link {loop.parent!r}"
             yield LoopFault("loop-rigid", loop.name, message, "remove the loop, or give it joints that move")
 
 
-def _open_faults(mechanism: Mechanism, start: Array, q: Array) -> Iterator[LoopFault]:
-    """Yield the loops that are not closed, with their gaps there."""
-    for chain in mechanism.chains:
-        loop, gap, before = chain.loop, mechanism.gap(q, chain), mechanism.gap(start, chain)
+def _open_faults(mechanism: Mechanism, q: Array) -> Iterator[LoopFault]:
+    """Yield the loops that are not closed, with their gaps."""
+    for loop, gap, start in zip(mechanism.loops, mechanism.gaps(q), mechanism.gaps(mechanism.start), strict=True):
         if gap.distance > _CLOSED or gap.angle > _CLOSED_ANGLE:
             message = (
                 f"loop {loop.name!r} cannot be closed: its frames on links {loop.parent!r} and {loop.child!r} stay "
-                f"{_apart(gap)} apart ({_apart(before)} at the start)"
+                f"{_apart(gap)} apart ({_apart(start)} at the start)"
             )
             yield LoopFault(
                 "loop-open", loop.name, message, "correct its frames, or the start and limits of its joints"
@@ -691,11 +645,12 @@ def _apart(gap: Gap) -> str:
 
 def _redundant_faults(closures: Mapping[str, Closure]) -> Iterator[LoopFault]:
     for name, closure in closures.items():
-        if not _count(closure):
+        if not closure.translations and not closure.rotations:
             message = f"loop {name!r} holds nothing that the other loops and joints do not hold already"
             yield LoopFault("loop-redundant", name, message, "remove one of them")
 
 
-def _singular(loop: str, reason: str) -> LoopFault:
-    message = f"loop {loop!r} is singular: {reason}"
-    return LoopFault("loop-singular", loop, message, "let its joints start elsewhere, by `start` in the configuration")
+def _singular(loop: Loop, reason: str) -> LoopFault:
+    message = f"loop {loop.name!r} is singular: {reason}"
+    hint = "let its joints start elsewhere, by `start` in the configuration"
+    return LoopFault("loop-singular", loop.name, message, hint)
