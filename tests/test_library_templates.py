@@ -56,7 +56,7 @@ def library_artifacts() -> Iterator[Artifact | Order]:
         link = Link("", visuals=(Visual(shape),), collisions=(Collision(shape),))
         kind = type(shape).__name__.lower()
         yield from link_files(name, f"{name}Parameters", link, f"Rigid body with a {kind} as visual and as collision.")
-    yield Order("Joints/package.order", tuple(kind.capitalize() for kind in JOINT_KINDS))
+    yield Order("Joints/package.order", (*(kind.capitalize() for kind in JOINT_KINDS), "Loop"))
     for joint in JOINT_KINDS:
         name, note = joint.capitalize(), f"{JOINT_NOTES[joint]} {RECORD_NOTE}"
         data = named_data("Joints", name, f"UrdfSync.Records.{name}Joint")
@@ -70,6 +70,9 @@ def library_artifacts() -> Iterator[Artifact | Order]:
             "saturated": False,
         }
         yield Artifact(f"Joints/{name}.mo", Role.MODEL, f"joint/{joint}.mo.jinja", data, name)
+    note = f"Holds a frame of one link at a frame of another one, and so closes a loop. {RECORD_NOTE}"
+    data = named_data("Joints", "Loop", "UrdfSync.Records.Loop") | {"title": "joint that closes a loop", "note": note}
+    yield Artifact("Joints/Loop.mo", Role.MODEL, "joint/loop.mo.jinja", data, "Loop")
 
 
 def link_files(name: str, record: str, link: Link, note: str) -> Iterator[Artifact]:

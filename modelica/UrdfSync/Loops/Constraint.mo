@@ -1,0 +1,87 @@
+within UrdfSync.Loops;
+
+model Constraint "Holds two frames together along some directions and about some axes"
+  extends UrdfSync.Icons.Loop;
+  extends Modelica.Mechanics.MultiBody.Interfaces.PartialTwoFrames;
+
+  parameter Real translations[:, 3](each unit = "1") = identity(3)
+    "Unit vectors resolved in frame_a, one per row: along these the origins of both frames coincide"
+    annotation (Evaluate=true);
+
+  parameter Real rotations[:, 3](each unit = "1") = fill(0, 0, 3)
+    "Unit vectors resolved in frame_a, one per row: each stays perpendicular to the same row of childRotations"
+    annotation (Evaluate=true);
+
+  parameter Real childRotations[size(rotations, 1), 3](each unit = "1") = fill(0, 0, 3)
+    "Unit vectors resolved in frame_b, one per row"
+    annotation (Evaluate=true);
+
+  Modelica.Units.SI.Distance gap = Modelica.Math.Vectors.length(frame_b.r_0 - frame_a.r_0)
+    "Distance of the origins";
+
+  Modelica.Units.SI.Force f[3] = {sum(f_c[i]*translations[i, k] for i in 1:size(translations, 1)) for k in 1:3}
+    "Force on frame_b, resolved in frame_a";
+
+  Modelica.Units.SI.Torque t[3] = {sum(t_c[i]*axes[i, k] for i in 1:size(rotations, 1)) for k in 1:3}
+    "Torque on frame_b about its origin, resolved in frame_a";
+
+protected
+  Modelica.Mechanics.MultiBody.Frames.Orientation R_rel
+    "From frame_a to frame_b";
+
+  Modelica.Units.SI.Position r_rel[3]
+    "From the origin of frame_a to that of frame_b, resolved in frame_a";
+
+  Real rotated[size(rotations, 1), 3](each unit = "1")
+    "childRotations resolved in frame_a";
+
+  Real axes[size(rotations, 1), 3](each unit = "1")
+    "Directions of the torques, resolved in frame_a";
+
+  Modelica.Units.SI.Force f_c[size(translations, 1)]
+    "Forces along the translations";
+
+  Modelica.Units.SI.Torque t_c[size(rotations, 1)]
+    "Torques of the rotations";
+
+equation
+  R_rel = Modelica.Mechanics.MultiBody.Frames.relativeRotation(frame_a.R, frame_b.R);
+  r_rel = Modelica.Mechanics.MultiBody.Frames.resolve2(frame_a.R, frame_b.r_0 - frame_a.r_0);
+  rotated = childRotations*R_rel.T;
+
+  translations*r_rel = zeros(size(translations, 1));
+  for i in 1:size(rotations, 1) loop
+    rotations[i, :]*rotated[i, :] = 0;
+    axes[i, :] = cross(rotations[i, :], rotated[i, :]);
+  end for;
+
+  frame_a.f = f;
+  frame_a.t = t + cross(r_rel, f);
+  frame_b.f = -Modelica.Mechanics.MultiBody.Frames.resolve2(R_rel, f);
+  frame_b.t = -Modelica.Mechanics.MultiBody.Frames.resolve2(R_rel, t);
+
+  annotation (Documentation(info="<html>
+<pre>
+e_i * r_rel = 0                 e_i: a row of translations
+u_i * (v_i in frame_a) = 0      u_i: a row of rotations, v_i: the same row of childRotations
+f = sum(e_i*f_c[i])
+t = sum((u_i x v_i)*t_c[i])
+</pre>
+<p>
+Each equation removes one freedom, and brings one force or torque, which does no work along the motions that are left. <code>frame_a.f</code> and
+<code>frame_a.t</code> are what the link at <code>frame_a</code> hands over to the link at <code>frame_b</code>, and these do the same backwards.
+</p>
+<table border=\"1\" cellspacing=\"0\" cellpadding=\"4\">
+<tr><th align=\"left\">joint</th><th align=\"left\">translations</th><th align=\"left\">rotations, childRotations</th></tr>
+<tr><td>ball</td><td>x, y, z</td><td></td></tr>
+<tr><td>revolute about z</td><td>x, y, z</td><td>x, z; y, z</td></tr>
+<tr><td>universal with axes z and x</td><td>x, y, z</td><td>z, x</td></tr>
+<tr><td>fixed</td><td>x, y, z</td><td>x, y; y, z; z, x</td></tr>
+<tr><td>planar loop with axes along z</td><td>x, y</td><td></td></tr>
+</table>
+<p>
+Parts of the Modelica Standard Library do the same for one kind of joint each. Its <code>RevolutePlanarLoopConstraint</code> stops a simulation
+where the loop leaves its plane by 1e-10 m, which the rounded numbers of an export do by far more; this model reports it in <code>gap</code>.
+</p>
+</html>"));
+end Constraint;
