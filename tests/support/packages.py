@@ -78,6 +78,11 @@ def generate(source: Path | bytes, target: Target, **options: Any) -> Package:
     return _render(reading.snapshot, imports, contents, target, chosen)
 
 
+def generate_robot(robot: Robot, target: Target, **options: Any) -> Package:
+    """The package of a robot without meshes."""
+    return _render(to_snapshot(robot), {}, {}, target, Options(**options))
+
+
 def strict(package: Package) -> Package:
     """The same package, in which passing a limit is an error and no warning."""
     warning, error = "AssertionLevel.warning", "AssertionLevel.error"

@@ -20,6 +20,7 @@ if __name__ == "__main__":
     sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from support import urdfs
+from support.loops import FOUR_BAR
 from support.modelica import compile_task, execute
 from support.packages import Package, generate
 
@@ -107,6 +108,7 @@ def test_every_template_is_in_use() -> None:
     begun = Robot("r", (Link("a"), Link("b")), (Joint("a", "continuous", "a", "b", start=0.5),))
     robots = (
         (begun, both),
+        (FOUR_BAR, Options()),
         (menagerie("fixed").robot, both),
         (twig("record").robot, both),
         (twig("record").robot, mobile),

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import pytest
+from support.loops import FIVE_BAR
 from support.robots import tree
 
 from urdfsync.domain import Axis, Bench, Signal, Target
 from urdfsync.urdf.benches import bench
+from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Joint, Limit, Mimic, Transmission
 
@@ -35,6 +37,12 @@ def test_joints_that_move_have_variables_and_limits_in_the_package() -> None:
     assert wheel.position == Signal("wheel_joint.revolute.phi", "rad"), "it turns without end"
     assert (finger.position.variable, finger.position.unit) == ("finger_joint.prismatic.s", "m")
     assert finger.effort is None, "it follows another joint"
+
+
+def test_a_loop_leaves_fewer_freedoms_than_joints() -> None:
+    found = bench(KinematicTree.of(FIVE_BAR), TARGET, Options())
+    assert found is not None
+    assert found.freedoms == 2
 
 
 def test_a_floating_base_has_six_degrees_of_freedom_more() -> None:

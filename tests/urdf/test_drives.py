@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 import pytest
 
-from urdfsync.urdf.drives import driven_joints, passive_joints
+from urdfsync.urdf.drives import passive_joints, wanted_joints
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Command, Joint, Limit, Mimic
 
@@ -63,11 +63,11 @@ SILENT = [joint("wheel"), *CART[1:7], *CART[9:]]
 def test_driven_and_passive_joints(
     joints: Sequence[Joint], names: tuple[str, ...] | None, driven: set[str], passive: set[str]
 ) -> None:
-    assert driven_joints(joints, Options(driven=names)) == driven
+    assert wanted_joints(joints, Options(driven=names)) == driven
     assert passive_joints(joints) == passive
 
 
 def test_a_command_in_the_options_drives_a_passive_joint_unless_they_name_all_that_are_driven() -> None:
     commands: Mapping[str, Command] = {"caster": "velocity", "slave": "effort"}
-    assert driven_joints(CART, Options(commands=commands)) == {*DRIVEN, "caster"}
-    assert driven_joints(CART, Options(commands=commands, driven=("mast",))) == {"mast"}
+    assert wanted_joints(CART, Options(commands=commands)) == {*DRIVEN, "caster"}
+    assert wanted_joints(CART, Options(commands=commands, driven=("mast",))) == {"mast"}

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import msgspec
 
@@ -13,6 +13,7 @@ from urdfsync.urdf.connectors import connector_names
 from urdfsync.urdf.drives import driven_joints
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.model.joint import joint_model, joint_record, joint_title
+from urdfsync.urdf.model.loop import loop_data, loop_note, loop_record, loop_title
 from urdfsync.urdf.model.record import record_data
 from urdfsync.urdf.model.robot import bench_data, robot_data
 from urdfsync.urdf.model.sensors import sensor_records
@@ -20,7 +21,10 @@ from urdfsync.urdf.model.shapes import link_model, link_shapes, standing_height
 from urdfsync.urdf.model.tables import obstacles
 from urdfsync.urdf.names import Identifier
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS, MOTIONS, Inertial, Joint, Link, Robot
+from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS, MOTIONS, Inertial, Joint, Link, Loop, Robot
+
+if TYPE_CHECKING:
+    from urdfsync.urdf.kinematics.loops import Closure
 
 _PARAMETERS = "Parameters"
 _EDIT = "This file may be edited: urdfsync then keeps it, and reports when the URDF asks for something else."
@@ -32,11 +36,12 @@ def artifacts(robot: Robot, imports: Mapping[str, Import], target: Target, optio
     Raises KeyError or ValueError for a robot that does not pass all checks, or has meshes without their facts.
     """
     tree, package = _tree(robot, target), target.package
-    names, structure = connector_names(tree, options), tree.structure()
+    names, driven, loops = connector_names(tree, options), driven_joints(tree, options), loop_data(tree, options)
+    tree = loops.tree
     files = list(_package(tree, target, options))
     if "package" in options.approach:
-        benches, driven = bench_data(tree, names, options), driven_joints(tree.joints, options)
-        files.append(_of_robot("", "robot", target, options, robot_data(structure, names)))
+        benches = bench_data(tree, names, options, loops)
+        files.append(_of_robot("", "robot", target, options, robot_data(tree.structure(), names, loops.dependent)))
         files.append(_of_robot("Run", "run", target, options, benches))
         files.append(_of_robot("Test", "test", target, options, benches))
         root, *others = tree.links
@@ -47,6 +52,8 @@ def artifacts(robot: Robot, imports: Mapping[str, Import], target: Target, optio
             files += _link(link, tree.link(link.name), imports, package, options)
         for joint in tree.joints:
             files += _joint(joint, tree.joint(joint.name), package, options, joint.name in driven)
+        for loop in tree.loops:
+            files += _loop(loop, loops.closures[loop.name], tree.loop(loop.name), package)
         if tree.sensors:
             data = {"record": f"{target.name}Sensors", "sensors": sensor_records(tree, names)}
             files.append(_of_robot("Sensors", "sensors", target, options, data, Role.RECORD))
@@ -58,8 +65,13 @@ def artifacts(robot: Robot, imports: Mapping[str, Import], target: Target, optio
             {"component": tree.joint(joint.name).component, "motion": MOTION_KINDS[joint.type], "joint": joint}
             for joint in tree.starts()
         ]
-        data = {"record": f"{target.name}Start", "starts": starts}
-        files.append(_of_robot("Start", "start", target, options, data, Role.RECORD))
+        start_record: dict[str, Any] = {
+            "record": f"{target.name}Start",
+            "starts": starts,
+            "reaches": list(loops.reaches.values()),
+            "has_loops": bool(tree.loops),
+        }
+        files.append(_of_robot("Start", "start", target, options, start_record, Role.RECORD))
     if has_bench(tree.joints, options):
         axes = {
             f"{motion}_axes": [
@@ -133,6 +145,7 @@ def _package(tree: KinematicTree, target: Target, options: Options) -> Iterator[
     folders = {"Links": [tree.link(link.name) for link in tree.links]} if whole else {}
     if whole and tree.joints:
         folders["Joints"] = [tree.joint(joint.name) for joint in tree.joints]
+        folders["Joints"] += [tree.loop(loop.name) for loop in tree.loops]
     data = {
         "within": parent,
         "name": last,
@@ -197,4 +210,15 @@ def _joint(
             owner,
         ),
         Artifact(f"Joints/{name.type}.mo", Role.MODEL, f"{template}.mo.jinja", named | model, owner),
+    )
+
+
+def _loop(loop: Loop, closure: Closure, name: Identifier, package: str) -> tuple[Artifact, Artifact]:
+    """Return record and model of a joint that closes a loop."""
+    owner = f"loop {loop.name}"
+    named = {"within": f"{package}.Joints", "type": name.type, "record": name.record, "title": loop_title(loop)}
+    record, model = loop_record(loop, closure), {"note": f"{loop_note(loop, closure)} {_EDIT}"}
+    return (
+        Artifact(f"Joints/{name.record}.mo", Role.RECORD, "joint/loop_parameters.mo.jinja", named | record, owner),
+        Artifact(f"Joints/{name.type}.mo", Role.MODEL, "joint/loop.mo.jinja", named | model, owner),
     )

@@ -78,7 +78,7 @@ def connector_names(tree: KinematicTree, options: Options) -> Connectors:
         framed = {link.name for link in tree.links}
     else:
         framed = {leaf.name for leaf in tree.leaves()}.union(() if options.frames == "leaves" else options.frames)
-    driven, drives = driven_joints(tree.joints, options), {}
+    driven, drives = driven_joints(tree, options), {}
     for joint in filter(can_be_driven, tree.joints):
         identifier, motion = tree.joint(joint.name), MOTION_KINDS[joint.type]
         command = joint.command if joint.name in driven else None

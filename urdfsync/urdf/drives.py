@@ -4,18 +4,69 @@ A joint can be driven if it has one axis and follows no other joint. Some of the
 that the source only measures, and where it drives any other joint, continuous ones without a drive and without limit.
 Other joints without a drive are driven all the same, since transmissions are often left out: a joint with a limit was
 meant to be moved by something. A source without any drives has no passive joints.
+
+Loops leave fewer freedoms than joints: then no more of these joints are driven than the loops allow.
 """
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Iterable
+from typing import TYPE_CHECKING
 
+from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import FrictionLaw, Options
 from urdfsync.urdf.robot import MOTION_KINDS, Joint
 
+if TYPE_CHECKING:
+    from urdfsync.urdf.kinematics.loops import Assembly, LoopFault
 
-def driven_joints(joints: Iterable[Joint], options: Options) -> frozenset[str]:
-    """Return the names of the driven joints: those of the option `driven` if it is set, else all but passive ones.
+
+def driven_joints(tree: KinematicTree, options: Options) -> frozenset[str]:
+    """Return the names of the joints that Run and Test drive: of `wanted_joints`, as many as loops leave free.
+
+    Raises ValueError if the loops can't be closed.
+    """
+    closed = assembly(tree, options)
+    return frozenset(closed.driven) if closed else wanted_joints(tree.joints, options)
+
+
+def dependent_joints(tree: KinematicTree, options: Options) -> frozenset[str]:
+    """Return the names of the joints whose positions follow from those of other joints through loops.
+
+    Raises ValueError if the loops can't be closed.
+    """
+    closed = assembly(tree, options)
+    return frozenset(closed.joints).difference(closed.states) if closed else frozenset()
+
+
+def assembly(tree: KinematicTree, options: Options) -> Assembly | None:
+    """Return how the loops of a robot are closed; None if it has none. Raises ValueError if they can't be closed."""
+    closed = assemble_loops(tree, options)
+    if isinstance(closed, tuple):
+        raise ValueError("; ".join(fault.message for fault in closed))  # noqa: TRY004 - a tuple is no wrong type
+    return closed
+
+
+def assemble_loops(tree: KinematicTree, options: Options) -> Assembly | tuple[LoopFault, ...] | None:
+    """Return how the loops of a robot are closed, or why they can't be; None for a robot without loops."""
+    if not tree.loops:
+        return None
+    actuated = {joint.name for joint in tree.joints if joint.actuated}
+    named = actuated.union(options.commands) if options.driven is None else options.driven
+    return _assemble(tree, wanted_joints(tree.joints, options), frozenset(named))
+
+
+@functools.lru_cache(maxsize=2)
+def _assemble(tree: KinematicTree, wanted: frozenset[str], named: frozenset[str]) -> Assembly | tuple[LoopFault, ...]:
+    """Close loops. The last results are kept: a build asks ten times, for two versions, and one takes 40 ms."""
+    from urdfsync.urdf.kinematics.loops import assemble  # 60 ms for numpy, which a robot without loops does not need
+
+    return assemble(tree, wanted, named)
+
+
+def wanted_joints(joints: Iterable[Joint], options: Options) -> frozenset[str]:
+    """Return the names of the joints to drive: those of the option `driven` if it is set, else all but passive ones.
 
     A passive joint with a command in the options is driven, too.
 

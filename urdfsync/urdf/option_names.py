@@ -13,7 +13,7 @@ from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence, S
 
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.spelling import nearest
-from urdfsync.urdf.drives import can_be_driven, chosen_law, driven_joints, is_chosen, passive_joints
+from urdfsync.urdf.drives import can_be_driven, chosen_law, is_chosen, passive_joints, wanted_joints
 from urdfsync.urdf.kinematics.poses import own_range
 from urdfsync.urdf.names import natural_key
 from urdfsync.urdf.options import Options
@@ -31,7 +31,7 @@ def check_options(
     `links` are the names of all links. The record approach has no use for these options, but for `start`.
     """
     ranges = {joint.name: own_range(joint) for joint in joints if can_be_driven(joint)}
-    drivable, driven = list(ranges), driven_joints(joints, options)
+    drivable, driven = list(ranges), wanted_joints(joints, options)
     checks: list[tuple[str, Sequence[str], Collection[str], str, str]] = [
         (f"start.{name}", (name,), drivable, _DRIVABLE, "start-of-no-joint") for name in options.start
     ]
@@ -95,7 +95,7 @@ def _named(friction: str | Mapping[str, str]) -> Iterable[str]:
 
 def _check_laws(joints: Sequence[Joint], options: Options) -> Iterator[tuple[str, Diagnostic]]:
     """Yield an error for each joint whose chosen friction and drive make no model."""
-    driven, named = driven_joints(joints, options), _named(options.friction)
+    driven, named = wanted_joints(joints, options), _named(options.friction)
     for joint in filter(can_be_driven, joints):
         law, is_dry = chosen_law(joint, options), joint.dynamics is not None and joint.dynamics.friction > 0
         is_driven, by_effort = joint.name in driven, joint.command == "effort"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.urdf.drives import can_be_driven, driven_joints
+from urdfsync.urdf.drives import can_be_driven, dependent_joints, driven_joints
 from urdfsync.urdf.kinematics.massless import find_massless_joints
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.model.tables import obstacles
@@ -37,7 +37,8 @@ def find_unsimulated(
             yield Diagnostic(Severity.NOTE, "not-in-record", message, file, hint=hint)
         return
     # Driven joints count as fixed. They move as prescribed, so that none can undo the motion of a passive joint.
-    passive = {joint.name for joint in tree.joints if can_be_driven(joint)} - driven_joints(tree.joints, options)
+    passive = {joint.name for joint in tree.joints if can_be_driven(joint)} - driven_joints(tree, options)
+    passive -= dependent_joints(tree, options)
     for name in find_massless_joints(tree, passive) if passive else ():
         if name in passive:
             message = f"joint '{name}' is not driven and moves no mass where it starts, so nothing determines its "

@@ -18,7 +18,7 @@ from urdfsync.urdf.connectors import Connectors, connector_names
 from urdfsync.urdf.diagram.layout import Diagram, Path, Placement, Point, layout
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import MOTION_KINDS, Joint, JointType, Link, Robot, Sensor, SensorKind, Transmission
+from urdfsync.urdf.robot import MOTION_KINDS, Joint, JointType, Link, Loop, Robot, Sensor, SensorKind, Transmission
 
 KINDS: tuple[SensorKind, ...] = ("imu", "camera", "force_torque")
 TYPES: tuple[JointType, ...] = ("fixed", "fixed", "revolute", "revolute", "prismatic", "continuous", "planar")
@@ -34,9 +34,12 @@ def random_names(random_: random.Random, links: int, reach: int, mimics: float) 
     kinds = random_.choices(KINDS, k=random_.choice((0, 1, 6)) * bool(robot.joints))
     places = [random_.choice(geared).name if kind == "force_torque" else random_.choice(names) for kind in kinds]
     sensors = [Sensor(f"s{number}", kind, at) for number, (kind, at) in enumerate(zip(kinds, places, strict=True))]
-    tree = KinematicTree.of(replace(robot, joints=tuple(geared), sensors=tuple(sensors)))
+    ends = [random_.sample(names, 2) for _ in range(random_.choice((0, 1, 4)))] if links > 1 else []
+    loops = tuple(Loop(f"c{number}", "ball", parent, child) for number, (parent, child) in enumerate(ends))
+    tree = KinematicTree.of(replace(robot, joints=tuple(geared), sensors=tuple(sensors), loops=loops))
     framed = tuple(name for name in names if random_.random() < mimics / 2)
-    return tree, connector_names(tree, Options(frames=framed, drives="motor"))
+    # connectors have nothing to do with these loops, which can't be closed
+    return tree, connector_names(replace(tree, loops=()), Options(frames=framed, drives="motor"))
 
 
 def connections(tree: KinematicTree, names: Connectors) -> set[tuple[str, str]]:
@@ -49,6 +52,8 @@ def connections(tree: KinematicTree, names: Connectors) -> set[tuple[str, str]]:
             ends |= {(f"{sensor.at}.frame_a", f"{sensor.name}.frame_a")}
         if sensor.kind == "camera":
             ends |= {(f"{sensor.name}.frame_b", f"{sensor.name}Frame")}
+    for loop in tree.loops:
+        ends |= {(f"{loop.parent}.frame_a", f"{loop.name}.frame_a"), (f"{loop.name}.frame_b", f"{loop.child}.frame_a")}
     for joint in tree.joints:
         ends |= {
             (f"{joint.parent}.frame_a", f"{joint.name}.frame_a"),
@@ -129,7 +134,7 @@ def test_any_robot_is_drawn_well(random_: random.Random, links: int, reach: int,
     tree, names = random_names(random_, links, reach, mimics)
     diagram = layout(tree, names)
     assert set(diagram.lines) == connections(tree, names)
-    inner = {link.name for link in tree.links} | {joint.name for joint in tree.joints} | {*names.couplings.values()}
+    inner = {tree.names[key].component for key in tree.names} | {*names.couplings.values()}
     assert inner < set(diagram.placements)
     x1, y1, x2, y2 = diagram.extent
     for ends, (_, points) in diagram.lines.items():

@@ -17,7 +17,7 @@ from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import MOTION_KINDS, Robot
 
-Kind: TypeAlias = Literal["link", "fixed", "rotational", "translational", "free", "coupling", "sensor"]
+Kind: TypeAlias = Literal["link", "fixed", "rotational", "translational", "free", "coupling", "sensor", "loop"]
 _Entry: TypeAlias = tuple[Kind, str, float, int, float]
 """Entry of the legend: the kind of its icon, its text, its place (x, y), and its width."""
 
@@ -39,6 +39,7 @@ _LEGENDS: Mapping[Kind, str] = {
     "free": "planar or floating joint",
     "coupling": "mimic coupling, ratio",
     "sensor": "sensor",
+    "loop": "joint that closes a loop",
 }
 
 
@@ -90,7 +91,7 @@ def draw(robot: Robot, target: Target, options: Options) -> str:
 
 
 def _parts(tree: KinematicTree, names: Connectors) -> Iterator[tuple[str, _Part]]:
-    """Yield the components of links, joints, couplings and sensors."""
+    """Yield the components of links, joints, couplings, sensors and loops."""
     for link in tree.links:
         yield (
             tree.link(link.name).component,
@@ -104,6 +105,7 @@ def _parts(tree: KinematicTree, names: Connectors) -> Iterator[tuple[str, _Part]
         ratio = f"× {_rounded(mimic.multiplier)}" if types[mimic.joint] in MOTION_KINDS else "held"
         yield names.couplings[joint.name], _Part("coupling", ratio)
     yield from ((component, _Part("sensor")) for component in names.sensors.values())
+    yield from ((tree.loop(loop.name).component, _Part("loop")) for loop in tree.loops)
 
 
 def _rounded(value: float) -> str:

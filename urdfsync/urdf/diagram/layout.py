@@ -15,7 +15,8 @@ So a new leaf moves only the components below a place that it takes. Components 
 vertical trunk at the left of its column. The joints that start at it stand on the spines of their rows, right of the
 trunk: a trunk passes nothing of its own column. Above a joint that can be driven stand the connectors of its axis and
 its support. A mimic coupling stands above its follower; the line from its leader runs through the gap between two
-columns, on a track that no other line has there.
+columns, on a track that no other line has there. A joint that closes a loop stands below all rows, in the column of its
+parent; the lines from its links run down to it on such tracks.
 
 Lines consist of axis-parallel segments. All coordinates are even, y points upwards.
 """
@@ -35,8 +36,10 @@ Point: TypeAlias = tuple[int, int]
 Path: TypeAlias = tuple[Point, ...]
 LineKind: TypeAlias = Literal["frame", "rotational", "translational"]
 _Cell: TypeAlias = tuple[int, int]
-_Spans: TypeAlias = dict[str, list[int]]
-"""Places per leader; its lines run from the first to the last of them."""
+_End: TypeAlias = tuple[str, str]
+"""A loop and one of its frames."""
+_Spans: TypeAlias = dict[str | _End, list[int]]
+"""Places per leader, or end of a loop; its lines run from the first to the last of them."""
 
 PORTS: Mapping[str, Point] = {
     "frame_a": (-100, 0),
@@ -116,6 +119,10 @@ class _Grid(NamedTuple):
     """Middles of the couplings, by follower."""
     detours: Mapping[str, Point]
     """Points, by follower, at which the line to its leader leaves the gap between columns for the leader's row."""
+    loops: Mapping[str, Point]
+    """Middles of the joints that close a loop."""
+    descents: Mapping[_End, int]
+    """Where, from left to right, the lines of loops run down in the gaps between columns."""
     top: int
     right: int
     bottom: int
@@ -144,6 +151,11 @@ def _grid(tree: KinematicTree, names: Connectors) -> _Grid:
         (row, column), (follower_row, follower_column) = joints[leader], joints[follower]
         spans_above[row][leader] += column, follower_column
         spans_left[follower_column][leader] += row, follower_row
+    links_of_loops = {(loop.name, "frame_a"): loop.parent for loop in tree.loops}
+    links_of_loops |= {(loop.name, "frame_b"): loop.child for loop in tree.loops}
+    for end, link in links_of_loops.items():
+        row, column = links[link]
+        spans_left[column][end] += row, last_row + 1
     tracks_above = [_tracks(spans_above[row]) for row in range(last_row + 1)]
     tracks_left = [_tracks(spans_left[column]) for column in range(last_column + 1)]
 
@@ -177,14 +189,24 @@ def _grid(tree: KinematicTree, names: Connectors) -> _Grid:
             row = joints[leaders[name]][0]
             track_above, track_left = tracks_above[row][leaders[name]], tracks_left[column][leaders[name]]
             detours[name] = trunks[column] - _TRACK * (track_left + 1), tops[row] - _TRACK * (track_above + 1)
+    loops = {
+        loop.name: (trunks[links[loop.parent][1]] + _LINK_X, y - _NAME - _SIZE // 2 - place * (_SIZE + 2 * _NAME))
+        for place, loop in enumerate(tree.loops)
+    }
     return _Grid(
         links={name: (trunks[column], spines[row]) for name, (row, column) in links.items()},
         joints={name: (trunks[column], spines[row]) for name, (row, column) in joints.items()},
         couplings=couplings,
         detours=detours,
+        loops=loops,
+        descents={
+            end: trunks[links[link][1]] - _TRACK * (tracks_left[links[link][1]][end] + 1)
+            for end, link in links_of_loops.items()
+        },
         top=tops[0],
         right=trunks[-1] + _MARGIN,
-        bottom=y - (_SIZE + _NAME) * (bool(tree.sensors) + bool(tree.starts())),
+        bottom=y
+        - max((_SIZE + _NAME) * (bool(tree.sensors) + _has_starts(tree)), (_SIZE + 2 * _NAME) * len(tree.loops)),
     )
 
 
@@ -245,7 +267,7 @@ def _placements(tree: KinematicTree, names: Connectors, grid: _Grid) -> dict[str
         name: placements[names.frames[name]].y1 if name in names.frames and name not in leaves else place.y1
         for name, place in links.items()
     }
-    records = ["startPositions"] * bool(tree.starts()) + ["sensorParameters"] * bool(tree.sensors)
+    records = ["startPositions"] * _has_starts(tree) + ["sensorParameters"] * bool(tree.sensors)
     for row, record in enumerate(records):
         y = grid.bottom + _SIZE // 2 + row * (_SIZE + _NAME)
         placements[record] = Placement.around((FRAME_A[0], y))
@@ -259,6 +281,7 @@ def _placements(tree: KinematicTree, names: Connectors, grid: _Grid) -> dict[str
             )
     placements |= {tree.link(name).component: place for name, place in links.items()}
     placements |= {tree.joint(name).component: place for name, place in joints.items()}
+    placements |= {tree.loop(name).component: Placement.around(middle) for name, middle in grid.loops.items()}
     return placements | {names.couplings[name]: Placement.around(middle) for name, middle in grid.couplings.items()}
 
 
@@ -297,6 +320,18 @@ def _lines(
             component = tree.joint(joint.name).component
             connect_frames(frame_a, f"{component}.frame_a", name)
             connect_frames(f"{component}.frame_b", f"{tree.link(joint.child).component}.frame_a", joint.child)
+    for loop in tree.loops:
+        component = tree.loop(loop.name).component
+        link, port = f"{tree.link(loop.parent).component}.frame_a", f"{component}.frame_a"
+        link_point, port_point, down = place(link), place(port), grid.descents[loop.name, "frame_a"]
+        lines[link, port] = "frame", _path([link_point, (down, link_point[1]), (down, port_point[1]), port_point])
+        port, link = f"{component}.frame_b", f"{tree.link(loop.child).component}.frame_a"
+        port_point, link_point, down = place(port), place(link), grid.descents[loop.name, "frame_b"]
+        beside = port_point[0] + _TRACK
+        # a link that is further left is reached below the joint
+        height = port_point[1] if down > beside else placements[component].y1 - _TRACK
+        bends = [(beside, port_point[1]), (beside, height), (down, height), (down, link_point[1])]
+        lines[port, link] = "frame", _path([port_point, *bends, link_point])
     for name, drive in names.drives.items():
         axis, support = (f"{tree.joint(name).component}.{port}" for port in ("axis", "support"))
         lines[axis, drive.axis] = drive.motion, (place(axis), place(drive.axis))
@@ -323,12 +358,17 @@ def _lines(
     return lines
 
 
-def _tracks(spans: _Spans) -> dict[str, int]:
+def _has_starts(tree: KinematicTree) -> bool:
+    """Return whether the robot model has a record of start positions: joints in loops begin where these are closed."""
+    return bool(tree.starts() or tree.loops)
+
+
+def _tracks(spans: _Spans) -> dict[str | _End, int]:
     """Number the tracks of a channel, from 0, so that spans on one track don't touch.
 
     The left-edge method: as few tracks as the densest place of the channel needs.
     """
-    assigned: dict[str, int] = {}
+    assigned: dict[str | _End, int] = {}
     busy: list[tuple[int, int]] = []  # end, and track
     for key, places in sorted(spans.items(), key=lambda item: (min(item[1]), max(item[1]))):
         assigned[key] = heapq.heappop(busy)[1] if busy and busy[0][0] < min(places) else len(busy)
@@ -336,7 +376,7 @@ def _tracks(spans: _Spans) -> dict[str, int]:
     return assigned
 
 
-def _count(tracks: Mapping[str, int]) -> int:
+def _count(tracks: Mapping[str | _End, int]) -> int:
     return 1 + max(tracks.values(), default=-1)
 
 

@@ -13,7 +13,7 @@ import msgspec
 
 from urdfsync.domain import ChangeClass, ChangeKind, Difference, Import, Meaning, Version
 from urdfsync.urdf import robot
-from urdfsync.urdf.drives import can_be_driven, driven_joints
+from urdfsync.urdf.drives import can_be_driven, wanted_joints
 from urdfsync.urdf.meshes import lookup
 from urdfsync.urdf.model.joint import joint_model
 from urdfsync.urdf.model.shapes import link_model, link_shapes, touching
@@ -61,7 +61,7 @@ def _describe(difference: Difference, old: Version, new: Version, options: Optio
             is_change = by_source and difference.kind is ChangeKind.CHANGED
             return Meaning((f"joint {name}", "drive"), ChangeClass.STRUCTURAL) if is_change else None
         case ("joints", str(name), "command"):
-            driven = (name in driven_joints(joints_of(version.snapshot["joints"]), options) for version in (old, new))
+            driven = (name in wanted_joints(joints_of(version.snapshot["joints"]), options) for version in (old, new))
             reach = ChangeClass.STRUCTURAL if any(driven) else ChangeClass.UNMODELLED
             return Meaning((f"joint {name}", "command"), reach)
         case ("joints", str(name), *fields):

@@ -17,6 +17,7 @@ from urdfsync.urdf.diagram.layout import layout
 from urdfsync.urdf.drives import is_chosen
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.model.joint import joint_title
+from urdfsync.urdf.model.loop import LoopData, loop_title
 from urdfsync.urdf.model.sensors import sensor_models, sensor_outputs
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import MOTION_KINDS
@@ -27,8 +28,8 @@ _FRAME_Y = -50  # where the benches of the library have the frame that the robot
 
 
 @functools.lru_cache(maxsize=1)
-def robot_data(tree: KinematicTree, names: Connectors) -> Mapping[str, Any]:
-    """Return the data of the robot model; `tree` has no numbers.
+def robot_data(tree: KinematicTree, names: Connectors, dependent: frozenset[str]) -> Mapping[str, Any]:
+    """Return the data of the robot model; `tree` has no numbers, `dependent` joints follow from others through loops.
 
     The last data are kept: a build compares its data with those of the last build, which mostly had the same tree.
     Serves the rows "one mass changed in the daemon" of docs/speed.md: 8 % with 1,000 links.
@@ -72,8 +73,17 @@ def robot_data(tree: KinematicTree, names: Connectors) -> Mapping[str, Any]:
                 "motor": joint.name in names.drives and names.drives[joint.name].motor is not None,
                 "follows": couplings.get(joint.name),
                 "followers": followers[tree.joint(joint.name).component],
+                "dependent": joint.name in dependent,
             }
             for joint in tree.joints
+        ],
+        "loops": [
+            {
+                "component": tree.loop(loop.name).component,
+                "type": tree.loop(loop.name).type,
+                "title": loop_title(loop),
+            }
+            for loop in tree.loops
         ],
         "couplings": list(couplings.values()),
         "starts": bool(tree.starts()),
@@ -92,7 +102,7 @@ def robot_data(tree: KinematicTree, names: Connectors) -> Mapping[str, Any]:
     }
 
 
-def bench_data(tree: KinematicTree, names: Connectors, options: Options) -> dict[str, Any]:
+def bench_data(tree: KinematicTree, names: Connectors, options: Options, loops: LoopData) -> dict[str, Any]:
     """Return the data of Run and Test.
 
     In the diagram, the robot's icon has one and a half times its size. So its rows are 30 apart, and a drive of 20 fits
@@ -104,9 +114,19 @@ def bench_data(tree: KinematicTree, names: Connectors, options: Options) -> dict
     drives = [row | {"y": _FRAME_Y + row["y"] * 3 // 2, "icon_y": row["y"]} for row in rows if row["command"]]
     return {
         "visualizer": options.visualizer,
-        "drives": [row | {"input": row[row["command"]], "saturated": row["name"] in saturated} for row in drives],
+        "drives": [
+            row
+            | {
+                "input": row[row["command"]],
+                "saturated": row["name"] in saturated,
+                "reach": loops.reaches.get(row["name"]),
+            }
+            for row in drives
+        ],
         "starts": [tree.joint(joint.name).component for joint in tree.starts()],
-        "free": [row["joint"] for row in rows if row["command"] in (None, "effort")],
+        "free": [
+            row["joint"] for row in rows if row["command"] in (None, "effort") and row["name"] not in loops.dependent
+        ],
         "inputs": options.inputs,
         "vector": input_vector(names),
         "sensors": sensors,

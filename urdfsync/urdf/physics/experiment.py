@@ -114,7 +114,7 @@ def _free(subject: Subject, names: RobotVariables, name: str) -> Iterator[Trial]
 
 def _simplified(tree: KinematicTree, options: Options) -> Iterator[str]:
     """Yield the laws of joints that the package which is compared does not have."""
-    driven = driven_joints(tree.joints, options)
+    driven = driven_joints(tree, options)
     drives = [joint for joint in tree.joints if joint.name in driven]
     joints = {
         **{law: [j.name for j in tree.joints if friction_law(j, options) == law] for law in ("stiction", "lugre")},

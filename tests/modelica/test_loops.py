@@ -1,0 +1,53 @@
+"""Generated robots with loops stay closed, lose no energy, and are moved by the drives that loops leave."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from support.loops import ROBOTS
+from support.modelica import GRAVITY, Run, bench, compile_task, simulate
+from support.packages import generate_robot
+
+from urdfsync.checks.compilers import omc
+from urdfsync.domain import Target
+from urdfsync.urdf.robot import Robot
+
+OPENMODELICA = pytest.param("omc", marks=pytest.mark.skipif(omc.program("") is None, reason="no OpenModelica"))
+FRAMES = "Modelica.Mechanics.MultiBody.Frames"
+
+
+def energies(robot: Robot) -> Iterator[str]:
+    """The energy of each link; inertias are diagonal, in link axes."""
+    for link in robot.links:
+        if link.inertial:
+            m, inertia, (x, y, z) = link.inertial.mass, link.inertial.inertia, link.inertial.origin.xyz
+            body, centre = f"robot.{link.name}.body", f"{{{x}, {y}, {z}}}"
+            velocity = f"({FRAMES}.resolve2({body}.frame_a.R, {body}.v_0) + cross({body}.w_a, {centre}))"
+            momentum = f"diagonal({{{inertia.ixx}, {inertia.iyy}, {inertia.izz}}})*{body}.w_a"
+            height = f"({body}.frame_a.r_0 + {FRAMES}.resolve1({body}.frame_a.R, {centre}))*{{0, 0, 1}}"
+            yield f"{m}*{GRAVITY}*({height}) + {m}/2*({velocity}*{velocity}) + {body}.w_a*({momentum})/2"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("tool", ["rumoca", OPENMODELICA])
+@pytest.mark.parametrize("name", ROBOTS)
+def test_a_loop_stays_closed_and_keeps_its_energy(name: str, tool: str, tmp_path: Path, modelica_library: Path) -> None:
+    """In Test, and in free fall."""
+    robot, (loop,) = ROBOTS[name], ROBOTS[name].loops
+    package = generate_robot(robot, Target(name, name)).write(tmp_path)
+    driven, gap = f"robot.{robot.joints[0].name}.revolute.phi", f"robot.{loop.name}.gap"
+    body = f"{name}.{name} robot;\n    Real energy = {' + '.join(energies(robot))};\n"
+    body += "  equation\n    connect(world.frame_b, robot.frame_a);"
+    free_fall = [Run(stop=0.5, step=0.01, tolerance=1e-9)]
+    tasks = [
+        compile_task(f"{name}.{name}Test", name, runs=[Run(stop=5, step=0.05)], values=[driven, gap]),
+        bench(body, free_fall, [driven, gap, "energy"], packages=[name]),
+    ]
+    swept, fallen = simulate(modelica_library, [package], tasks, tool=tool)
+    assert abs(swept.values[driven][-1] - swept.values[driven][0]) > 0.3
+    assert np.ptp(fallen.values[driven]) > 0.3
+    assert max(run.values[gap].max() for run in (swept, fallen)) < 1e-8
+    assert np.ptp(fallen.values["energy"]) < 1e-6
