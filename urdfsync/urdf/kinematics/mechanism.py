@@ -1,0 +1,217 @@
+"""The joints of a robot's loops in numpy, and the equations that close these, for all loops at once."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from decimal import Decimal
+from typing import Any, NamedTuple
+
+import msgspec
+import numpy as np
+from numpy.typing import NDArray
+
+from urdfsync.urdf.kinematics.poses import dot, start_positions
+from urdfsync.urdf.kinematics.tree import KinematicTree
+from urdfsync.urdf.robot import MOTION_KINDS, MOTIONS, Joint, Loop, Origin, Vector
+
+Array = NDArray[Any]
+Equation = tuple[Vector, tuple[float, float, float, float], float]
+"""u, v and product of a row: see `Rows`."""
+
+AXES: tuple[Vector, Vector, Vector] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+ORIGIN = (0.0, 0.0, 0.0, 1.0)
+_TAU = Decimal("6.283185307179586476925286766559005768394")
+
+
+class Gap(msgspec.Struct, frozen=True):
+    """How far a pose is from closing a loop."""
+
+    distance: float
+    """Between the origins of both frames, in m."""
+    angle: float
+    """Between what the kind of the loop holds together, in rad."""
+
+
+class Rows(NamedTuple):
+    """Equations: u·(T·v) = product, with u in the frame of the parent, v in that of the child, and the pose T of this.
+
+    The vector v has four numbers: a direction and 0, or the origin and 1, for a translation along u.
+    """
+
+    loops: Array
+    """Numbers of the loops."""
+    u: Array
+    v: Array
+    products: Array
+
+    @classmethod
+    def of(cls, equations: Iterable[Sequence[Equation]]) -> Rows:
+        """Return the equations of all loops, loop by loop."""
+        rows = [(k, *equation) for k, loop in enumerate(equations) for equation in loop]
+        return cls(*map(np.array, zip(*rows, strict=True)))
+
+    def take(self, chosen: Sequence[int], dtype: type = float) -> Rows:
+        """Return some of the equations."""
+        loops, *numbers = (array[list(chosen)] for array in self)
+        return Rows(loops, *(array_of(array, dtype) for array in numbers))
+
+
+class Mechanism:
+    """The joints between the root and the frames of all loops; `dtype` is float, or object for decimals.
+
+    Poses of the mechanism are given by the positions of its `independent` joints: those that move a loop, and do not
+    follow another one.
+    """
+
+    def __init__(self, tree: KinematicTree, dtype: type = float) -> None:
+        by_child = {joint.child: joint for joint in tree.joints}
+        paths = [[{*_path(by_child, link)} for link in (loop.parent, loop.child)] for loop in tree.loops]
+        self.paths = [parent ^ child for parent, child in paths]
+        """Of each loop, the joints from frame to frame."""
+        on_paths = {name for pair in paths for path in pair for name in path}
+        self.loops = tree.loops
+        self.joints = [joint for joint in tree.joints if joint.name in on_paths]
+        index = {joint.child: k for k, joint in enumerate(self.joints, 1)}
+        self._parents = [index.get(joint.parent, 0) for joint in self.joints]
+        self._origins = _poses([joint.origin for joint in self.joints], dtype)
+        self._still = _poses([Origin()] * (len(self.joints) + 1), dtype)
+        self._axes = array_of([joint.axis for joint in self.joints], dtype).reshape(-1, 3)
+        motions = [MOTION_KINDS.get(joint.type) for joint in self.joints]
+        self.turns, self.slides = (np.array([motion == kind for motion in motions], int)[:, None] for kind in MOTIONS)
+        signs = [[(j.name in child) - (j.name in parent) for j in self.joints] for parent, child in paths]
+        self.signs = np.array(signs, int).reshape(len(paths), -1) * (self.turns + self.slides).T
+        """Of each loop, 1 for joints that move the child's frame against the parent's, -1 the other way round."""
+        self._links = np.array([[index.get(loop.parent, 0), index.get(loop.child, 0)] for loop in tree.loops]).T
+        self._frames = [_poses([loop.origin for loop in tree.loops], dtype)]
+        self._frames += [_poses([loop.child_origin for loop in tree.loops], dtype)]
+        roots, starts = _roots(tree), start_positions(tree)
+        moving = {roots[joint.name][0] for joint, used in zip(self.joints, self.signs.any(axis=0), strict=True) if used}
+        self.independent = [joint for joint in tree.joints if joint.name in moving and joint.type in MOTION_KINDS]
+        self.start = np.array([starts[joint.name] for joint in self.independent])
+        column = {joint.name: k for k, joint in enumerate(self.independent)}
+        gears, offsets = np.zeros((len(self.joints), len(column))), [starts[joint.name] for joint in self.joints]
+        for k, joint in enumerate(self.joints):
+            leader, multiplier, offset = roots[joint.name]
+            if leader in column:
+                gears[k, column[leader]], offsets[k] = multiplier, offset
+        self._gears, self._offsets = array_of(gears, dtype), array_of(offsets, dtype)
+        self.moves = self.signs @ self._gears != 0
+        """Of each loop, whether an independent joint moves it."""
+        self.whole = Rows.of(map(_whole, tree.loops))
+
+    def poses(self, q: Array) -> Array:
+        """Return the poses of the root and of each joint's child, as matrices."""
+        positions = (self._gears @ q + self._offsets)[:, None]
+        moved = self._still[1:].copy()
+        moved[:, :3, :3] = _turns(self._axes, positions * self.turns)
+        moved[:, :3, 3] = self._axes * (positions * self.slides)
+        poses: list[Array] = [self._still[0]]
+        for parent, pose in zip(self._parents, self._origins @ moved, strict=True):
+            poses.append(poses[parent] @ pose)
+        return np.array(poses)
+
+    def frames(self, poses: Array) -> tuple[Array, Array]:
+        """Return the poses of the frames of all loops, in the parents and in the children."""
+        a, b = (poses[links] @ frames for links, frames in zip(self._links, self._frames, strict=True))
+        return a, b
+
+    def twists(self, poses: Array) -> tuple[Array, Array]:
+        """Return for each joint how fast it turns all that it moves, and moves what is at the origin of the root."""
+        axes = (poses[1:, :3, :3] @ self._axes[:, :, None])[:, :, 0]
+        turns = axes * self.turns
+        return turns, axes * self.slides + _cross(poses[1:, :3, 3], turns)
+
+    def evaluate(self, q: Array, rows: Rows) -> tuple[Array, Array]:
+        """Return what the equations leave, in m and without unit, and the derivatives of that by positions."""
+        poses = self.poses(q)
+        (a, b), (turns, moves) = self.frames(poses), self.twists(poses)
+        u = (a[rows.loops, :3, :3] @ rows.u[:, :, None])[:, :, 0]
+        w = (b[rows.loops, :3] @ rows.v[:, :, None])[:, :, 0]
+        is_translation = rows.v[:, 3:]
+        left = (u * (w - is_translation * a[rows.loops, :3, 3])).sum(axis=1) - rows.products
+        derivatives = ((u * is_translation) @ moves.T + _cross(w, u) @ turns.T) * self.signs[rows.loops]
+        return left, derivatives @ self._gears
+
+    def gaps(self, q: Array) -> list[Gap]:
+        """Return how far a pose is from closing each loop as its kind demands."""
+        gaps, left = [], self.evaluate(q, self.whole)[0]
+        for k, loop in enumerate(self.loops):
+            x, y, z, *chords = left[self.whole.loops == k]
+            chord = math.hypot(*chords) / {"fixed": math.sqrt(8), "revolute": 2}.get(loop.kind, 1)
+            angle = math.asin(min(1.0, chord)) * (1 if loop.kind == "universal" else 2)
+            gaps.append(Gap(math.hypot(x, y, z), angle))
+        return gaps
+
+
+def _whole(loop: Loop) -> list[Equation]:
+    """Return more equations than are independent: they leave most where a loop is closed the wrong way round."""
+    equations: list[Equation] = [(u, ORIGIN, 0.0) for u in AXES]
+    if loop.kind == "universal":
+        equations.append((loop.axis, (*loop.child_axis, 0.0), 0.0))
+    held = {"revolute": (loop.axis,), "fixed": AXES}.get(loop.kind, ())
+    return equations + [(u, (*v, 0.0), dot(u, v)) for v in held for u in AXES]
+
+
+def array_of(values: Any, dtype: type) -> Array:
+    """Return numbers as floats, or as decimals."""
+    array = np.array(values, float)
+    return array if dtype is float else np.vectorize(Decimal, otypes=[object])(array)
+
+
+def _cross(a: Array, b: Array) -> Array:
+    """Return the vector products of rows; numpy's own takes five times as long, and had most of the time."""
+    crossed: Array = a[:, [1, 2, 0]] * b[:, [2, 0, 1]] - a[:, [2, 0, 1]] * b[:, [1, 2, 0]]
+    return crossed
+
+
+def _turns(axes: Array, angles: Array) -> Array:
+    """Return turns about axes as matrices, by Rodrigues' formula."""
+    x, y, z = axes.T
+    zero, angles = x * 0, angles.reshape(-1, 1, 1)
+    skew = np.array([[zero, -z, y], [z, zero, -x], [-y, x, zero]]).transpose(2, 0, 1)
+    if angles.dtype == object:
+        sines, cosines = np.vectorize(_series, otypes=[object, object])(angles)
+    else:
+        sines, cosines = np.sin(angles), np.cos(angles)
+    turned: Array = np.eye(3, dtype=int) + sines * skew + (1 - cosines) * (skew @ skew)
+    return turned
+
+
+def _series(angle: Decimal) -> tuple[Decimal, Decimal]:
+    """Return sine and cosine to about 25 digits, by their power series."""
+    angle %= _TAU
+    sums, term, k = [Decimal(0), Decimal(0)], Decimal(1), 0
+    while k < 8 or abs(term) > Decimal("1e-30"):
+        sums[k % 2] += -term if k % 4 > 1 else term
+        k += 1
+        term *= angle / k
+    return sums[1], sums[0]
+
+
+def _poses(origins: Sequence[Origin], dtype: type) -> Array:
+    poses: Array = np.zeros((len(origins), 4, 4), dtype)
+    poses[:] = np.eye(4, dtype=int)
+    poses[:, :3, 3] = array_of([origin.xyz for origin in origins], dtype).reshape(-1, 3)
+    angles = array_of([origin.rpy for origin in origins], dtype).reshape(-1, 3)
+    for k in (2, 1, 0):
+        poses[:, :3, :3] = poses[:, :3, :3] @ _turns(array_of([AXES[k]] * len(origins), dtype), angles[:, k])
+    return poses
+
+
+def _path(by_child: Mapping[str, Joint], link: str) -> Iterator[str]:
+    while link in by_child:
+        yield by_child[link].name
+        link = by_child[link].parent
+
+
+def _roots(tree: KinematicTree) -> Mapping[str, tuple[str, float, float]]:
+    """Return for each joint the joint that it follows in the end, with multiplier and offset; itself if it does not."""
+    roots: dict[str, tuple[str, float, float]] = {}
+    for joint in tree.leaders_first():
+        roots[joint.name] = joint.name, 1.0, 0.0
+        if joint.mimic is not None:
+            leader, multiplier, offset = roots[joint.mimic.joint]
+            factor = joint.mimic.multiplier
+            roots[joint.name] = leader, factor * multiplier, factor * offset + joint.mimic.offset
+    return roots
