@@ -78,8 +78,8 @@ def describe(contradiction: Contradiction) -> str:
 def _change(base: str, side: str, what: str) -> str:
     """Say what a side did with a text of several lines: added `y = 3;`, removed some, or changed them."""
     old, new = ([line.strip() for line in text.splitlines() if line.strip()] for text in (base, side))
-    start = _same_count(old, new)
-    end = _same_count(old[start:][::-1], new[start:][::-1])
+    start = same_count(old, new)
+    end = same_count(old[start:][::-1], new[start:][::-1])
     before, after = _quoted_pair(*(" ".join(lines[start : len(lines) - end]) for lines in (old, new)))
     if not start + end or "order" in what:
         return f"changed {what} to `{after}`"
@@ -88,15 +88,15 @@ def _change(base: str, side: str, what: str) -> str:
     return f"added `{after}`" if after else f"removed `{before}`"
 
 
-def _same_count(old: Sequence[str], new: Sequence[str]) -> int:
-    """Return how many lines at the beginning are the same."""
+def same_count(old: Sequence[str], new: Sequence[str]) -> int:
+    """Return how many items at the beginning are the same."""
     return next((index for index, pair in enumerate(zip_longest(old, new)) if pair[0] != pair[1]), len(old))
 
 
 def _quoted_pair(old: str, new: str) -> list[str]:
     """Return two texts as a sentence can quote them, so that their first difference is seen."""
     lines = [" ".join(text.split()) for text in (old, new)]
-    shared = _same_count(lines[0], lines[1])
+    shared = same_count(lines[0], lines[1])
     start = shared - _LONGEST // 4 if max(map(len, lines)) > _LONGEST and shared > _LONGEST // 2 else 0
     return [quoted(f"…{text[start:]}" if start else text) for text in lines]
 
