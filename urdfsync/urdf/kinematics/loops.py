@@ -114,8 +114,9 @@ class _Problem:
     def close(self, start: Array, rows: Rows, free: Array | None = None, *, bounded: bool = True) -> Array:
         """Return where the equations leave least near a start, by Levenberg's method with the free joints.
 
-        Directions in which the equations are dependent count for nothing: what inexact numbers leave there stays.
+        Directions in which those of the kinds are dependent count for nothing: what inexact numbers leave there stays.
         """
+        least = _INDEPENDENT**2 if rows is self.mechanism.whole else 1e-12  # chosen ones are independent
         q, caution, lower, upper = start, 1.0, self.lower, self.upper
         if not bounded:
             lower, upper = np.full(len(q), -math.inf), np.full(len(q), math.inf)
@@ -125,7 +126,7 @@ class _Problem:
             while True:  # without the joints that would leave their limits from where they end
                 step = np.zeros(len(q))
                 squares, directions = _spectrum(jacobian[:, movable])
-                factors = (squares > _INDEPENDENT**2) / np.maximum(squares + caution * (gaps @ gaps), _INDEPENDENT**2)
+                factors = (squares > least) / np.maximum(squares + caution * (gaps @ gaps), least)
                 step[movable] = -directions @ (factors * (directions.T @ (jacobian[:, movable].T @ gaps)))
                 blocked = movable & (((q <= lower) & (step < 0)) | ((q >= upper) & (step > 0)))
                 if not blocked.any():
@@ -372,12 +373,13 @@ def _reach(problem: _Problem, q: Array, rows: Rows, driven: Sequence[int], free:
     """Return the longest ways of the driven joints, by following the loops along the way that Test takes."""
     joints = problem.mechanism.independent
     reach = {k: _SWEEP[MOTION_KINDS[joints[k].type]] for k in driven}
-    while True:  # ends when no joint turns to its other side, which each does once at most
+    while True:  # until no joint turns to its other side, which each does once at most
         ways = {k: _way(joints[k], float(q[k]), reach[k]) for k in driven}
         done = _follow(problem, q, rows, ways, free)
-        if done == _STEPS:
+        if done < _STEPS:
+            reach = {k: abs(way) * done / _STEPS / 2 for k, way in ways.items()}
+        if done in (0, _STEPS):
             return {joints[k].name: reach[k] for k in driven}
-        reach = {k: abs(way) * done / _STEPS / 2 for k, way in ways.items()}
 
 
 def _way(joint: Joint, start: float, reach: float) -> float:
