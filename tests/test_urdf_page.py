@@ -19,6 +19,23 @@ from urdfsync.urdf.snapshot import to_snapshot
 
 INERTIA = '<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/>'
 BALL = '<geometry><sphere radius="0.05"/></geometry>'
+BARS = f"""<link name="p"><inertial><mass value="1"/>{INERTIA}</inertial></link>
+  <link name="q"><inertial><mass value="1"/>{INERTIA}</inertial></link><link name="r"/>
+  <joint name="bp" type="continuous"><parent link="base"/><child link="p"/><axis xyz="0 0 1"/></joint>
+  <joint name="pq" type="continuous"><parent link="p"/><child link="q"/>
+    <origin xyz="0.3 0.1 0"/><axis xyz="0 0 1"/></joint>
+  <joint name="br" type="continuous"><parent link="base"/><child link="r"/>
+    <origin xyz="0.5 0 0"/><axis xyz="0 0 1"/></joint>"""
+LOOP_JOINT = """<loop_joint name="l" type="revolute"><link1 link="q" xyz="0.4 0.2 0"/><link2 link="r" xyz="0.2 0.3 0"/>
+  <axis xyz="0 0 1"/></loop_joint>"""
+BALL_CONSTRAINT = """<drake:ball_constraint xmlns:drake="http://drake.mit.edu">
+  <drake:ball_constraint_body_A name="q"/><drake:ball_constraint_p_AP value="0.4 0.2 0"/>
+  <drake:ball_constraint_body_B name="r"/><drake:ball_constraint_p_BQ value="0.2 0.3 0"/></drake:ball_constraint>"""
+GAZEBO_JOINT = """<gazebo><joint name="l" type="revolute"><parent>q</parent><child>r</child><pose>0.2 0.3 0 0 0 0</pose>
+  <axis><xyz>0 0 1</xyz></axis></joint></gazebo>"""
+CLOSING_FRAMES = """<link name="closing_l_1"/><link name="closing_l_2"/>
+  <joint name="f1" type="fixed"><parent link="q"/><child link="closing_l_1"/><origin xyz="0.4 0.2 0"/></joint>
+  <joint name="f2" type="fixed"><parent link="r"/><child link="closing_l_2"/><origin xyz="0.2 0.3 0"/></joint>"""
 ROBOT = f"""<robot name="own" version="1.2">
   <material name="blue"><color rgba="0 0 1 1"/><texture filename="a.png"/></material>
   <material name="red"><color rgba="1 0 0 1"/></material>
@@ -104,8 +121,10 @@ CHANGED = {
         for name in ("lateral_friction", "stiffness", "damping")
     },
     "sensor": ('type="camera"', 'type="ray"'),
-    "loop_joint": ("</robot>", '<loop_joint name="l"/></robot>'),
-    "gazebo/joint": ("</robot>", '<gazebo><joint name="l"/></gazebo></robot>'),
+    "loop_joint": ("</robot>", f"{BARS}{LOOP_JOINT}</robot>"),
+    "drake:ball_constraint": ("</robot>", f"{BARS}{BALL_CONSTRAINT}</robot>"),
+    "gazebo/joint": ("</robot>", f"{BARS}{GAZEBO_JOINT}</robot>"),
+    "closing_…_1, closing_…_2": ("</robot>", f"{BARS}{CLOSING_FRAMES}</robot>"),
     "robot/inertial": ("</robot>", "<inertial/></robot>"),
     "any other": ('frame name="f"', 'frame name="g"'),
 }  # fmt: skip

@@ -78,6 +78,15 @@ def key_lines(text: str) -> dict[tuple[str, ...], int]:
     return lines
 
 
+def item_lines(text: str) -> dict[tuple[str, ...], list[int]]:
+    """Return the lines of the items of each array of tables, `[[…]]`, by its path."""
+    lines: dict[tuple[str, ...], list[int]] = {}
+    for number, (line, (opens, path)) in enumerate(zip(text.split("\n"), _paths(text), strict=True), start=1):
+        if opens and line.lstrip().startswith("[["):
+            lines.setdefault(path, []).append(number)
+    return lines
+
+
 def _paths(text: str) -> Iterator[tuple[bool, tuple[str, ...]]]:
     """Yield for each line whether it opens a table, and the full path of its key or table, else of the table around."""
     header: tuple[str, ...] = ()

@@ -130,7 +130,7 @@ class _Reader:
     def __init__(self, text: str, file: str, root: Path) -> None:
         self.problems: list[Diagnostic] = []
         self._document = tomlfile.parse(text, file, ConfigError)
-        self._lines = tomlfile.key_lines(text)
+        self._lines, self._item_lines = tomlfile.key_lines(text), tomlfile.item_lines(text)
         self._file, self._root = file, root
 
     def check_characters(self) -> None:
@@ -222,6 +222,11 @@ class _Reader:
             if isinstance(value, dict):
                 path = ("robots", name) if key in own else ("defaults",)
                 lines |= {f"{key}.{entry}": self._line(*path, key, entry) for entry in value}
+            elif isinstance(value, list):
+                path = ("robots", name) if key in own else ("defaults",)
+                items = [f"{key}.{item.get('name')}" for item in value if isinstance(item, dict)]
+                item_lines = self._item_lines.get((*path, key), [lines[key]] * len(items))
+                lines |= dict(zip(items, item_lines, strict=False))
         olds: dict[str, str] = {}
         for old, new in keys.renamed.items():
             if (other := olds.setdefault(new, old)) != old:

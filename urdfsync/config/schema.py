@@ -30,7 +30,10 @@ def config_schema() -> dict[str, Any]:
     domains = registry.names()
     meanings = _meanings()
     options = {name: registry.domain(name).options for name in domains}
-    keys = {name: _properties(Keys, meanings) | _properties(options[name], meanings) for name in domains}
+    parts: dict[str, Any] = {}
+    keys = {
+        name: {**_properties(Keys, meanings, parts), **_properties(options[name], meanings, parts)} for name in domains
+    }
     codes = IGNORABLE.union(*(registry.domain(name).warnings for name in domains))
     for name, properties in keys.items():
         properties["domain"]["enum"] = [name]
@@ -48,12 +51,12 @@ def config_schema() -> dict[str, Any]:
         "type": "object",
         "properties": {
             "defaults": _closed(inherited),
-            "check": _closed(_properties(CheckConfig, meanings)),
+            "check": _closed(_properties(CheckConfig, meanings, parts)),
             "robots": {"type": "object", "propertyNames": {"pattern": ROBOT_PATTERN}, "additionalProperties": robot},
         },
         "additionalProperties": False,
         **({"allOf": [_by_default(domain, domains) for domain in domains]} if len(domains) > 1 else {}),
-        "$defs": {name: _robot(properties) for name, properties in keys.items()},
+        "$defs": {**{name: _robot(properties) for name, properties in keys.items()}, **parts},
     }
     _refuse_control_characters(schema)
     return schema
@@ -64,11 +67,19 @@ def text() -> str:
     return json.dumps(config_schema(), indent=2) + "\n"
 
 
-def _properties(struct: type[msgspec.Struct], meanings: Mapping[str, str]) -> dict[str, Any]:
-    """Return the keys of a table by the types by which they are read, one by one, as `load` does."""
+def _properties(
+    struct: type[msgspec.Struct], meanings: Mapping[str, str], definitions: dict[str, Any]
+) -> dict[str, Any]:
+    """Return the keys of a table by the types by which they are read, one by one, as `load` does.
+
+    Types of tables within them are added to `definitions`.
+    """
     properties = {}
     for field in msgspec.structs.fields(struct):
-        schema = msgspec.json.schema(field.type, schema_hook=lambda _: {"type": "string"})
+        (schema,), tables = msgspec.json.schema_components(
+            [field.type], schema_hook=lambda _: {"type": "string"}, ref_template="#/$defs/{name}"
+        )
+        definitions.update(tables)
         if field.type in (Path, Path | None):
             schema = {"type": "string", "minLength": 1}
         if field.encode_name in meanings:

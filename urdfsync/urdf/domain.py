@@ -33,6 +33,7 @@ from urdfsync.urdf.diff.effects import effects, find_doubtful, interface
 from urdfsync.urdf.diff.meanings import describe
 from urdfsync.urdf.diff.renames import find_renames
 from urdfsync.urdf.kinematics.tree import KinematicTree
+from urdfsync.urdf.loop_findings import find_loop_findings
 from urdfsync.urdf.meshes.lookup import COLORLESS, TEXTURED, dependencies, mentioned_files, mesh
 from urdfsync.urdf.names import identify
 from urdfsync.urdf.options import LeftOut, Options
@@ -41,7 +42,7 @@ from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.plausibility import find_implausible
 from urdfsync.urdf.snapshot import from_snapshot, joints_of, to_snapshot
 from urdfsync.urdf.unsimulated import find_unsimulated, out_of_scope
-from urdfsync.urdf.validate import ADVICE
+from urdfsync.urdf.validate import ADVICE, diagnostic
 
 WARNINGS = frozenset(
     {
@@ -73,7 +74,14 @@ class UrdfDomain(Domain):
             return Reading(None, diagnostics, lines)
         tree = KinematicTree.of(robot)
         diagnostics += located(find_implausible(tree), file, lines) + unmodelled
-        diagnostics += tuple(find_unsimulated(tree, options, file, lines))
+        findings, stated = list(find_loop_findings(tree, options)), {loop.name for loop in options.loops}
+        # those of loops in the options are told by `check_options`
+        sourced = [finding.at_source() for finding in findings if finding.loop not in stated]
+        diagnostics += located(sourced, file, lines)
+        if not any(finding.is_fault for finding in findings):
+            diagnostics += tuple(find_unsimulated(tree, options, file, lines))
+        elif any(finding.is_fault and finding.loop not in stated for finding in findings):
+            return Reading(None, diagnostics, lines)
         return Reading(to_snapshot(robot), diagnostics, lines)
 
     def cross_check(self, content: bytes, file: str) -> Sequence[Diagnostic]:
@@ -83,8 +91,8 @@ class UrdfDomain(Domain):
         return cross_check(content, file)
 
     def names(self, snapshot: Snapshot, target: Target) -> Mapping[str, Mapping[str, str]]:
-        """Return the components of links and joints."""
-        kinds = ("link", "joint")
+        """Return the components of links, joints, and loops if there are any."""
+        kinds = [kind for kind in ("link", "joint", "loop") if f"{kind}s" in snapshot]
         names = identify([(kind, name) for kind in kinds for name in snapshot[f"{kind}s"]], (target.name,))
         return {f"{kind}s": {name: names[kind, name].component for name in snapshot[f"{kind}s"]} for kind in kinds}
 
@@ -127,8 +135,14 @@ class UrdfDomain(Domain):
             yield "", Diagnostic(Severity.NOTE, "texture", message)
 
     def check_options(self, snapshot: Snapshot, options: Options) -> Iterable[tuple[str, Diagnostic]]:
-        """Hold the names in `driven` and `frames` against the robot."""
-        return option_names.check_options(snapshot["links"], joints_of(snapshot["joints"]), options)
+        """Hold the names in `driven` and `frames` against the robot, and look at the loops in `loops`."""
+        yield from option_names.check_options(snapshot["links"], joints_of(snapshot["joints"]), options)
+        if options.loops:
+            yield from option_names.check_loops(snapshot["links"], options)
+            tree, stated = KinematicTree.of(from_snapshot(snapshot)), {loop.name for loop in options.loops}
+            for finding in find_loop_findings(tree, options):
+                if finding.loop in stated:
+                    yield f"loops.{finding.loop}", diagnostic(finding.code, finding.message, 0, finding.hint)
 
     def permissive_options(self) -> Options:
         """Allow all that can be left out of a model."""

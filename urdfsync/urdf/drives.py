@@ -23,12 +23,11 @@ if TYPE_CHECKING:
 
 
 def driven_joints(tree: KinematicTree, options: Options) -> frozenset[str]:
-    """Return the names of the joints that Run and Test drive: of `wanted_joints`, as many as loops leave free.
-
-    Raises ValueError if the loops can't be closed.
-    """
-    closed = assembly(tree, options)
-    return frozenset(closed.driven) if closed else wanted_joints(tree.joints, options)
+    """Return the names of the joints that Run and Test drive: of `wanted_joints`, as many as loops leave free."""
+    closed = assemble_loops(tree, options)
+    if closed is None or isinstance(closed, tuple):  # without loops, or with some whose faults are told
+        return wanted_joints(tree.joints, options)
+    return frozenset(closed.driven)
 
 
 def dependent_joints(tree: KinematicTree, options: Options) -> frozenset[str]:

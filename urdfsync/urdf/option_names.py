@@ -13,10 +13,12 @@ from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence, S
 
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.spelling import nearest
+from urdfsync.urdf import validate
 from urdfsync.urdf.drives import can_be_driven, chosen_law, is_chosen, passive_joints, wanted_joints
 from urdfsync.urdf.kinematics.poses import own_range
 from urdfsync.urdf.names import natural_key
 from urdfsync.urdf.options import Options
+from urdfsync.urdf.parse.loops import configured_loops
 from urdfsync.urdf.robot import Joint, reflected_inertia
 
 _DRIVABLE = "revolute, continuous or prismatic joint without <mimic>"
@@ -69,6 +71,13 @@ def check_options(
         yield from _check_laws(joints, options)
     if "package" in options.approach and options.driven is None:
         yield from _find_passive(joints, passive_joints(joints) - driven)
+
+
+def check_loops(links: Collection[str], options: Options) -> Iterator[tuple[str, Diagnostic]]:
+    """Yield errors about loops in the options that can't be built, each with the name of its option."""
+    for finding in validate.check_loops(configured_loops(options.loops), links):
+        name = finding.path.removeprefix("loop ").partition(" #")[0]
+        yield f"loops.{name}", validate.diagnostic(finding.code, finding.message, 0, finding.hint)
 
 
 def _find_passive(joints: Sequence[Joint], passive: Set[str]) -> Iterator[tuple[str, Diagnostic]]:

@@ -7,7 +7,7 @@ from typing import Annotated, Literal, TypeAlias
 
 import msgspec
 
-from urdfsync.urdf.robot import Command
+from urdfsync.urdf.robot import Command, LoopKind, Vector
 
 USES = (("Modelica", "4.0.0"), ("UrdfSync", "0.1.0"))
 """Libraries that all generated packages are written for."""
@@ -19,6 +19,27 @@ _VISUALIZER_USES = {"visualization2": ("Visualization2", "1.1")}
 FrictionLaw: TypeAlias = Literal["smooth", "stiction", "lugre"]
 LeftOut: TypeAlias = Literal["loop-joint", "stray-inertial"]
 """Codes of errors about what moves with the robot and can't be in its model."""
+
+
+class LoopFrame(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """A frame on a link, in m and rad."""
+
+    link: str
+    xyz: Vector = (0.0, 0.0, 0.0)
+    rpy: Vector = (0.0, 0.0, 0.0)
+
+
+class LoopOption(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """A joint that closes a loop, between two frames: links by their URDF names, or frames on them."""
+
+    name: str
+    kind: LoopKind
+    frames: tuple[str | LoopFrame, str | LoopFrame]
+    """That of the parent, and that of the child."""
+    axis: Vector = (0.0, 0.0, 1.0)
+    """Axis of a revolute joint in both frames, or the first one of a universal joint, in the frame of the parent."""
+    child_axis: Vector = (1.0, 0.0, 0.0)
+    """The second axis of a universal joint, in the frame of the child."""
 
 
 class Options(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -53,6 +74,8 @@ class Options(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     inputs: Literal["names", "vector"] = "names"
     """`names`: Run has a position input per driven joint; `vector`: one for all, in the order of the chain."""
 
+    loops: tuple[LoopOption, ...] = ()
+    """Joints that close loops, beside those of the source."""
     allow: tuple[LeftOut, ...] = ()
     """Errors that are warnings: what they are about is left out."""
 

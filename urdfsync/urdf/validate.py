@@ -23,6 +23,7 @@ from urdfsync.urdf.robot import (
     Inertia,
     Joint,
     Link,
+    Loop,
     Mesh,
     Robot,
     Sphere,
@@ -66,6 +67,17 @@ _ERRORS = {
     "bad-version": 'write version="1.2", or leave it out for 1.0',
     "two-orientations": "remove one of them",
     "unknown-joint-type": "use one of fixed, continuous, revolute, prismatic, planar, floating",
+    # loops
+    "duplicate-loop": "rename or remove one loop",
+    "loop-of-no-link": "correct the name of the link",
+    "loop-one-link": "name two links",
+    "loop-axis": "give the axes directions; those of a universal joint are at right angles",
+    "loop-twice": "remove one of them",
+    "loop-free-joint": "use joints with one axis in a loop",
+    "loop-rigid": "remove the loop, or give it joints that move",
+    "loop-open": "correct its frames, or the start and limits of its joints",
+    "loop-redundant": "remove one of them",
+    "loop-singular": "let its joints start elsewhere, by `start` in the configuration",
     # the tree
     "duplicate-link": "rename or remove one link",
     "duplicate-joint": "rename or remove one joint",
@@ -75,7 +87,7 @@ _ERRORS = {
     "unknown-child": "add the link, or correct its name",
     "two-parents": "remove one of the joints: a link has one parent",
     "cycle": "remove a joint of the cycle: a URDF is a tree",
-    "loop-joint": 'open the loop, or leave its joint out by `allow = ["loop-joint"]` in the configuration',
+    "loop-joint": 'write a ball, revolute, universal or fixed one, or leave it out by `allow = ["loop-joint"]`',
     "stray-inertial": 'move it into a link, or leave it out by `allow = ["stray-inertial"]` in the configuration',
     # numbers and relations
     "negative-mass": "correct the mass; a massless link has none, or 0",
@@ -131,6 +143,8 @@ _WARNINGS = {
     "inertia-not-positive": "export the inertia again; until then, a simulation may not be physical",
     "inertia-triangle": "export the inertia again; until then, a simulation may not be physical",
     "shape-size": "correct the size, or remove the shape",
+    "loop-contradiction": "correct one of them",
+    "loop-excess": "take them out of `driven`, or model their drives as efforts by hand",
     # legal, but hardly meant
     "no-inertia": "give the links an <inertial>",
     "mass-unit": "write masses in kg",
@@ -141,6 +155,9 @@ _WARNINGS = {
     "shape-far": "correct its origin; write it in m",
 }
 _NOTES = {
+    "loop-by-name": "state it as `loops` in the configuration if it is of another kind",
+    "loop-closed": "a start pose that closes it is in the record of starts",
+    "loop-weaker": "nothing is to be done: the motion is the same",
     "second-reader-failed": "go by the reading of urdfsync alone",
     "not-modelled": "list them with their lines by --verbose",
 }
@@ -196,6 +213,27 @@ def _check_names(kind: str, elements: Iterable[tuple[str, Link | Joint]]) -> Ite
         if element.name in seen:
             yield Finding(f"duplicate-{kind}", path, f"{kind} {element.name!r} is defined above, too")
         seen.add(element.name)
+
+
+def check_loops(loops: Sequence[Loop], links: Collection[str]) -> Iterator[Finding]:
+    """Check that loops have names of their own, frames on two links that exist, and axes; one fault for each."""
+    seen: dict[Loop, str] = {}
+    for path, loop in zip(element_paths("loop", (loop.name for loop in loops)), loops, strict=True):
+        same = msgspec.structs.replace(loop, name="")
+        unknown = [link for link in (loop.parent, loop.child) if link not in links]
+        turns, tilts = loop.kind in ("revolute", "universal"), loop.kind == "universal"
+        if path != f"loop {loop.name}":
+            yield Finding("duplicate-loop", path, f"loop {loop.name!r} is defined above, too")
+        elif unknown:
+            message = f"loop {loop.name!r} has a frame on link {unknown[0]!r}, which does not exist"
+            yield Finding("loop-of-no-link", path, message, perhaps(unknown[0], links))
+        elif loop.parent == loop.child:
+            yield Finding("loop-one-link", path, f"loop {loop.name!r} has both frames on link {loop.parent!r}")
+        elif (turns and not any(loop.axis)) or (tilts and not any(loop.child_axis)):
+            yield Finding("loop-axis", path, f"loop {loop.name!r}: an axis has no direction")
+        elif same in seen:
+            yield Finding("loop-twice", path, f"loop {loop.name!r} says the same as loop {seen[same]!r}")
+        seen.setdefault(same, loop.name)
 
 
 def perhaps(name: str, names: Collection[str], likeness: float = 0.7) -> str:

@@ -13,7 +13,7 @@ from urdfsync.urdf.snapshot import joints_of
 
 
 def comparable(snapshot: Snapshot, renames: Mapping[ElementKey, str]) -> Snapshot:
-    """Return the snapshot with those links and joints renamed wherever it mentions them, and extensions keyed.
+    """Return the snapshot with those links, joints and loops renamed wherever it mentions them, and extensions keyed.
 
     Each joint that can be driven has an entry `drive` in place of `actuated` and `measured`: `driven` or `passive`, as
     the source has it. One transmission more or less can change it for joints that the transmission does not name.
@@ -53,7 +53,13 @@ def comparable(snapshot: Snapshot, renames: Mapping[ElementKey, str]) -> Snapsho
         name: {**sensor, "at": renamed("joint" if sensor["kind"] == "force_torque" else "link", sensor["at"])}
         for name, sensor in snapshot.get("sensors", {}).items()
     }
-    return {"name": snapshot["name"], "links": links, "joints": joints, "sensors": sensors, "extensions": extensions}
+    loops = {
+        renamed("loop", name): {**loop, **{end: renamed("link", loop[end]) for end in ("parent", "child")}}
+        for name, loop in snapshot.get("loops", {}).items()
+        if ("loop", name) not in displaced_elements
+    }
+    others = {"sensors": sensors, "loops": loops, "extensions": extensions}
+    return {"name": snapshot["name"], "links": links, "joints": joints, **others}
 
 
 def _keyed(tags: Mapping[str, Sequence[str]]) -> Mapping[str, Any]:

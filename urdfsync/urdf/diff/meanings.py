@@ -78,6 +78,10 @@ def _describe(difference: Difference, old: Version, new: Version, options: Optio
             if "package" not in options.approach:
                 reach = ChangeClass.UNMODELLED
             return Meaning(_path([f"sensor {name}", *fields]), reach, _unit(fields))
+        case ("loops", str(name), *fields):
+            is_number = bool(fields) and fields[0] not in ("kind", "parent", "child")
+            reach = ChangeClass.PARAMETER if is_number else ChangeClass.STRUCTURAL
+            return Meaning(_path([f"loop {name}", *fields]), reach, _unit(fields))
         case ("extensions", str(owner), *fields):
             return Meaning(_path([owner or "robot", *(fields or ["extensions"])]), ChangeClass.UNMODELLED)
     return Meaning(_path(["robot", *difference.path]), ChangeClass.PARAMETER)

@@ -1,4 +1,4 @@
-"""Links and joints that have another name.
+"""Links, joints and loops that have another name.
 
 Elements of one name are the same element, whatever else changed. Those of the old version alone are matched with those
 of the new one alone, from the root down:
@@ -8,6 +8,7 @@ of the new one alone, from the root down:
   only such joint of its parent: of two legs of one kind that both have other names, none is matched.
 - The link at the end of the same joint is the same link; a root is, if it has all that it had or one of its joints.
   Where more than the name changed, no other new link may equal the old one, and no other old link the new one.
+- The only loop between two links is the same loop.
 """
 
 from __future__ import annotations
@@ -27,12 +28,12 @@ They are names, or follow from names elsewhere, such as that of the joint in a t
 
 
 def find_renames(old: Snapshot, new: Snapshot) -> Mapping[ElementKey, str]:
-    """Return the new names of links and joints that were renamed."""
+    """Return the new names of links, joints and loops that were renamed."""
     links, joints = (old[part].keys() & new[part].keys() for part in ("links", "joints"))
     if not (old["links"].keys() - links and new["links"].keys() - links) and not (
         old["joints"].keys() - joints and new["joints"].keys() - joints
     ):
-        return {}
+        return _renamed_loops(old, new, {})
     before, after = _joints_by_parent(old), _joints_by_parent(new)
     removed = {name: _frozen(link) for name, link in old["links"].items() if name not in links}
     added = {name: _frozen(link) for name, link in new["links"].items() if name not in links}
@@ -64,7 +65,21 @@ def find_renames(old: Snapshot, new: Snapshot) -> Mapping[ElementKey, str]:
         for name, match in matches.items():
             ends = old["joints"][name]["child"], new["joints"][match]["child"]
             places += [ends] if ends[0] != ends[1] else []
+    renames |= _renamed_loops(old, new, renames)
     return dict(sorted(renames.items(), key=lambda rename: (rename[0][0] != "link", rename[0][1])))
+
+
+def _renamed_loops(old: Snapshot, new: Snapshot, renames: Mapping[ElementKey, str]) -> Mapping[ElementKey, str]:
+    """Return the new names of loops: of the only one of each version alone between the same two links."""
+    before, after = old.get("loops", {}), new.get("loops", {})
+    alike: defaultdict[Hashable, tuple[list[str], list[str]]] = defaultdict(lambda: ([], []))
+    for name in before.keys() - after.keys():
+        ends = [renames.get(("link", before[name][end]), before[name][end]) for end in ("parent", "child")]
+        alike[frozenset(ends)][0].append(name)
+    for name in after.keys() - before.keys():
+        alike[frozenset(after[name][end] for end in ("parent", "child"))][1].append(name)
+    pairs = [names for names in alike.values() if len(names[0]) == len(names[1]) == 1]
+    return {("loop", olds[0]): news[0] for olds, news in sorted(pairs)}
 
 
 def _joints_by_parent(snapshot: Snapshot) -> Mapping[str, Sequence[str]]:

@@ -23,12 +23,11 @@ from urdfsync.urdf.parse.drives import configured_drives, read_drives, with_driv
 from urdfsync.urdf.parse.elements import read_joint, read_link, read_material, resolve_materials
 from urdfsync.urdf.parse.fields import Reader, quoted, summary
 from urdfsync.urdf.parse.left_out import warn_of_left_out
+from urdfsync.urdf.parse.loops import find_loop_elements, read_loops
 from urdfsync.urdf.parse.sensors import read_sensors
 from urdfsync.urdf.robot import Extension, Robot
 
 _MODELLED = ("link", "joint", "material")
-_LOOPS = ("loop_joint", "drake:ball_constraint")
-"""Elements that join two links of the tree; gazebo has a <joint> for it."""
 _LONGEST, _KINDS = 60, 12
 """Most characters of a tag, and most tags, in the note on elements that are not modelled; its details have all."""
 _XACRO_LOGIC = ("xacro:macro", "xacro:if", "xacro:unless", "xacro:insert_block")
@@ -139,11 +138,7 @@ def _read(reader: Reader, document: xml.Document, options: Options) -> Robot:
     if not name.strip():
         reader.add(root, "missing-name", "the robot has no name")
     for child in root:
-        joint = child.find("joint") if child.tag == "gazebo" else child if child.tag in _LOOPS else None
-        if joint is not None:
-            message = f"<{child.tag}> {joint.get('name', '')}".rstrip()
-            reader.add(child, "loop-joint", f"{message} closes a loop of links, and is left out of the model")
-        elif child.tag == "drake:joint":
+        if child.tag == "drake:joint":
             message = f"<drake:joint> {quoted(child.get('name', ''))} is of a type that URDF does not have"
             reader.add(child, "unknown-joint-type", message)
         elif child.tag == "inertial":
@@ -152,6 +147,8 @@ def _read(reader: Reader, document: xml.Document, options: Options) -> Robot:
             reader.keep(child, "robot", _MODELLED, "")
         if child.tag in ("gazebo", "ros2_control"):
             reader.used.add(child)  # its parts are read one by one, or are not modelled
+    for element in find_loop_elements(root):
+        reader.used.update(element.iter())
     contacts = read_contacts(reader, root)
     warn_of_left_out(reader, root)
 
@@ -187,4 +184,6 @@ def _read(reader: Reader, document: xml.Document, options: Options) -> Robot:
                 hint = validate.perhaps(drive.joint, names)
                 reader.extend([validate.Finding("unknown-actuated-joint", drive.path, message, hint)])
     moving = [msgspec.structs.replace(joint, axis=validate.unit_vector(joint.axis)) for joint in joints]
-    return msgspec.structs.replace(robot, joints=tuple(moving))
+    robot = msgspec.structs.replace(robot, joints=tuple(moving))
+    loops = () if reader.failed else read_loops(reader, root, robot, options)
+    return msgspec.structs.replace(robot, loops=loops)

@@ -1,0 +1,100 @@
+"""Loops are read from wherever they stand; one fault each, with its line."""
+
+from __future__ import annotations
+
+import pytest
+from support.urdfs import joint, link, robot
+
+from urdfsync.urdf.options import LoopFrame, LoopOption, Options
+from urdfsync.urdf.parse.source import RobotReading, read_robot
+from urdfsync.urdf.robot import Loop, Origin
+
+BARS = [
+    *(link("base"), link("crank", 1.0), link("rod", 1.0), link("rocker", 1.0)),
+    joint("drive", "continuous", "base", "crank", xyz="0 0 0", rpy="0 0 0", axis="0 0 1"),
+    joint("elbow", "continuous", "crank", "rod", xyz="0.3 0.1 0", rpy="0 0 0", axis="0 0 1"),
+    joint("pivot", "continuous", "base", "rocker", xyz="0.5 0 0", rpy="0 0 0.5", axis="0 0 1"),
+]
+LOOP_JOINT = """<loop_joint name="closing" type="revolute"><link1 link="rod" xyz="0.4 0.2 0" rpy="0 0 1"/>
+<link2 link="rocker" xyz="0.2 0.3 0"/><axis xyz="0 0 2"/></loop_joint>"""
+DRAKE = """<drake:ball_constraint xmlns:drake="http://drake.mit.edu"><drake:ball_constraint_body_A name="rod"/>
+<drake:ball_constraint_p_AP value="0.4 0.2 0"/><drake:ball_constraint_body_B name="rocker"/></drake:ball_constraint>"""
+GAZEBO = """<gazebo><joint name="closing" type="revolute"><parent>rod</parent><child>rocker</child>
+<pose>0.2 0.3 0 0 0 0</pose><axis><xyz>0 0 1</xyz></axis></joint></gazebo>"""
+FRAMES = [
+    link("closing_bar_1"),
+    link("closing_bar_2"),
+    joint("f1", "fixed", "rod", "closing_bar_1"),
+    joint("f2", "fixed", "rocker", "closing_bar_2"),
+]
+
+
+def read(*elements: str, options: Options | None = None) -> RobotReading:
+    return read_robot(robot(*BARS, *elements).encode(), "a.urdf", options or Options())
+
+
+def loops(*elements: str, options: Options | None = None) -> tuple[Loop, ...]:
+    reading = read(*elements, options=options)
+    assert reading.robot is not None
+    return reading.robot.loops
+
+
+def test_a_loop_joint_has_a_frame_on_each_link() -> None:
+    (loop,) = loops(LOOP_JOINT)
+    assert (loop.name, loop.kind, loop.parent, loop.child) == ("closing", "revolute", "rod", "rocker")
+    assert loop.origin == Origin((0.4, 0.2, 0.0), (0.0, 0.0, 1.0))
+    assert (loop.child_origin, loop.axis) == (Origin((0.2, 0.3, 0.0)), (0.0, 0.0, 1.0))
+    assert read(LOOP_JOINT).lines["loop closing"] == 10
+
+
+def test_a_ball_of_drake_is_a_point_on_each_body() -> None:
+    (loop,) = loops(DRAKE)
+    assert (loop.kind, loop.origin, loop.child_origin) == ("ball", Origin((0.4, 0.2, 0.0)), Origin())
+
+
+def test_a_joint_of_sdf_is_closed_where_all_joints_are_at_zero() -> None:
+    """The rocker is turned by 0.5 rad there, and so is the frame on it."""
+    (loop,) = loops(GAZEBO)
+    assert loop.child_origin == Origin((0.2, 0.3, 0.0))
+    assert loop.origin.rpy == pytest.approx((0, 0, 0.5), abs=1e-11)
+    assert loop.origin.xyz == pytest.approx((0.23169, 0.25916, 0), abs=1e-5)
+    assert loop.axis == (0.0, 0.0, 1.0)
+
+
+def test_frames_of_onshape_to_robot_are_a_ball_that_is_told() -> None:
+    reading = read(*FRAMES)
+    assert reading.robot is not None
+    assert reading.robot.loops == (Loop("closing_bar", "ball", "closing_bar_1", "closing_bar_2"),)
+    assert [(found.code, found.line) for found in reading.diagnostics] == [("loop-by-name", 10)]
+
+
+def test_the_configuration_states_loops_by_links_or_frames() -> None:
+    option = LoopOption("bar", "revolute", ("rod", LoopFrame("rocker", (0.1, 0.0, 0.0))), (0.0, 3.0, 0.0))
+    (loop,) = loops(options=Options(loops=(option,)))
+    assert loop == Loop("bar", "revolute", "rod", "rocker", Origin(), Origin((0.1, 0.0, 0.0)), (0.0, 1.0, 0.0))
+
+
+def test_the_configuration_wins_over_the_source() -> None:
+    other = LoopOption("mine", "revolute", ("closing_bar_2", "closing_bar_1"))
+    reading = read(*FRAMES, options=Options(loops=(other,)))
+    assert reading.robot is not None
+    assert [(loop.name, loop.kind) for loop in reading.robot.loops] == [("mine", "revolute")]
+    assert "loop-contradiction" in [found.code for found in reading.diagnostics]
+
+
+@pytest.mark.parametrize(("element", "code", "words"), [
+    (LOOP_JOINT.replace("rocker", "rockr"), "loop-of-no-link", "perhaps 'rocker' is meant"),
+    (LOOP_JOINT.replace("rocker", "rod"), "loop-one-link", "name two links"),
+    (LOOP_JOINT.replace("0 0 2", "0 0 0"), "loop-axis", "give the axes directions"),
+    (LOOP_JOINT.replace("revolute", "prismatic"), "loop-joint", "ball, revolute, universal or fixed"),
+    (LOOP_JOINT.replace("0.4 0.2 0", "0.4 0.2"), "bad-number", "decimal numbers"),
+    (DRAKE.replace("body_B", "body_C"), "missing-element", "add it"),
+    (GAZEBO.replace("<parent>rod</parent>", ""), "missing-element", "add it"),
+    (GAZEBO.replace("<child>rocker</child>", "<child>rockr</child>"), "loop-of-no-link", "perhaps 'rocker' is meant"),
+    (LOOP_JOINT + LOOP_JOINT, "duplicate-loop", "rename or remove one loop"),
+    (LOOP_JOINT + LOOP_JOINT.replace("closing", "again"), "loop-twice", "remove one of them"),
+])  # fmt: skip
+def test_each_fault_is_one_error_with_its_line(element: str, code: str, words: str) -> None:
+    (error,) = read(element).diagnostics
+    assert (error.code, words in error.hint) == (code, True)
+    assert error.line >= 10

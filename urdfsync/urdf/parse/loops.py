@@ -1,0 +1,213 @@
+"""The loops of a robot, from wherever a source or the configuration states them.
+
+- `<loop_joint>`, as Isaac Sim and early Drake write it: `<link1>` and `<link2>`, each with `link`, `xyz` and `rpy`.
+- `<drake:ball_constraint>`: two bodies, each with a point.
+- `<joint>` of SDF within `<gazebo>`: its frame is given in the child, and is closed where all joints are at zero.
+- Two links `closing_NAME_1` and `closing_NAME_2`, as onshape-to-robot writes them. They say of no kind, and count as a
+  ball, which closes planar loops as a hinge does.
+- The option `loops`, which wins over a loop of the source with its name or its two frames.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from xml.etree.ElementTree import Element
+
+import msgspec
+
+from urdfsync.urdf import validate
+from urdfsync.urdf.kinematics.poses import Matrix, Pose, compose, link_poses, pose
+from urdfsync.urdf.kinematics.tree import KinematicTree
+from urdfsync.urdf.options import LoopOption, Options
+from urdfsync.urdf.parse.fields import Reader, quoted
+from urdfsync.urdf.robot import Link, Loop, LoopKind, Origin, Robot, Vector
+
+TAGS = ("loop_joint", "drake:ball_constraint")
+"""Elements of a robot that join two links of the tree; gazebo has a <joint> for it."""
+
+_KINDS: Mapping[str, LoopKind] = {
+    "ball": "ball",
+    "spherical": "ball",
+    "revolute": "revolute",
+    "continuous": "revolute",
+    "universal": "universal",
+    "fixed": "fixed",
+}
+_CLOSING = re.compile(r"(closing_.+)_([12])")
+_DIGITS = 12
+
+
+class _End(msgspec.Struct):
+    link: str
+    xyz: Vector = (0.0, 0.0, 0.0)
+    rpy: Vector = (0.0, 0.0, 0.0)
+
+
+class _Named(msgspec.Struct):
+    name: str
+
+
+class _Point(msgspec.Struct):
+    value: Vector = (0.0, 0.0, 0.0)
+
+
+class _Axis(msgspec.Struct):
+    xyz: Vector = (1.0, 0.0, 0.0)
+
+
+def find_loop_elements(root: Element) -> Iterator[Element]:
+    """Yield the elements of a robot that close loops."""
+    for child in root:
+        if child.tag in TAGS:
+            yield child
+        elif child.tag == "gazebo":
+            yield from child.findall("joint")
+
+
+def read_loops(reader: Reader, root: Element, robot: Robot, options: Options) -> tuple[Loop, ...]:
+    """Return the loops of a robot that is read but for these; `robot` is a tree. Loops with a fault are left out."""
+    poses: Mapping[str, Pose] | None = None
+    loops = list[Loop]()
+    elements = list(find_loop_elements(root))
+    names = [element.get("name") or f"loop_{number}" for number, element in enumerate(elements, start=1)]
+    for element, name, path in zip(elements, names, validate.element_paths("loop", names), strict=True):
+        reader.place(element, path)
+        if element.tag == "joint":
+            poses = poses or link_poses(KinematicTree.of(robot), {})
+            loop = _read_joint(reader, element, path, name, poses)
+        else:
+            read = _read_loop_joint if element.tag == "loop_joint" else _read_ball
+            loop = read(reader, element, path, name)
+        if loop is not None:
+            loops.append(loop)
+    loops += _frames_by_name(reader, robot.links)
+    links = {link.name for link in robot.links}
+    reader.extend(validate.check_loops(loops, links))
+    configured = configured_loops(options.loops)
+    faulty = {finding.path.removeprefix("loop ") for finding in validate.check_loops(configured, links)}
+    chosen = [loop for loop in configured if loop.name not in faulty]  # option_names tells the others
+    for loop in loops:
+        rival = next((other for other in configured if other.name == loop.name or _ends(other) == _ends(loop)), None)
+        if rival is None:
+            chosen.append(loop)
+        elif _unit(rival) != _unit(loop):
+            message = f"loop {loop.name!r} is stated otherwise by `loops` in the configuration, which counts"
+            reader.extend([validate.Finding("loop-contradiction", f"loop {loop.name}", message)])
+    return tuple(map(_unit, chosen))
+
+
+def configured_loops(loops: Sequence[LoopOption]) -> list[Loop]:
+    """Return the loops of the option `loops`, their axes as written."""
+    made = []
+    for loop in loops:
+        (parent, origin), (child, child_origin) = (
+            (end, Origin()) if isinstance(end, str) else (end.link, Origin(end.xyz, end.rpy)) for end in loop.frames
+        )
+        made.append(Loop(loop.name, loop.kind, parent, child, origin, child_origin, loop.axis, loop.child_axis))
+    return made
+
+
+def _ends(loop: Loop) -> frozenset[tuple[str, Origin]]:
+    return frozenset({(loop.parent, loop.origin), (loop.child, loop.child_origin)})
+
+
+def _unit(loop: Loop) -> Loop:
+    axes = validate.unit_vector(loop.axis), validate.unit_vector(loop.child_axis)
+    return msgspec.structs.replace(loop, axis=axes[0], child_axis=axes[1])
+
+
+def _kind(reader: Reader, element: Element, path: str) -> LoopKind | None:
+    text = element.get("type", "")
+    if text not in _KINDS:
+        message = f"{path} has type={quoted(text)}, by which no loop can be closed"
+        reader.add(element, "loop-joint", message, validate.perhaps(text, _KINDS))
+    return _KINDS.get(text)
+
+
+def _read_loop_joint(reader: Reader, element: Element, path: str, name: str) -> Loop | None:
+    ends = [child for child in element if child.tag in ("link1", "link2")]  # Isaac Sim's exporter writes link1 twice
+    kind = _kind(reader, element, path)
+    if len(ends) != 2:
+        reader.add(element, "missing-element", f"{path} has {len(ends)} of the elements <link1> and <link2>")
+        return None
+    sides = [reader.read(end, f"{path} / link{number}", _End, path) for number, end in enumerate(ends, start=1)]
+    axis = element.find("axis")
+    direction = (1.0, 0.0, 0.0) if axis is None else reader.read(axis, f"{path} / axis", _Axis, path).xyz
+    (parent, origin), (child, child_origin) = ((side.link, Origin(side.xyz, side.rpy)) for side in sides)
+    across = _across(direction)
+    return kind and Loop(name, kind, parent, child, origin, child_origin, direction, across)
+
+
+def _read_ball(reader: Reader, element: Element, path: str, name: str) -> Loop | None:
+    parts = {child.tag.removeprefix("drake:ball_constraint_"): child for child in element}
+    missing = [tag for tag in ("body_A", "body_B") if tag not in parts]
+    if missing:
+        reader.add(element, "missing-element", f"{path} has no <drake:ball_constraint_{missing[0]}>")
+        return None
+    bodies = [reader.read(parts[tag], path, _Named, path).name for tag in ("body_A", "body_B")]
+    points = [
+        reader.read(parts[tag], path, _Point, path).value if tag in parts else (0.0, 0.0, 0.0)
+        for tag in ("p_AP", "p_BQ")
+    ]
+    return Loop(name, "ball", bodies[0], bodies[1], Origin(points[0]), Origin(points[1]))
+
+
+def _read_joint(reader: Reader, element: Element, path: str, name: str, poses: Mapping[str, Pose]) -> Loop | None:
+    """Return a joint of SDF; its frame is that of the child link, moved by its <pose>."""
+    kind = _kind(reader, element, path)
+    parent, child = (element.findtext(tag, "").strip() for tag in ("parent", "child"))
+    for tag, link in (("parent", parent), ("child", child)):
+        if not link:
+            reader.add(element, "missing-element", f"{path} has no <{tag}>")
+    numbers = reader.numbers(element, ["pose"], path, "bad-number", 6) or (0.0,) * 6
+    axis = reader.numbers(element, ["axis/xyz"], path, "bad-number", 3) or (0.0, 0.0, 1.0)
+    second = reader.numbers(element, ["axis2/xyz"], path, "bad-number", 3)
+    if kind is None or parent not in poses or child not in poses:
+        known = kind is None or not (parent and child)
+        return None if known else Loop(name, kind or "ball", parent, child)  # validate tells which does not exist
+    child_origin = Origin(numbers[:3], numbers[3:])  # type: ignore[arg-type] # six numbers
+    origin = _origin(compose(_inverse(poses[parent]), compose(poses[child], pose(child_origin))))
+    direction: Vector = axis  # type: ignore[assignment] # three numbers
+    return Loop(name, kind, parent, child, origin, child_origin, direction, second or _across(direction))  # type: ignore[arg-type]
+
+
+def _inverse(of: Pose) -> Pose:
+    rotation, place = of
+    turned: Matrix = tuple(zip(*rotation, strict=True))  # type: ignore[assignment]
+    return turned, tuple(-sum(a * b for a, b in zip(row, place, strict=True)) for row in turned)  # type: ignore[return-value]
+
+
+def _origin(of: Pose) -> Origin:
+    """Return a pose as place and angles, to digits that no machine rounds otherwise."""
+    (r, place) = of
+    angles = (
+        math.atan2(r[2][1], r[2][2]),
+        math.atan2(-r[2][0], math.hypot(r[0][0], r[1][0])),
+        math.atan2(r[1][0], r[0][0]),
+    )
+    xyz, rpy = (tuple(round(value, _DIGITS) + 0.0 for value in values) for values in (place, angles))
+    return Origin(xyz, rpy)  # type: ignore[arg-type]
+
+
+def _across(axis: Vector) -> Vector:
+    """Return a unit vector at right angles to an axis."""
+    k = min(range(3), key=lambda i: abs(axis[i]))
+    other = tuple(1.0 if i == k else 0.0 for i in range(3))
+    (a, b, c), (x, y, z) = axis, other
+    return validate.unit_vector((b * z - c * y, c * x - a * z, a * y - b * x))
+
+
+def _frames_by_name(reader: Reader, links: Sequence[Link]) -> Iterator[Loop]:
+    """Yield a ball for each pair of links that onshape-to-robot names as the ends of a loop."""
+    pairs: dict[str, dict[str, str]] = {}
+    for link in links:
+        if match := _CLOSING.fullmatch(link.name):
+            pairs.setdefault(match[1], {})[match[2]] = link.name
+    for name, pair in pairs.items():
+        if len(pair) == 2:
+            reader.lines.setdefault(f"loop {name}", reader.lines[f"link {pair['1']}"])
+            message = f"links {pair['1']!r} and {pair['2']!r} close a loop by their names, as a ball"
+            reader.extend([validate.Finding("loop-by-name", f"loop {name}", message)])
+            yield Loop(name, "ball", pair["1"], pair["2"])
