@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import gc
 import os
 import shutil
@@ -118,12 +119,20 @@ def corpus() -> Path:
 
 
 @pytest.fixture(scope="session")
-def modelica_library() -> Path:
-    """The folder with the Modelica Standard Library, in a version that the embedded compiler takes."""
+def modelica_library() -> Iterator[Path]:
+    """The folder with the Modelica Standard Library, in a version that the embedded compiler takes.
+
+    Checks in this process parse its files once: each would do that for a second.
+    """
+    from urdfsync.checks import names
+
     try:
-        return find_standard_library(os.environ).parts["Modelica"].parent
+        folder = find_standard_library(os.environ).parts["Modelica"].parent
     except LibraryError:
         pytest.skip(NO_LIBRARY)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(names, "parse_file", functools.cache(names.parse_file))
+        yield folder
 
 
 @pytest.fixture(scope="session")
