@@ -222,9 +222,22 @@ def snapshot_of() -> Callable[[Path], dict[str, tuple[int, bytes]]]:
     return files.snapshot
 
 
+@pytest.hookimpl(tryfirst=True)  # before `-m` looks at the marks
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """The longest test comes first: it hardly computes. Then those that take seconds, so that no process ends late."""
+    """Mark what shows the same with every Python, and put long tests first.
+
+    The longest of all hardly computes. Then come those that take seconds, so that no process ends late.
+    """
+    for item in filter(_is_same_with_every_python, items):
+        item.add_marker("once")
     items.sort(key=lambda item: ("soak" not in item.nodeid, item.get_closest_marker("slow") is None))
+
+
+def _is_same_with_every_python(item: pytest.Item) -> bool:
+    """Whether a test compiles models, reads the corpus or draws random cases; compilers have tests of their own."""
+    needs = {"modelica_library", "corpus"} & set(getattr(item, "fixturenames", ()))
+    is_random = getattr(getattr(item, "obj", None), "is_hypothesis_test", False)
+    return bool(needs or is_random) and "checks/compilers" not in item.nodeid
 
 
 def pytest_collection_finish() -> None:
