@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import os
 from collections.abc import Iterator, Sequence
+from functools import partial
 from pathlib import Path
 
 from urdfsync.api import build
@@ -54,13 +55,9 @@ def add(commands: arguments.Commands) -> None:
 
 def run(args: argparse.Namespace, console: Console) -> int:
     """Build the robots, one after the other, and show each as soon as it is built."""
-
-    def show(result: Result) -> None:
-        show_result(console, result, explain=args.explain)
-
-    results = arguments.call(
-        build, BuildOptions, args, console, dry=args.dry_run or args.check, merge=args.merge, on_result=show
-    )
+    given = {"dry": args.dry_run or args.check, "merge": args.merge}
+    given["on_result"] = partial(show_result, console, explain=args.explain)
+    results = arguments.call(build, BuildOptions, args, console, **given)
     console.tell(_next_steps(results))
     return console.end(exit_code(results, args.check))
 

@@ -18,7 +18,6 @@ from urdfsync.engine.result import Exit, Result
 from urdfsync.output.console import JSON_VERSION, Console
 from urdfsync.output.results import RobotDocument
 
-
 _ROBOTS = {
     **dict.fromkeys(("build", "status", "resolve", "remove", "adopt", "hook"), "output.results:RobotDocument"),
     "diff": "versions.report:ComparisonDocument output.edits:EditsDocument",
@@ -30,7 +29,7 @@ _ROBOTS = {
 }
 """By commands, the types of robots in their documents: they take long to load."""
 _VALUES: Mapping[str, Mapping[str, Any]] = {
-    **dict.fromkeys(("init", "add"), {"config": str}),
+    **{name: {"config": str} for name in ("init", "add")},
     "record": {"class": str, "within": str, "file": str, "written": bool, "text": str},
     "library": {"folder": str, "line": str},
 }
