@@ -29,20 +29,15 @@ def add(commands: arguments.Commands) -> None:
         epilog="examples: urdfsync record robot.urdf\n"
         "          urdfsync record robot.urdf -o modelica/Plant/ArmParameters.mo --within Plant",
     )
-    parser.add_argument(
-        "source", nargs="+", metavar="SOURCE", help="the URDF or xacro file; for xacro also arguments, NAME:=VALUE"
-    )
-    parser.add_argument("-o", "--output", type=Path, metavar="FILE", help="where it goes (default: -, standard output)")
-    parser.add_argument("--force", action="store_true", help="replace a FILE that holds something else")
-    parser.add_argument(
-        "--class",
-        dest="class_",
-        default="",
-        metavar="NAME",
-        help="name of the record (default: that of FILE, or of SOURCE)",
-    )
-    parser.add_argument("--within", default="", metavar="PACKAGE", help="the package that FILE is in (default: none)")
-    parser.add_argument("--domain", default="urdf", metavar="NAME", help="format of the source (default: %(default)s)")
+    option = parser.add_argument
+    source = "the URDF or xacro file; for xacro also arguments, NAME:=VALUE"
+    option("source", nargs="+", metavar="SOURCE", help=source)
+    option("-o", "--output", type=Path, metavar="FILE", help="where it goes (default: -, standard output)")
+    option("--force", action="store_true", help="replace a FILE that holds something else")
+    name = "name of the record (default: that of FILE, or of SOURCE)"
+    option("--class", dest="class_", default="", metavar="NAME", help=name)
+    option("--within", default="", metavar="PACKAGE", help="the package that FILE is in (default: none)")
+    option("--domain", default="urdf", metavar="NAME", help="format of the source (default: %(default)s)")
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
@@ -81,10 +76,8 @@ def _write(text: str, source: Path, file: Path, *, force: bool) -> bool:
                 message = "the record would replace its source"
                 raise OutputError.of("output-is-source", message, shown(file), hint="name another file")
             if not force:
-                message, hint = (
-                    "the file exists, and holds something else",
-                    "name another one, or replace it with --force",
-                )
+                message = "the file exists, and holds something else"
+                hint = "name another one, or replace it with --force"
                 raise OutputError.of("file-exists", message, shown(file), hint=hint)
         put(file.resolve(), content)
     except OSError as error:
