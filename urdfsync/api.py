@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
@@ -26,8 +25,8 @@ from urdfsync.engine.options import BuildOptions, Progress, no_progress
 from urdfsync.engine.result import Result
 from urdfsync.files import shown
 from urdfsync.modelica.names import class_name, is_class_name, is_identifier, is_package_name
-from urdfsync.output.console import Console, StyledLine, findings, html, line
-from urdfsync.output.results import build_lines
+from urdfsync.output.console import StyledLine, findings, html, line
+from urdfsync.output.results import all_lines
 
 if TYPE_CHECKING:
     from urdfsync.checks.results import CheckResult
@@ -35,7 +34,7 @@ if TYPE_CHECKING:
     from urdfsync.simulation.report import Simulation
     from urdfsync.versions.comparison import Comparison
 
-R = TypeVar("R", bound="Result | Comparison | RobotEdits | CheckResult")
+R = TypeVar("R")
 Options = TypeVar("Options", bound=msgspec.Struct)
 Place: TypeAlias = Config | Path | str | None
 """A configuration, or its file; None for `urdfsync.toml` in the working folder or the nearest one above."""
@@ -62,14 +61,10 @@ class Results(list[R]):
             on_result(result)
 
     def __str__(self) -> str:
-        return "\n".join(map(str, self._shown()))
+        return "\n".join(str(text) for result in self for text in self._lines(result))
 
     def _repr_html_(self) -> str:
-        return html(self._shown())
-
-    def _shown(self) -> Iterator[StyledLine]:
-        for result in self:
-            yield from (*findings(result.diagnostics), *self._lines(result))
+        return html(text for result in self for text in self._lines(result))
 
 
 class WholeRecord(msgspec.Struct, frozen=True):
@@ -81,7 +76,8 @@ class WholeRecord(msgspec.Struct, frozen=True):
     diagnostics: tuple[Diagnostic, ...]
 
     def _repr_html_(self) -> str:
-        return html([*findings(self.diagnostics), *(line((text, "")) for text in self.text.splitlines())])
+        told = findings(self.diagnostics, quiet=False, verbose=False)
+        return html([*told, *(line((text, "")) for text in self.text.splitlines())])
 
 
 def load(config: Place = None) -> Config:
@@ -118,8 +114,7 @@ def build(
     chosen: Sequence[RobotConfig] = loaded.select(robots)
     if merge:
         chosen = [msgspec.structs.replace(robot, on_conflict="merge") for robot in chosen]
-    built = build_and_check(loaded, chosen, options_of(BuildOptions, **given))
-    return Results(built, lambda result: build_lines(result, Console()), on_result)
+    return Results(build_and_check(loaded, chosen, options_of(BuildOptions, **given)), all_lines, on_result)
 
 
 def build_and_check(config: Config, robots: Sequence[RobotConfig], options: BuildOptions) -> Iterator[Result]:
@@ -140,10 +135,10 @@ def status(
 
     A source that xacro or a command makes is not made anew: `stale` names the inputs that changed.
     """
-    from urdfsync.output.status import lines
+    from urdfsync.output.status import all_lines
 
     loaded, options = load(config), options_of(BuildOptions, dry=True, expands=False, **given)
-    return Results(build_robots(loaded, loaded.select(robots), options), lines, on_result)
+    return Results(build_robots(loaded, loaded.select(robots), options), all_lines, on_result)
 
 
 def diff(
@@ -167,7 +162,7 @@ def diff(
     loaded = load(config) if is_near or config or robots or not sources else None
     pairs = list(comparison.select_sources(sources, robots, against, loaded, folder))
     compared = (comparison.compare_sources(chosen, against, known, options, folder) for known, chosen in pairs)
-    return Results((each for group in compared for each in group), report.robot_lines, on_result)
+    return Results((each for group in compared for each in group), report.all_lines, on_result)
 
 
 def edits(
@@ -182,10 +177,10 @@ def edits(
     Raises ConfigError for a path that means none.
     """
     from urdfsync.engine.edits import find_edits
-    from urdfsync.output.edits import robot_lines
+    from urdfsync.output.edits import all_lines
 
     loaded, options = load(config), options_of(BuildOptions, dry=True, **given)
-    return Results(find_edits(paths, loaded, loaded.select(robots), options), robot_lines, on_result)
+    return Results(find_edits(paths, loaded, loaded.select(robots), options), all_lines, on_result)
 
 
 def check(
@@ -210,8 +205,7 @@ def check(
     chosen, tools = loaded.select(robots), chosen_tools(loaded, tool, trusted=trusted)
     options = options_of(CheckOptions, tools=tools, **given)
     checked = run.check_robots(loaded, chosen, options, progress)
-    lines = partial(report.robot_lines, strict=options.strict, verbose=False, marks=False)
-    return Results(checked, lines, on_result)
+    return Results(checked, lambda result: report.all_lines(result, strict=options.strict), on_result)
 
 
 def simulate(

@@ -238,6 +238,8 @@ class Part(enum.StrEnum):
     LOSSES = "friction and gears"
     FREE_MOTION = "free motion"
     """Accelerations that follow from efforts."""
+    LOOPS = "loops"
+    """Gaps, and the forces that close them."""
     BENCHES = "Run and Test"
     SENSORS = "sensors"
     LIMITS = "limits"
@@ -265,6 +267,8 @@ class Quantity(enum.StrEnum):
     CONNECTION = "connection"
     """Whether a bench is connected as it should be: 0 if so, else 1."""
     GROUND = "ground force"
+    CLOSURE = "gap"
+    """From one frame of a loop to the other."""
 
 
 class Deviation(msgspec.Struct, frozen=True):
@@ -283,6 +287,8 @@ class Deviation(msgspec.Struct, frozen=True):
     part: Part = Part.BODIES
     detail: str = ""
     """Which one of several: `below its lower position limit`."""
+    is_iterated: bool = False
+    """See `Compared.is_iterated`."""
 
     @property
     def key(self) -> tuple[str, ...]:
@@ -323,6 +329,8 @@ class Compared(msgspec.Struct, frozen=True):
     part: Part = Part.BODIES
     detail: str = ""
     """See `Deviation.detail`."""
+    is_iterated: bool = False
+    """Whether a compiler solves equations by iteration for it, as those of loops, and so loses digits."""
 
 
 class Trial(msgspec.Struct, frozen=True):
@@ -379,6 +387,19 @@ class Axis(msgspec.Struct, frozen=True):
     """None for a joint without a drive of its own."""
     acceleration: Signal | None = None
     """With the limits while the joint slows down and while it speeds up; None for a joint that has no such limit."""
+    is_dependent: bool = False
+    """Whether the joint follows others through loops."""
+
+
+class LoopSignals(msgspec.Struct, frozen=True):
+    """Variables of a joint that closes a loop in a simulation, below the main model."""
+
+    element: str
+    """In the domain's words: `loop rocker_pin`."""
+    gap: str
+    """Distance of the two frames, in m."""
+    force: tuple[str, ...]
+    torque: tuple[str, ...]
 
 
 class Bench(msgspec.Struct, frozen=True):
@@ -392,6 +413,7 @@ class Bench(msgspec.Struct, frozen=True):
     """For each approach, the axes by the names that they have there."""
     freedoms: int = 0
     """Degrees of freedom of the main model."""
+    loops: tuple[LoopSignals, ...] = ()
 
 
 class Domain(Protocol):

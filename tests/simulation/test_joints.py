@@ -7,9 +7,9 @@ import re
 
 import pytest
 
-from urdfsync.domain import Axis, Signal
-from urdfsync.simulation.joints import joint_results, pattern, robots
-from urdfsync.simulation.results import PassedLimit, Range
+from urdfsync.domain import Axis, Bench, LoopSignals, Signal
+from urdfsync.simulation.joints import joint_results, loop_results, pattern, robots
+from urdfsync.simulation.results import LoopResult, PassedLimit, Range
 
 ELBOW = Axis(
     "joint elbow",
@@ -18,6 +18,7 @@ ELBOW = Axis(
     Signal("elbowAxis.tau", "N·m", ("elbow.strongest",), ("elbow.ratio", "elbowMotor.tau")),
 )
 WRIST = Axis("joint wrist", Signal("wrist.phi", "rad"), Signal("wrist.w", "rad/s"))
+PIN = LoopSignals("loop pin", "pin.gap", *(tuple(f"pin.{name}[{i}]" for i in (1, 2, 3)) for name in ("f", "t")))
 TIMES = (0.0, 1.0, 2.0, 3.0)
 
 
@@ -77,11 +78,29 @@ def test_a_model_may_be_the_robot_itself_or_have_none() -> None:
 
 
 def test_the_pattern_covers_all_that_is_read() -> None:
-    wanted = re.compile(pattern([[ELBOW], [WRIST]]))
-    for name in ("elbow.phi", "robot.elbow.upper", "a.b.elbowMotor.tau", "robot.elbow.ratio", "robot.wrist.w"):
+    wanted = re.compile(pattern(Bench("", "", ((ELBOW,), (WRIST,)), loops=(PIN,))))
+    names = (
+        "elbow.phi",
+        "robot.elbow.upper",
+        "a.b.elbowMotor.tau",
+        "robot.elbow.ratio",
+        "robot.wrist.w",
+        "robot.pin.f[3]",
+    )
+    for name in names:
         assert wanted.fullmatch(name), name
     for name in ("robot.elbow_phi", "robot.myelbow.phi", "robot.elbow.phi.x", "time"):
         assert not wanted.fullmatch(name), name
+
+
+def test_loops_tell_their_greatest_gap_and_the_sizes_of_force_and_torque() -> None:
+    series = {"robot.elbow.phi": (0.0, 1.0), "robot.pin.gap": (1e-9, 2e-9)}
+    series |= dict.fromkeys((f"robot.{name}" for name in (*PIN.force, *PIN.torque)), (0.0, 0.0))
+    series |= {"robot.pin.f[1]": (-3.0, 0.0), "robot.pin.f[3]": (4.0, -4.5), "robot.pin.t[2]": (0.0, -0.5)}
+    bench = Bench("", "", ((ELBOW,),), loops=(PIN,))
+    assert [*loop_results(bench, series)] == [LoopResult("loop pin", "robot", 2e-9, 5.0, 0.5)]
+    bushing = {name: values for name, values in series.items() if ".f" not in name}
+    assert [*loop_results(bench, bushing)] == []
 
 
 def test_a_robot_of_numbered_axes_is_found_as_well_and_no_vector_of_a_controller() -> None:

@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from typing import Any
 
+from msgspec.structs import asdict
+
+from urdfsync.urdf.options import LoopFrame, LoopOption
 from urdfsync.urdf.robot import Inertia, Inertial, Joint, JointType, Limit, Link, Loop, Origin, Robot, Vector
 
 UPRIGHT: Vector = (math.pi / 2, 0.0, 0.0)
@@ -77,3 +81,50 @@ SPATIAL = Robot(
     loops=(Loop("ball", "ball", "coupler", "rocker", Origin((0.7, 0.0, 0.0)), Origin((0.4, 0.0, 0.0))),),
 )
 ROBOTS = {"FourBar": FOUR_BAR, "FiveBar": FIVE_BAR, "SliderCrank": SLIDER_CRANK, "Spatial": SPATIAL}
+
+
+def to_urdf(robot: Robot) -> str:
+    """The source of a robot, which has no loops and no starts."""
+    lines = [f'<robot name="{robot.name}">']
+    for link in robot.links:
+        lines.append(f'<link name="{link.name}">')
+        if link.inertial:
+            tensor = " ".join(f'{name}="{value!r}"' for name, value in asdict(link.inertial.inertia).items())
+            mass = f'<mass value="{link.inertial.mass!r}"/><inertia {tensor}/>'
+            lines.append(f"<inertial>{_origin(link.inertial.origin)}{mass}</inertial>")
+        lines.append("</link>")
+    for each in robot.joints:
+        ends = f'<parent link="{each.parent}"/><child link="{each.child}"/>'
+        numbers = asdict(each.limit).items() if each.limit else ()
+        limit = " ".join(f'{name}="{value!r}"' for name, value in numbers if isinstance(value, float))
+        axis = f'{_origin(each.origin)}<axis xyz="{_numbers(each.axis)}"/>{f"<limit {limit}/>" if limit else ""}'
+        lines.append(f'<joint name="{each.name}" type="{each.type}">{ends}{axis}</joint>')
+    return "\n".join([*lines, "</robot>", ""])
+
+
+def to_options(robot: Robot) -> dict[str, Any]:
+    """The options that close the loops of such a source, and say where it starts and what is driven."""
+    loops = [
+        LoopOption(
+            loop.name,
+            loop.kind,
+            (
+                LoopFrame(loop.parent, loop.origin.xyz, loop.origin.rpy),
+                LoopFrame(loop.child, loop.child_origin.xyz, loop.child_origin.rpy),
+            ),
+            loop.axis,
+            loop.child_axis,
+        )
+        for loop in robot.loops
+    ]
+    starts = {each.name: each.start for each in robot.joints if each.start is not None}
+    driven = tuple(each.name for each in robot.joints if each.actuated)
+    return {"loops": tuple(loops), "start": starts, "driven": driven or None}
+
+
+def _origin(origin: Origin) -> str:
+    return f'<origin xyz="{_numbers(origin.xyz)}" rpy="{_numbers(origin.rpy)}"/>'
+
+
+def _numbers(values: Iterable[float]) -> str:
+    return " ".join(map(repr, values))

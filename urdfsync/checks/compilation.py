@@ -271,7 +271,8 @@ def compare(compared: Iterable[Compared], series: Series, expected: Series) -> t
         value = max((abs(other) for _, other in pairs if math.isfinite(other)), default=0.0)
         deviations.append(
             Deviation(
-                quantity.quantity, quantity.element, greatest, value, 0.0, quantity.unit, quantity.part, quantity.detail
+                *(quantity.quantity, quantity.element, greatest, value, 0.0, quantity.unit),
+                *(quantity.part, quantity.detail, quantity.is_iterated),
             )
         )
     sizes: dict[tuple[str, str, str], float] = {}

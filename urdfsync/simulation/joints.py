@@ -7,8 +7,8 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, TypeAlias
 
-from urdfsync.domain import Axis, Signal
-from urdfsync.simulation.results import JointResult, PassedLimit, Range, Series
+from urdfsync.domain import Axis, Bench, Signal
+from urdfsync.simulation.results import JointResult, LoopResult, PassedLimit, Range, Series
 
 _ENDLESS = 1e300
 """From here on a limit is none: compilers write infinity as the greatest number that they have."""
@@ -26,10 +26,11 @@ Layouts: TypeAlias = Sequence[Sequence[Axis]]
 """See `Bench.layouts`."""
 
 
-def pattern(layouts: Layouts) -> str:
+def pattern(bench: Bench) -> str:
     """Return a regular expression for the variables of joints, wherever in a model the robot is."""
-    axes = [axis for layout in layouts for axis in layout]
+    axes = [axis for layout in bench.layouts for axis in layout]
     names = dict.fromkeys(name for axis in axes for _, signal in _signals(axis) for name in _names(signal))
+    names |= dict.fromkeys(name for loop in bench.loops for name in (loop.gap, *loop.force, *loop.torque))
     return rf"(?:.*\.)?(?:{'|'.join(map(re.escape, names))})" if names else ""
 
 
@@ -47,8 +48,19 @@ def joint_results(layouts: Layouts, series: Series, parameters: Mapping[str, flo
                     quantities[name] = _quantity(signal, place, values, parameters, signal is axis.acceleration)
                     passed += _passed(name, quantities[name], series["time"], values)
             if quantities:
-                results.append(JointResult(axis.element, place, **quantities, passed=tuple(passed)))
+                limits, follows = tuple(passed), axis.is_dependent
+                results.append(JointResult(axis.element, place, **quantities, passed=limits, is_dependent=follows))
     return results
+
+
+def loop_results(bench: Bench, series: Series) -> Iterator[LoopResult]:
+    """Yield the result of each loop of each robot in a model; none of one that the model has without its joint."""
+    for place, _ in robots(bench.layouts, series) if bench.loops else ():
+        for loop in bench.loops:
+            vectors = [[_below(place, name) for name in names] for names in ((loop.gap,), loop.force, loop.torque)]
+            if all(name in series for vector in vectors for name in vector):
+                sizes = (max(map(math.hypot, *(series[name] for name in vector))) for vector in vectors)
+                yield LoopResult(loop.element, place, *sizes)
 
 
 def robots(layouts: Layouts, series: Series) -> list[tuple[str, Sequence[Axis]]]:

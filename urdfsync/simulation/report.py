@@ -9,7 +9,7 @@ from typing import TypedDict
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.output.console import StyledLine, findings, html, line
 from urdfsync.simulation.fmu import AGREEMENT, KINDS, Trial, WrittenFmu
-from urdfsync.simulation.results import JointResult, Range, SimulateResult
+from urdfsync.simulation.results import JointResult, LoopResult, Range, SimulateResult
 
 _HEADER = ("joint", "position", "limits", "speed/limit", "effort/limit")
 _WORDS = {"me": "model exchange", "cs": "co-simulation"}
@@ -21,7 +21,7 @@ class Simulation(SimulateResult, frozen=True):
     """A simulation, to look at as well."""
 
     def _repr_html_(self) -> str:
-        return html([*result_lines(self, {}), *findings(self.diagnostics)])
+        return html([*result_lines(self, {}), *findings(self.diagnostics, quiet=False, verbose=False)])
 
 
 def result_lines(result: SimulateResult, files: Mapping[str, Path]) -> Iterator[StyledLine]:
@@ -38,6 +38,10 @@ def result_lines(result: SimulateResult, files: Mapping[str, Path]) -> Iterator[
         yield line((_aligned(_HEADER, widths), "dim"))
         for cells, style in rows:
             yield line((_aligned(cells, widths), style))
+        for loop in result.loops:
+            if loop.robot == robot:
+                amounts = f"open by {1000 * loop.gap:.2g} mm, {loop.force:.3g} N and {_digits(loop.torque)} N·m"
+                yield line((f"  {loop.element}: {amounts} at most", ""))
     for name, file in files.items():
         yield line((f"  {name}: ", ""), (str(file), "bold"))
 
@@ -55,6 +59,7 @@ def _row(joint: JointResult) -> tuple[tuple[str, ...], str]:
         if ends != (None, None):
             limits = " … ".join("-" if end is None else _digits(end) for end in ends)
     name = joint.element.partition(" ")[2] or joint.element
+    name += " (dependent)" if joint.is_dependent else ""
     return (name, position, limits, _size(joint.speed), _size(joint.effort)), "bold yellow" if joint.passed else ""
 
 
@@ -83,6 +88,7 @@ class SimulationDocument(TypedDict):
     seconds: float
     known: bool
     joints: Sequence[JointResult]
+    loops: Sequence[LoopResult]
     files: dict[str, str]
     diagnostics: Sequence[Diagnostic]
 
@@ -115,6 +121,7 @@ def to_json(result: SimulateResult, files: Mapping[str, Path]) -> SimulationDocu
         "seconds": result.seconds,
         "known": result.is_known,
         "joints": result.joints,
+        "loops": result.loops,
         "files": {name: str(file) for name, file in files.items()},
         "diagnostics": result.diagnostics,
     }

@@ -86,6 +86,23 @@ class JointResult(msgspec.Struct, frozen=True):
     acceleration: Range | None = None
     """Its size, below 0 where the joint slows down; None also for a joint without a limit of it."""
     passed: tuple[PassedLimit, ...] = ()
+    is_dependent: bool = False
+    """Whether it follows others through loops."""
+
+
+class LoopResult(msgspec.Struct, frozen=True):
+    """One loop of one robot over a simulation: greatest numbers of the joint that closes it."""
+
+    element: str
+    """In the domain's words: `loop rocker_pin`."""
+    robot: str
+    """See `JointResult.robot`."""
+    gap: float
+    """In m."""
+    force: float
+    """In N."""
+    torque: float
+    """In N·m."""
 
 
 class SimulateResult(msgspec.Struct, frozen=True):
@@ -105,3 +122,4 @@ class SimulateResult(msgspec.Struct, frozen=True):
     """From beginning to end."""
     is_known: bool
     """Whether it is that of an earlier simulation of the same."""
+    loops: tuple[LoopResult, ...] = ()

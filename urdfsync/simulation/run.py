@@ -66,6 +66,7 @@ def simulate(config: Config, robot: RobotConfig, options: SimulateOptions, progr
         diagnostics=robot.without_ignored(diagnostics),
         seconds=time.monotonic() - begin,
         is_known=is_known,
+        loops=tuple(joints.loop_results(prepared.bench, simulation.values)),
     )
 
 
@@ -133,7 +134,7 @@ def _task(options: SimulateOptions, prepared: Prepared) -> tuple[CompileTask, st
         hint = f"give a CSV file with `--input`; its first line is {names}"
         raise ConfigError(Diagnostic(Severity.ERROR, "inputs", f"`{model.name}` has inputs", hint=hint))
     tolerance = options.tolerance or model.settings.get("Tolerance", TOLERANCE)
-    wanted = [_OWN, joints.pattern(prepared.bench.layouts), *(_glob(variable) for variable in options.variables)]
+    wanted = [_OWN, joints.pattern(prepared.bench), *(_glob(variable) for variable in options.variables)]
     task = CompileTask(
         "Probe_.Probe",
         _probe(robot, model.name, course, changes),

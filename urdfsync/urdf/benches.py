@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from urdfsync.domain import Axis, Bench, Signal, Target
+from urdfsync.domain import Axis, Bench, LoopSignals, Signal, Target
 from urdfsync.urdf.artifacts import has_bench
 from urdfsync.urdf.connectors import connector_names
 from urdfsync.urdf.drives import dependent_joints
@@ -36,16 +36,23 @@ def bench(tree: KinematicTree, target: Target, options: Options) -> Bench | None
     independent = (joint for joint in tree.joints if joint.mimic is None and joint.name not in dependent)
     freedoms = sum(_FREEDOMS.get(joint.type, 1) for joint in independent)
     freedoms += _FREEDOMS["floating"] if options.base == "floating" else 0
-    layouts = {"package": _axes(tree, options), "record": _generic_axes(tree)}
+    layouts = {"package": _axes(tree, options, dependent), "record": _generic_axes(tree)}
     axes = tuple(tuple(layout) for approach, layout in layouts.items() if approach in options.approach)
     if "package" in options.approach:
-        return Bench(f"{target.name}Test", f"{target.name}Run", axes, freedoms)
+        return Bench(f"{target.name}Test", f"{target.name}Run", axes, freedoms, tuple(_loops(tree)))
     if has_bench(tree.joints, options):
         return Bench(f"{target.name}Generic", "", axes, freedoms)
     return None
 
 
-def _axes(tree: KinematicTree, options: Options) -> Iterator[Axis]:
+def _loops(tree: KinematicTree) -> Iterator[LoopSignals]:
+    for loop in tree.loops:
+        name = tree.loop(loop.name).component
+        force, torque = (tuple(f"{name}.{vector}[{i}]" for i in (1, 2, 3)) for vector in ("f", "t"))
+        yield LoopSignals(f"loop {loop.name}", f"{name}.gap", force, torque)
+
+
+def _axes(tree: KinematicTree, options: Options, dependent: frozenset[str]) -> Iterator[Axis]:
     """Yield the joints of one degree of freedom in the robot of a package, from the root outwards."""
     drives = connector_names(tree, options).drives
     for joint in tree.joints:
@@ -63,6 +70,7 @@ def _axes(tree: KinematicTree, options: Options) -> Iterator[Axis]:
                 Signal(f"{name}.{velocity}", units[1], (f"{limits}.velocity",)),
                 Signal(f"{drive.axis}.{effort}", units[2], (f"{limits}.effort",), motor) if drive else None,
                 _acceleration(joint, f"{name}.{acceleration}", limits),
+                joint.name in dependent,
             )
 
 

@@ -26,12 +26,11 @@ _DRIVEN = f"{_DRIVABLE} that Run and Test drive"
 
 
 def check_options(
-    links: Collection[str], joints: Sequence[Joint], options: Options, dependent: Set[str]
+    links: Collection[str], joints: Sequence[Joint], options: Options
 ) -> Iterator[tuple[str, Diagnostic]]:
     """Yield diagnostics about a robot's options, each with the name of its option, and without file and line.
 
-    `links` are the names of all links, `dependent` joints follow from others through loops. The record approach has no
-    use for these options, but for `start`.
+    `links` are the names of all links. The record approach has no use for these options, but for `start`.
     """
     ranges = {joint.name: own_range(joint) for joint in joints if can_be_driven(joint)}
     drivable, driven = list(ranges), wanted_joints(joints, options)
@@ -71,7 +70,7 @@ def check_options(
     if "package" in options.approach:
         yield from _check_laws(joints, options)
     if "package" in options.approach and options.driven is None:
-        yield from _find_passive(joints, passive_joints(joints) - driven - dependent)
+        yield from _find_passive(joints, passive_joints(joints) - driven)
 
 
 def check_loops(links: Collection[str], options: Options) -> Iterator[tuple[str, Diagnostic]]:

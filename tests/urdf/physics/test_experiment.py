@@ -7,6 +7,7 @@ import sys
 from typing import Any
 
 import pytest
+from support.loops import FOUR_BAR, to_options, to_urdf
 from support.urdfs import dynamics, joint, link, links, robot
 
 from urdfsync.checks.compilation import compare_all
@@ -117,6 +118,22 @@ def test_laws_that_the_reference_does_not_have_are_named_and_made_simple() -> No
         "friction of elbow (lugre): the package that is compared has a smooth one",
         "drive of a slide, elbow (elastic): the package that is compared has a rigid one",
     )
+
+
+@pytest.mark.parametrize("base", ["fixed", "floating"])
+def test_a_robot_with_loops_is_moved_by_its_states_and_its_loops_are_compared(base: str) -> None:
+    one = experiment(to_urdf(FOUR_BAR), **to_options(FOUR_BAR), base=base, approach=("package", "record"))
+    assert [trial.name for trial in one.trials] == ["motion", "free motion"]
+    motion, free = one.trials
+    assert {each.element for each in motion.compared if each.quantity is Quantity.EFFORT} == {"joint crank_pivot"}
+    gap, force, torque = (each for each in motion.compared if each.part is Part.LOOPS)
+    assert [gap.quantity, force.unit, torque.unit] == [Quantity.CLOSURE, "N", "N·m"]
+    assert [motion.expected[name] for name in gap.values] == [pytest.approx((0,) * 15, abs=1e-12)] * 3
+    assert [max(map(abs, motion.expected[name][:5])) > 1 for name in force.values] == [True, True, False]
+    assert {each.element for each in free.compared if each.quantity is Quantity.ACCELERATION} >= {"joint crank_pivot"}
+    assert "crank_pivot(w_start" in free.probe.source, "it begins where the loop is closed"
+    assert "the limits of joints in loops beyond where crank_pivot moves them" in one.unchecked
+    assert "the record, which has no loops" in one.unchecked
 
 
 def test_a_package_without_joints_is_moved_without_the_record_that_it_does_not_have() -> None:

@@ -15,6 +15,7 @@ from urdfsync.urdf.model.tables import obstacles
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.parse.source import RobotReading, read_robot
 from urdfsync.urdf.physics import completion, motion, probe, quantities
+from urdfsync.urdf.physics.closing import OpenLoopError
 from urdfsync.urdf.physics.motion import Instant
 from urdfsync.urdf.physics.probe import RobotVariables
 from urdfsync.urdf.physics.reference import pinocchio, read_gears
@@ -46,16 +47,20 @@ def experiment(
     # the reference has the smooth law and rigid drives, and the embedded compiler starts no two joints that slide
     options = msgspec.structs.replace(options, friction="smooth", elastic="none", saturated="none")
     with np.errstate(all="ignore"):  # numbers without end in the source
-        subject = Subject(completed, file, tree, target, options, imports)
+        try:
+            subject = Subject(completed, file, tree, target, options, imports)
+        except OpenLoopError:
+            return "Pinocchio closes its loops neither where they start nor around"
         for approach in options.approach:
-            trials += _trials(subject, approach)
+            if approach == "package" or not tree.loops:
+                trials += _trials(subject, approach)
     return Experiment(
         reference=f"Pinocchio {pinocchio().__version__}",
         content=completed,
         options=options,
         trials=tuple(trials),
         notes=(*notes, *made_up),
-        unchecked=(*_simplified(tree, chosen), *_not_compared(options, len(subject.axes)), *subject.unchecked),
+        unchecked=(*_simplified(tree, chosen), *_not_compared(subject), *subject.unchecked),
     )
 
 
@@ -64,12 +69,14 @@ def _trials(subject: Subject, approach: str) -> Iterator[Trial]:
     names = probe.robot_variables(subject, approach)
     label = " of the record" if len(subject.options.approach) > 1 and approach == "record" else ""
     gears = read_gears(subject.root)
-    geared = [joint.name for joint in subject.axes if joint.transmission or joint.name in gears]
+    axes = motion.driven_axes(subject.tree)
+    geared = [joint.name for joint in axes if joint.transmission or joint.name in gears]
     pairs = [*quantities.bodies(subject, names), *quantities.gears(geared, gears)]
     limits = list[quantities.Pair]()
     if approach == "package":
         pairs += quantities.sensors(subject, names)
         pairs += quantities.ground(subject)
+        pairs += quantities.loops(subject, names)
         limits += quantities.limits(subject)
     needed, optional = ([v for compared, _ in some for v in compared.values] for some in (pairs, limits))
     moving = probe.moving_probe(subject, names, geared, needed, optional)
@@ -78,14 +85,17 @@ def _trials(subject: Subject, approach: str) -> Iterator[Trial]:
     if approach == "record" or len(subject.axes) <= _MOST_AXES:
         every += _free(subject, names, f"free motion{label}")
     for each in every:
-        compared = tuple(msgspec.structs.replace(c, detail=c.detail or label) for c in each.compared)
+        has_loops = bool(subject.tree.loops)
+        compared = tuple(
+            msgspec.structs.replace(c, detail=c.detail or label, is_iterated=has_loops) for c in each.compared
+        )
         yield msgspec.structs.replace(each, compared=compared)
 
 
 def _free(subject: Subject, names: RobotVariables, name: str) -> Iterator[Trial]:
     """Yield the trial in which efforts are given, and accelerations follow, if they do."""
     is_free, reference, time = subject.options.base == "floating", subject.reference, (0.0,)
-    courses = [probe.free_course(joint, subject.starts[joint.name], k) for k, joint in enumerate(subject.axes)]
+    courses = [probe.free_course(subject, number) for number in range(len(subject.axes))]
     state = reference.free_state(courses, motion.FREE_START if is_free else {})
     reference.model.gravity.linear = np.array([0, 0, -motion.BENCH_GRAVITY])
     efforts = reference.solve(state).efforts
@@ -128,12 +138,18 @@ def _simplified(tree: KinematicTree, options: Options) -> Iterator[str]:
             yield f"{part} of {who} ({law}): the package that is compared has a {plain} one"
 
 
-def _not_compared(options: Options, axes: int) -> Iterator[str]:
+def _not_compared(subject: Subject) -> Iterator[str]:
     """Yield what is not compared."""
+    options, axes = subject.options, len(subject.axes)
+    in_loops = [joint.name for joint in subject.axes if subject.is_in_loop(joint)]
+    if in_loops:
+        yield f"the limits of joints in loops beyond where {', '.join(in_loops)} move{'s' * (len(in_loops) == 1)} them"
     yield "shapes (they change no motion), the motion of benches, and models around the robot (they are only compiled)"
     if axes > _MOST_AXES:
         yield f"free motion of more than {_MOST_AXES} axes, which takes a compiler too much memory"
-    if "record" in options.approach:
+    if "record" in options.approach and subject.tree.loops:
+        yield "the record, which has no loops"
+    elif "record" in options.approach:
         yield "limits, sensors and contacts of the generic robot"
 
 

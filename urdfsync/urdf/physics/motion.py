@@ -30,6 +30,11 @@ class Course(NamedTuple):
     speed: float
     acceleration: float
 
+    def ahead(self, time: float) -> Course:
+        """Return it at a time after the instant."""
+        position = self.position + self.speed * time + self.acceleration * time**2 / 2
+        return Course(position, self.speed + self.acceleration * time, self.acceleration)
+
 
 class Instant(enum.IntEnum):
     """What is looked at when, in s.
@@ -159,6 +164,13 @@ def axis_courses(joint: Joint, start: float, strains: Mapping[Instant, float] = 
         courses.append(Course(middle + side * reach * (1 + just), side * speed * (1 + just), 0.0))
     courses += [Course(middle, 0.0, strains.get(instant, 0.0)) for instant in LOADS]
     return (*courses, *(Course(start, 0.0, 0.0) for _ in ON_GROUND))
+
+
+def loop_courses(joint: Joint, start: float, share: float) -> tuple[Course, ...]:
+    """Return an axis in a loop at all instants: a share of the motion of others, and no limit is passed."""
+    course = axis_course(joint)
+    moving = _swinging(start, share * course.speed, share * course.acceleration / 2)
+    return (*moving, *(Course(start, 0.0, 0.0) for _ in range(len(Instant) - len(moving))))
 
 
 def base_courses(depth: float = -GROUND_DEPTH) -> tuple[tuple[Course, ...], ...]:

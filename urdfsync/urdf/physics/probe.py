@@ -18,7 +18,7 @@ from urdfsync.urdf.options import Options
 from urdfsync.urdf.physics import motion
 from urdfsync.urdf.physics.motion import Course, table
 from urdfsync.urdf.physics.subject import Subject
-from urdfsync.urdf.robot import MOTION_KINDS, MOTIONS, Joint
+from urdfsync.urdf.robot import MOTION_KINDS, MOTIONS, Joint, Origin
 
 _FAR_GROUND = -1e9  # m: the ground is that far down, and nothing touches
 _PARTS = (Path(__file__).parent / "parts.mo").read_text("utf-8")
@@ -52,6 +52,8 @@ class RobotVariables(msgspec.Struct, frozen=True):
     """Component of each joint; none in the record."""
     sensors: Mapping[str, str]
     """Component of each sensor; none in the record."""
+    loops: Mapping[str, str]
+    """Component of each loop; none in the record."""
 
 
 def robot_variables(subject: Subject, approach: str) -> RobotVariables:
@@ -90,7 +92,9 @@ def robot_variables(subject: Subject, approach: str) -> RobotVariables:
             moments.append(f"robot.data.linkMasses[{k}]*(robot.r_0[{k}, :] + {centre})")
     place = "robot.{}.parameters" if is_package else "numbers.{}"
     records = {joint.name: place.format(tree.joint(joint.name).component) for joint in tree.joints}
-    return RobotVariables(declaration, numbers, " + ".join(moments), flanges, places, axes, records, joints, sensors)
+    loops = {loop.name: f"robot.{tree.loop(loop.name).component}" for loop in tree.loops if is_package}
+    moment = " + ".join(moments)
+    return RobotVariables(declaration, numbers, moment, flanges, places, axes, records, joints, sensors, loops)
 
 
 def moving_probe(
@@ -119,6 +123,10 @@ def moving_probe(
     for k, joint_name in enumerate(gears, 1):
         gear = f"{names.records[joint_name]}.transmission"
         declarations.append(f"Real gear{k}[3] = {{{gear}.reduction, {gear}.offset, {gear}.rotorInertia}}")
+    for k, loop in enumerate(subject.tree.loops, 1):
+        ends = (loop.parent, loop.origin), (loop.child, loop.child_origin)
+        parent, child = (_place(f"robot.{subject.tree.link(link).component}", origin) for link, origin in ends)
+        declarations.append(f"Real gap{k}[3] = {child} - ({parent})")
     centre = f"({names.moment})/(if mass > 0 then mass else 1)"
     declarations += ["Real mass = robot.m", f"Real centre[3] = {centre}"]
     ways = zip(("x", "y", "z", "turn"), subject.base, strict=True)
@@ -142,7 +150,7 @@ def free_probe(
         is_turning = MOTION_KINDS[joint.type] == "rotational"
         (turning if is_turning else sliding)[joint.name] = course.position, course.speed
         q, v = ("phi", "w") if is_turning else ("s", "v")
-        place = f"{q}_start = {course.position!r}, " if k % 2 else ""
+        place = f"{q}_start = {course.position!r}, " if k % 2 and not subject.is_in_loop(joint) else ""
         component = names.joints.get(joint.name, "").removeprefix("robot.")
         starts.append(f"{component}({place}{v}_start = {course.speed!r})")
     if not names.joints and starts:
@@ -167,10 +175,15 @@ def free_probe(
     return Probe(source, "Probe_.Probe", 1e-6, 1e-6, tuple(values))
 
 
-def free_course(joint: Joint, start: float, number: int) -> Course:
-    """Return where the axis with this number, from 0, begins to move freely, and how fast; and a likely gain."""
+def free_course(subject: Subject, number: int) -> Course:
+    """Return where the axis with this number, from 0, begins to move freely, and how fast; and a likely gain.
+
+    One in a loop begins where the loops are closed.
+    """
+    joint = subject.axes[number]
     course = motion.axis_course(joint)
-    return course if number % 2 else course._replace(position=start)
+    is_at_start = subject.is_in_loop(joint) or number % 2 == 0
+    return course._replace(position=subject.starts[joint.name]) if is_at_start else course
 
 
 def limit_variable(tree: KinematicTree, joint: Joint, ending: str) -> str:
@@ -182,6 +195,12 @@ def limit_variable(tree: KinematicTree, joint: Joint, ending: str) -> str:
     if ending.endswith("effort_limit") and joint.name in tree.followers_by_leader():
         return f"robot.{name}_{component}_joint_{component}_parameters_name_{ending}"
     return f"robot.{component}.{name}_joint_parameters_name_{ending}"
+
+
+def _place(link: str, origin: Origin) -> str:
+    """Return the place of a frame on a link as an expression."""
+    frame = f"{link}.frame_a"
+    return f"{frame}.r_0 + Modelica.Mechanics.MultiBody.Frames.resolve1({frame}.R, {vector(origin.xyz)})"
 
 
 def _text(target: Target, options: Options, bench: str, declarations: Iterable[str], connections: Iterable[str]) -> str:

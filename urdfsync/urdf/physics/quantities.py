@@ -9,7 +9,6 @@ from typing import TypeAlias
 import numpy as np
 
 from urdfsync.domain import Compared, Part, Quantity
-from urdfsync.urdf.drives import can_be_driven
 from urdfsync.urdf.kinematics.poses import own_range
 from urdfsync.urdf.physics import motion, probe
 from urdfsync.urdf.physics.motion import COMPARED, Instant
@@ -40,7 +39,9 @@ def bodies(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
     """Yield poses, efforts of the axes, what holds the root, and the mass."""
     root, solved = f"link {subject.tree.links[0].name}", [subject.solved[time] for time in COMPARED]
     yield from poses(subject, names, solved, COMPARED, Part.BODIES)
-    for joint in filter(can_be_driven, subject.tree.joints):
+    for joint in subject.tree.joints:
+        if joint.name not in subject.reference.axes:
+            continue
         unit, effort = ("N·m", "tau") if MOTION_KINDS[joint.type] == "rotational" else ("N", "f")
         number = subject.reference.axes.index(joint.name)
         value, efforts = (f"{names.flanges[joint.name]}.{effort}",), [[i.efforts[number]] for i in solved]
@@ -54,6 +55,23 @@ def bodies(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
     masses = [instant.mass_and_centre() for instant in solved]
     yield Compared(Quantity.MASS, "robot", "kg", MASS, COMPARED), [[mass] for mass, _ in masses]
     yield Compared(Quantity.CENTRE, "robot", "m", CENTRE, COMPARED), [centre for _, centre in masses]
+
+
+def loops(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
+    """Yield how far each loop is open, and the force in the joint that closes it, where that is one alone."""
+    solved = [subject.solved[float(instant)] for instant in Instant]
+    for k, loop in enumerate(subject.tree.loops):
+        element, values = f"loop {loop.name}", tuple(f"gap{k + 1}[{i}]" for i in (1, 2, 3))
+        reactions = [instant.reactions[k] for instant in solved]
+        times = tuple(map(float, Instant))
+        yield Compared(Quantity.CLOSURE, element, "m", values, times, Part.LOOPS), [each.gap for each in reactions]
+        if subject.assembly and subject.assembly.closures[loop.name].weaker:
+            subject.unchecked[f"the force in loop {loop.name}, which depends on the equations that are left out"] = None
+            continue
+        for unit, variable in (("N", "f"), ("N·m", "t")):
+            values = tuple(f"{names.loops[loop.name]}.{variable}[{i}]" for i in (1, 2, 3))
+            expected = [each.force if unit == "N" else each.torque for each in reactions[: len(COMPARED)]]
+            yield Compared(Quantity.REACTION, element, unit, values, COMPARED, Part.LOOPS), expected
 
 
 def gears(geared: Sequence[str], read: Mapping[str, Gear]) -> Iterator[Pair]:

@@ -4,8 +4,8 @@ Pinocchio reads the file by itself. Only the parts that its reader leaves out ar
 and the places of sensors. They are read once more, since our own reader is under test.
 
 Notation as in Featherstone, Rigid Body Dynamics Algorithms (2008): efforts by the recursive Newton-Euler algorithm
-(RNEA, section 5.3). Joints that mimic others enter through q = B·p + c with the positions p of the driven axes. The
-efforts of these are Bᵀ·tau.
+(RNEA, section 5.3). Joints that mimic others enter through q = B·p + c with the positions p of the axes, whose efforts
+are Bᵀ·tau. With loops, q̇ = N(p)·ṗ and q̈ = N·p̈ + drift (see `closing`), and efforts are Nᵀ·tau.
 """
 
 from __future__ import annotations
@@ -21,10 +21,12 @@ from numpy.typing import NDArray
 
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.extras import install_command
+from urdfsync.urdf.kinematics.loops import Assembly
 from urdfsync.urdf.parse import xml
 from urdfsync.urdf.physics import motion
+from urdfsync.urdf.physics.closing import Closing, Reaction
 from urdfsync.urdf.physics.motion import Course
-from urdfsync.urdf.robot import Mimic, Sensor, Vector
+from urdfsync.urdf.robot import Loop, Mimic, Sensor, Vector
 
 Array = NDArray[np.float64]
 
@@ -142,16 +144,29 @@ class Configuration(msgspec.Struct, frozen=True):
     a: Array
     positions: Array
     """Positions of joints, by the coordinates of the velocity; those of the base count for nothing."""
+    ways: Array
+    """Velocities of all coordinates for a velocity of 1 of each axis, a column each."""
+    drift: Array
+    """Accelerations of all coordinates where the axes have none."""
 
 
 class Reference:
-    """A robot in Pinocchio; `axes` are the names of its driven joints."""
+    """A robot in Pinocchio; `axes` are the names of the joints from which the others follow."""
 
-    def __init__(self, robot: PinocchioRobot, axes: Sequence[str]) -> None:
+    def __init__(
+        self, robot: PinocchioRobot, axes: Sequence[str], loops: Sequence[Loop] = (), assembly: Assembly | None = None
+    ) -> None:
         self.pin, self.model = pinocchio(), robot.model
         self.model.gravity.linear = np.array([0, 0, -motion.GRAVITY])
         self.axes = tuple(axes)
-        self.projection, self._offset = self._mimic(robot)
+        self.projection, self._offset = self._mimic(robot, self.axes)
+        self.closing: Closing | None = None
+        if assembly:
+            others = [name for name in assembly.joints if name not in (*self.axes, *robot.followers)]
+            followers, _ = self._mimic(robot, others)
+            start = self.projection @ [assembly.positions[name] for name in self.axes] + self._offset
+            first = np.array([assembly.positions[name] for name in others])
+            self.closing = Closing(self.pin, self.model, loops, assembly.closures, followers, start, first)
         self.steepness = np.full(self.model.nv, float(TURNING_STEEPNESS))
         """Steepness of dry friction for each coordinate of Pinocchio's velocity, in s/rad or s/m as in the records."""
         for joint in self.model.joints:
@@ -159,12 +174,15 @@ class Reference:
                 self.steepness[joint.idx_v] = SLIDING_STEEPNESS
 
     def state(self, courses: Sequence[Course], base: Sequence[Course] = (*motion.PATH, motion.TURN)) -> Configuration:
-        """Return the configuration with the axes there; of the base, place and angle."""
+        """Return the configuration with the axes there; of the base, place and angle. Raises OpenLoopError."""
         pin, model = self.pin, self.model
         p, speeds, gains = np.array(courses).reshape(-1, 3).T
-        positions = self.projection @ p + self._offset
+        positions, ways, drift = self.projection @ p + self._offset, self.projection, np.zeros(model.nv)
+        if self.closing:
+            positions = self.closing.closed(positions)
+            ways, drift = self.closing.motion(positions, self.projection, speeds)
         q = pin.integrate(model, pin.neutral(model), positions)
-        state = Configuration(q, self.projection @ speeds, self.projection @ gains, positions)
+        state = Configuration(q, ways @ speeds, ways @ gains + drift, positions, ways, drift)
         # Pinocchio resolves velocity and acceleration of the root link in its own frame.
         place, velocity, acceleration = np.array(base[:3]).T
         angle, speed, gain = base[3]
@@ -194,16 +212,16 @@ class Reference:
         """Return the coordinate of the velocity of each joint that moves."""
         return {name: joint.idx_v for name, joint in zip(self.model.names, self.model.joints, strict=True)}
 
-    def effort_gains(self, state: Configuration, efforts: Array) -> Array:
-        """Return the accelerations of the axes that follow from their efforts, where the base moves as in `state`.
+    def effort_gains(self, state: Configuration, efforts: Array, columns: Sequence[int]) -> Array:
+        """Return the accelerations of some axes that follow from their efforts, where the base moves as in `state`.
 
-        (Bᵀ·M·B)·a = efforts - Bᵀ·(tau of a = 0).
+        (Bᵀ·M·B)·a = efforts - Bᵀ·(tau of a = 0), with the columns of these axes in B. All others stay.
         """
         data, still = self.model.createData(), state.a.copy()
-        still[6:] = 0
+        still[6:] = state.drift[6:]
         load = self.pin.rnea(self.model, data, state.q, state.v, still) + self.losses(state.v)
-        mass = self.projection.T @ self._mass(state.q) @ self.projection
-        return self._solved(mass, efforts - self.projection.T @ load)
+        ways = state.ways[:, columns]
+        return self._solved(ways.T @ self._mass(state.q) @ ways, efforts[columns] - ways.T @ load)
 
     def free_gains(self, state: Configuration, efforts: Array, is_free: bool) -> Array | None:
         """Return the accelerations of all coordinates that follow from the efforts of the axes; None if none do.
@@ -211,15 +229,15 @@ class Reference:
         The base rests, unless `is_free`: then nothing holds it.
         """
         data, nv = self.model.createData(), self.model.nv
-        load = self.pin.rnea(self.model, data, state.q, state.v, np.zeros(nv)) + self.losses(state.v)
-        ways, drives = self.projection, efforts
+        load = self.pin.rnea(self.model, data, state.q, state.v, state.drift) + self.losses(state.v)
+        ways, drives = state.ways, efforts
         if is_free:
             ways = np.column_stack([np.eye(nv, 6), ways])
             drives = np.concatenate([np.zeros(6), drives])
         mass = ways.T @ self._mass(state.q) @ ways
         if len(mass) and not (np.isfinite(mass).all() and np.linalg.cond(mass) < _GREATEST_CONDITION):
             return None
-        return np.asarray(ways @ self._solved(mass, drives - ways.T @ load))
+        return np.asarray(ways @ self._solved(mass, drives - ways.T @ load) + state.drift)
 
     def _mass(self, q: Array) -> Array:
         upper = np.triu(self.pin.crba(self.model, self.model.createData(), q))
@@ -250,7 +268,10 @@ class Reference:
         """Return force and torque in the joint that a sensor is at, below the link `parent`, in the sensor's axes."""
         pin, model = self.pin, self.model
         data, joint = model.createData(), model.getJointId(sensor.at)
-        pin.rnea(model, data, state.q, state.v, state.a)
+        load = pin.rnea(model, data, state.q, state.v, state.a)
+        if self.closing:
+            forces = self.closing.forces(state.positions, load + self.losses(state.v))
+            pin.rnea(model, data, state.q, state.v, state.a, forces)
         pin.updateFramePlacements(model, data)
         words = next((part for part in root.iter("sensor") if part.get("name") == sensor.name.rpartition("/")[2]), root)
         where, way = (words.findtext(f"force_torque/{tag}", "").strip() for tag in ("frame", "measure_direction"))
@@ -268,15 +289,16 @@ class Reference:
         pin, data = self.pin, self.model.createData()
         load = pin.rnea(self.model, data, state.q, state.v, state.a) + self.losses(state.v)
         pin.framesForwardKinematics(self.model, data, state.q)
-        return Solution(self, data, state.q, load[:3], load[3:6], self.projection.T @ load)
+        reactions = self.closing.reactions(state.positions, load) if self.closing else []
+        return Solution(self, data, state.q, load[:3], load[3:6], state.ways.T @ load, reactions)
 
     def losses(self, v: Array) -> Array:
         """Return efforts of damping and dry friction at velocity v."""
         return np.asarray(self.model.damping * v + self.model.friction * np.tanh(self.steepness * v / 2))
 
-    def _mimic(self, robot: PinocchioRobot) -> tuple[Array, Array]:
-        """Return B and c of q = B·p + c: a row per coordinate of Pinocchio's velocity, a column per driven axis."""
-        projection, offset = np.zeros((self.model.nv, len(self.axes))), np.zeros(self.model.nv)
+    def _mimic(self, robot: PinocchioRobot, axes: Sequence[str]) -> tuple[Array, Array]:
+        """Return B and c of q = B·p + c: a row per coordinate of Pinocchio's velocity, a column per axis."""
+        projection, offset = np.zeros((self.model.nv, len(axes))), np.zeros(self.model.nv)
         names = set(self.model.names)
         for name, joint in zip(self.model.names, self.model.joints, strict=True):
             factor, leader = 1.0, name
@@ -284,8 +306,8 @@ class Reference:
                 follower = robot.followers[leader]
                 offset[joint.idx_v] += factor * follower.offset
                 factor, leader = factor * follower.multiplier, follower.joint
-            if leader in self.axes:
-                projection[joint.idx_v, self.axes.index(leader)] = factor
+            if leader in axes:
+                projection[joint.idx_v, axes.index(leader)] = factor
         return projection, offset
 
 
@@ -300,7 +322,9 @@ class Solution(msgspec.Struct, frozen=True):
     """Force on the root link, in its frame."""
     torque: Array
     efforts: Array
-    """Efforts of the driven axes."""
+    """Efforts of the axes."""
+    reactions: Sequence[Reaction]
+    """Of the loops, in the order of the tree."""
 
     def frame(self, link: str) -> tuple[Array, Array]:
         """Return place and axes (as columns) of a link's frame in the world."""

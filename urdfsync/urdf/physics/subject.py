@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+import itertools
 import math
 from collections.abc import Mapping, Sequence
 from xml.etree.ElementTree import Element
@@ -9,13 +11,19 @@ from xml.etree.ElementTree import Element
 import numpy as np
 
 from urdfsync.domain import Import, Target
+from urdfsync.urdf.drives import assembly
 from urdfsync.urdf.kinematics.poses import start_positions
 from urdfsync.urdf.kinematics.tree import KinematicTree
+from urdfsync.urdf.model.loop import loop_data
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.parse import xml
 from urdfsync.urdf.physics import contacts, motion
-from urdfsync.urdf.physics.motion import LOADS, Course, Instant
-from urdfsync.urdf.physics.reference import Array, Configuration, Reference, read
+from urdfsync.urdf.physics.closing import OpenLoopError
+from urdfsync.urdf.physics.motion import COMPARED, LOADS, Course, Instant
+from urdfsync.urdf.physics.reference import Configuration, Reference, read
+from urdfsync.urdf.robot import Joint
+
+_SHARES = tuple(0.5**k for k in range(8))
 
 
 class Subject:
@@ -30,33 +38,66 @@ class Subject:
         options: Options,
         imports: Mapping[str, Import],
     ) -> None:
-        self.tree, self.target, self.options = tree, target, options
+        self.assembly, closed = assembly(tree, options), loop_data(tree, options)
+        self.tree, self.target, self.options = closed.tree, target, options
         self.root: Element = xml.parse(content).root
-        self.axes = motion.driven_axes(tree)
+        self.axes = tuple(joint for joint in motion.driven_axes(tree) if joint.name not in closed.dependent)
         sensed = {sensor.at for sensor in tree.sensors if sensor.kind == "force_torque"}
-        self.reference = Reference(read(content, file, sensed), [joint.name for joint in self.axes])
+        names = [joint.name for joint in self.axes]
+        self.reference = Reference(read(content, file, sensed), names, tree.loops, self.assembly)
         self.base = motion.base_courses()
         self.stand: contacts.Stand | None = None
         self.unchecked = dict[str, None]()
         """What is not compared of this robot, in order."""
-        self.starts = start_positions(tree)
+        self.starts = start_positions(closed.tree)
+        self.share = self._closable_share()
+        """Of the amplitudes of joints in loops."""
         limits = [joint.limit.effort if joint.limit and joint.limit.effort else math.inf for joint in self.axes]
-        courses = [motion.axis_courses(joint, self.starts[joint.name]) for joint in self.axes]
-        strains = dict[Instant, Array]()
+        courses, strains = self._courses(self.share), dict[Instant, dict[str, float]]()
+        # accelerations of any size may open a loop
+        outside = [n for n, joint in enumerate(self.axes) if not self.is_in_loop(joint)]
         for instant, share in LOADS.items():
             state = self._state(instant, courses)
             holding = self.reference.solve(state).efforts
             pairs = zip(limits, holding, strict=True)
             efforts = np.array([share * limit if math.isfinite(limit) else hold for limit, hold in pairs])
-            strains[instant] = self.reference.effort_gains(state, efforts)
-        self.courses = [
-            motion.axis_courses(joint, self.starts[joint.name], {k: float(gains[n]) for k, gains in strains.items()})
-            for n, joint in enumerate(self.axes)
-        ]
+            gains = self.reference.effort_gains(state, efforts, outside)
+            strains[instant] = {self.axes[n].name: float(gain) for n, gain in zip(outside, gains, strict=True)}
+        self.courses = self._courses(self.share, strains)
         if options.base == "floating" and "package" in options.approach:
             self._put_down(imports)
         self.states = {float(instant): self._state(instant, self.courses) for instant in Instant}
         self.solved = {time: self.reference.solve(state) for time, state in self.states.items()}
+
+    def is_in_loop(self, joint: Joint) -> bool:
+        """Return whether loops restrict the motion of a joint."""
+        return self.assembly is not None and joint.name in self.assembly.joints
+
+    def _closable_share(self) -> float:
+        """Return the greatest amplitude with which all loops stay closed around each instant.
+
+        Raises OpenLoopError if there is none.
+        """
+        if self.assembly is None:
+            return 1.0
+        for share in _SHARES:
+            with contextlib.suppress(OpenLoopError):
+                for instant, ahead in itertools.product(COMPARED, (-0.5, 0.0, 0.5)):
+                    self.reference.state([course[int(instant)].ahead(ahead) for course in self._courses(share)])
+                return share
+        raise OpenLoopError
+
+    def _courses(self, share: float, strains: Mapping[Instant, Mapping[str, float]] = {}) -> list[tuple[Course, ...]]:
+        """Return the courses of all axes; `strains` are accelerations under load."""
+        courses = list[tuple[Course, ...]]()
+        for joint in self.axes:
+            start = self.starts[joint.name]
+            if self.is_in_loop(joint):
+                courses.append(motion.loop_courses(joint, start, share))
+            else:
+                loads = {instant: gains[joint.name] for instant, gains in strains.items()}
+                courses.append(motion.axis_courses(joint, start, loads))
+        return courses
 
     def _state(self, instant: Instant, courses: Sequence[Sequence[Course]]) -> Configuration:
         return self.reference.state([course[instant] for course in courses], [c[instant] for c in self.base])

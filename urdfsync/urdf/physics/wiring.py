@@ -11,6 +11,7 @@ from urdfsync.modelica.parser import parse
 from urdfsync.modelica.syntax import Class, Component, Modifier, Name
 from urdfsync.modelica.tree import SyntaxTree, read_tree
 from urdfsync.urdf.connectors import Drive, connector_names, input_vector
+from urdfsync.urdf.drives import dependent_joints
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options
 
@@ -21,7 +22,7 @@ _BENCHES = ("PartialBench", "PartialMobileBench")
 
 def wiring(texts: Mapping[str, bytes], tree: KinematicTree, target: Target, options: Options) -> Iterator[Deviation]:
     """Yield whether each axis has a source of its own, with its own input; and whether gravity is that of the bench."""
-    names, numbered = connector_names(tree, options), 0
+    names, dependent, numbered = connector_names(tree, options), dependent_joints(tree, options), 0
     classes = {bench: _read(texts, f"{target.name}{bench}") for bench in ("Run", "Test")}
     for bench, (definition, _) in classes.items():
         yield _deviation("robot", f"gravity of {bench}", definition is not None and _has_own_gravity(definition))
@@ -33,6 +34,9 @@ def wiring(texts: Mapping[str, bytes], tree: KinematicTree, target: Target, opti
         yield Deviation(
             Quantity.WARNING, f"joint {joint}", float(not is_named), 1.0, 1.0, "", Part.LIMITS, "names the joint"
         )
+        for bench, (_, ends) in classes.items() if joint in dependent else ():
+            is_free = not ends.get(f"robot.{drive.axis}")
+            yield _deviation(f"joint {joint}", f"axis of a dependent joint in {bench}", is_free)
         if drive.command is None:
             continue
         numbered += 1
@@ -96,4 +100,6 @@ def _moves(part: Component, component: str) -> bool:
             yield from argument.uses
             yield from uses(argument.arguments)
 
-    return {name.parts[1] for name in uses(part.arguments) if name.parts[0] == "robot"} <= {component}
+    names = [name.parts[1:] for name in uses(part.arguments) if name.parts[0] == "robot"]
+    # how far a joint in a loop moves is among the starts: startPositions.crank_pivotReach
+    return {name[1].rpartition("Reach")[0] if name[0] == "startPositions" else name[0] for name in names} <= {component}

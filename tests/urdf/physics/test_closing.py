@@ -1,0 +1,77 @@
+"""Closed poses by Pinocchio: against geometry, differences in time, and the forces that hold the loops."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from msgspec.structs import replace
+from support.loops import FOUR_BAR, ROBOTS, to_urdf
+
+from urdfsync.domain import Target
+from urdfsync.urdf.kinematics.tree import KinematicTree
+from urdfsync.urdf.options import Options
+from urdfsync.urdf.physics.closing import OpenLoopError
+from urdfsync.urdf.physics.completion import completed_for_pinocchio
+from urdfsync.urdf.physics.motion import Course, Instant
+from urdfsync.urdf.physics.subject import Subject
+from urdfsync.urdf.robot import Origin, Robot
+
+
+def subject(robot: Robot) -> Subject:
+    content = completed_for_pinocchio(to_urdf(robot).encode()).content
+    return Subject(content, "robot.urdf", KinematicTree.of(robot), Target("Bot", "Bot"), Options(), {})
+
+
+def test_a_four_bar_closes_as_its_triangles_do() -> None:
+    """The rocker's end is where circles about its pivot and about the crank's end meet."""
+    four = subject(FOUR_BAR)
+    for angle in (0.8, 1.2, 1.6):
+        state = four.reference.state([Course(angle, 0.0, 0.0)])
+        x, y = 0.2 * math.cos(angle) - 0.5, 0.2 * math.sin(angle)
+        distance = math.hypot(x, y)
+        rocker = math.atan2(y, x) - math.acos((distance**2 + 0.4**2 - 0.6**2) / (2 * 0.4 * distance))
+        assert state.positions[four.reference.coordinates()["rocker_pivot"]] == pytest.approx(rocker, abs=1e-12)
+
+
+@pytest.mark.parametrize("robot", ROBOTS.values(), ids=ROBOTS)
+def test_velocities_and_accelerations_are_those_of_positions_over_time(robot: Robot) -> None:
+    moving, step = subject(robot), 1e-4
+    courses = [course[Instant.FAST] for course in moving.courses]
+    before, now, after = (
+        moving.reference.state([course.ahead(time) for course in courses]) for time in (-step, 0, step)
+    )
+    speeds = (after.positions - before.positions) / (2 * step)
+    gains = (after.positions - 2 * now.positions + before.positions) / step**2
+    assert now.v[6:] == pytest.approx(speeds[6:], abs=1e-6)
+    assert now.a[6:] == pytest.approx(gains[6:], abs=1e-5)
+    assert np.abs(now.v[6:]).min() > 1e-3
+
+
+@pytest.mark.parametrize("robot", ROBOTS.values(), ids=ROBOTS)
+def test_forces_that_act_from_outside_in_place_of_the_loops_leave_dependent_joints_nothing_to_do(robot: Robot) -> None:
+    moving = subject(robot)
+    reference, state, solved = moving.reference, moving.states[3.0], moving.solved[3.0]
+    model, rows = reference.model, reference.coordinates()
+    assert reference.closing
+    load = reference.pin.rnea(model, model.createData(), state.q, state.v, state.a)
+    forces = reference.closing.forces(state.positions, load)
+    open_load = reference.pin.rnea(model, model.createData(), state.q, state.v, state.a, forces)
+    own = [rows[name] for name in reference.axes]
+    others = [row for row in range(6, model.nv) if row not in own]
+    assert open_load[own] == pytest.approx(solved.efforts, abs=1e-10)
+    assert open_load[others] == pytest.approx(0, abs=1e-10)
+    assert np.abs(load[others]).min() > 1e-3
+    assert open_load[:6] == pytest.approx([*solved.force, *solved.torque], abs=1e-10)
+
+
+def test_a_loop_that_opens_on_the_way_is_moved_less() -> None:
+    """With a coupler of 0.25 m, the crank locks at 2.3 rad."""
+    (loop,), (pivot, *others) = FOUR_BAR.loops, FOUR_BAR.joints
+    coupler = replace(loop, origin=Origin((0.25, 0.0, 0.0)))
+    short = subject(replace(FOUR_BAR, joints=(replace(pivot, start=2.0), *others), loops=(coupler,)))
+    with pytest.raises(OpenLoopError):
+        short.reference.state([Course(2.4, 0.0, 0.0)])
+    assert short.share < subject(FOUR_BAR).share == 1
+    assert {float(instant) for instant in Instant} == short.states.keys()

@@ -1,0 +1,172 @@
+"""The loops of a robot in Pinocchio: closed poses, motions that keep them closed, and the forces that do so.
+
+Pinocchio sees a tree, with two frames for each loop. Their poses, velocities and Jacobians are its own; of
+`kinematics.loops` come the choice of the equations and the start alone. With the place x and the axes R of the
+child's frame in the parent's, the equations are t·x = 0 and u·R·v = 0, together g = 0. The axes move as they are told;
+the other joints follow: J·q̇ = 0 and J·q̈ = -J̇·q̇, where J is the derivative of g.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from urdfsync.urdf.kinematics.loops import Closure
+from urdfsync.urdf.robot import Loop
+
+Array = NDArray[np.float64]
+
+_STEPS = 8
+"""Steps of the way from the start to a pose, so that it is that of the same assembly."""
+_ITERATIONS = 30
+_CLOSED = 1e-12
+_NEAR_DEAD_POINT = 0.25
+"""Part of the least singular value at the start below which a compiler may find another assembly."""
+
+
+class OpenLoopError(Exception):
+    """The loops can't be closed in a pose, or only just."""
+
+
+class Reaction(NamedTuple):
+    """A loop at an instant."""
+
+    gap: Array
+    """From the parent's frame to the child's, in the world."""
+    force: Array
+    """Of the parent on the child, in the parent's frame of the loop."""
+    torque: Array
+
+
+class _Equations(NamedTuple):
+    """All equations at a pose: their left sides, derivatives by all coordinates, and J̇·q̇."""
+
+    gaps: Array
+    jacobian: Array
+    drift: Array
+
+
+class Closing:
+    """The loops of a robot; `others` are the joints that follow through these."""
+
+    def __init__(
+        self,
+        pin: Any,
+        model: Any,
+        loops: Sequence[Loop],
+        closures: Mapping[str, Closure],
+        others: Array,
+        start: Array,
+        first: Array,
+    ) -> None:
+        """Add frames to the model.
+
+        Positions of all coordinates are those that follow from the axes alone, such as `start`, and `others` times the
+        positions of the others, which are `first` at the start.
+        """
+        self._pin, self._model, self._others, self._start, self._first = pin, model, others, start, first
+        self._closures = [closures[loop.name] for loop in loops]
+        self._frames = list[tuple[int, int]]()
+        for loop in loops:
+            ends = (loop.parent, loop.origin), (loop.child, loop.child_origin)
+            parent, child = (self._add_frame(link, origin.xyz, origin.rpy) for link, origin in ends)
+            self._frames.append((parent, child))
+        jacobian = self._equations(start + others @ first).jacobian @ others
+        self._least = _NEAR_DEAD_POINT * np.linalg.svd(jacobian, compute_uv=False).min(initial=np.inf)
+
+    def _add_frame(self, link: str, xyz: Sequence[float], rpy: Sequence[float]) -> int:
+        pin, model = self._pin, self._model
+        body = model.frames[model.getFrameId(link, pin.BODY)]
+        pose = body.placement * pin.SE3(pin.rpy.rpyToMatrix(*rpy), np.array(xyz))
+        frame = pin.Frame(f"loop {model.nframes}", body.parentJoint, pose, pin.OP_FRAME)
+        return int(model.addFrame(frame, append_inertia=False))
+
+    def closed(self, positions: Array) -> Array:
+        """Return closed positions by Newton's method; `positions` follow from the axes alone. Raises OpenLoopError."""
+        others = self._first
+        for share in np.linspace(0, 1, _STEPS + 1):
+            known = self._start + share * (positions - self._start)
+            for _ in range(_ITERATIONS):
+                gaps, jacobian, _ = self._equations(known + self._others @ others)
+                step = np.linalg.lstsq(jacobian @ self._others, gaps)[0]
+                others = others - step
+                if np.abs(step).max(initial=0.0) < _CLOSED:
+                    break
+            least = np.linalg.svd(jacobian @ self._others, compute_uv=False).min(initial=np.inf)
+            if np.abs(step).max(initial=0.0) > _CLOSED or np.abs(gaps).max() > _CLOSED or least < self._least:
+                raise OpenLoopError
+        return np.asarray(positions + self._others @ others)
+
+    def motion(self, positions: Array, axes: Array, speeds: Array) -> tuple[Array, Array]:
+        """Return the velocities for a velocity of 1 of each axis, and the accelerations for none at these speeds."""
+        jacobian = self._equations(positions).jacobian
+        ways = axes - self._others @ np.linalg.lstsq(jacobian @ self._others, jacobian @ axes)[0]
+        drift = self._equations(positions, ways @ speeds).drift
+        return ways, -self._others @ np.linalg.lstsq(jacobian @ self._others, drift)[0]
+
+    def reactions(self, positions: Array, load: Array) -> list[Reaction]:
+        """Return gaps and forces; `load` are the efforts of all coordinates without loops.
+
+        The joints that follow have no drives: the forces λ in the loops carry their load, Jᵀ·λ.
+        """
+        jacobian = self._equations(positions).jacobian
+        forces = iter(np.linalg.lstsq((jacobian @ self._others).T, self._others.T @ load)[0])
+        data, found = self._data(positions, np.zeros(self._model.nv)), []
+        for (parent, child), closure in zip(self._frames, self._closures, strict=True):
+            axes = data.oMf[parent].rotation.T @ data.oMf[child].rotation
+            gap = data.oMf[child].translation - data.oMf[parent].translation
+            force = sum((next(forces) * np.array(t) for t in closure.translations), np.zeros(3))
+            torque = sum((next(forces) * np.cross(axes @ v, u) for u, v in closure.rotations), np.zeros(3))
+            found.append(Reaction(gap, force, torque))
+        return found
+
+    def forces(self, positions: Array, load: Array) -> Any:
+        """Return the forces in all loops as Pinocchio takes them: on the bodies of joints, in their frames."""
+        pin, model = self._pin, self._model
+        data, forces = self._data(positions, np.zeros(model.nv)), [pin.Force.Zero() for _ in range(model.njoints)]
+        for (parent, child), reaction in zip(self._frames, self.reactions(positions, load), strict=True):
+            force = pin.Force(reaction.force, reaction.torque)
+            # the force acts at the origin of the child's frame
+            at_child = pin.SE3(data.oMf[parent].rotation, data.oMf[child].translation)
+            for frame, sign in ((parent, -1), (child, 1)):
+                joint = model.frames[frame].parentJoint
+                forces[joint] += sign * data.oMi[joint].actInv(at_child.act(force))
+        return pin.StdVec_Force(forces)
+
+    def _data(self, positions: Array, v: Array) -> Any:
+        pin, model, data = self._pin, self._model, self._model.createData()
+        q = pin.integrate(model, pin.neutral(model), positions)
+        pin.computeJointJacobians(model, data, q)
+        pin.forwardKinematics(model, data, q, v, np.zeros(model.nv))
+        pin.updateFramePlacements(model, data)
+        return data
+
+    def _equations(self, positions: Array, v: Array | None = None) -> _Equations:
+        """Return the equations at a pose, where the coordinates move with velocity v, or rest."""
+        pin, model = self._pin, self._model
+        data = self._data(positions, np.zeros(model.nv) if v is None else v)
+        gaps, rows, drifts = list[float](), list[Array](), list[float]()
+        for frames, closure in zip(self._frames, self._closures, strict=True):
+            pose = data.oMf[frames[0]].actInv(data.oMf[frames[1]])
+            axes = pose.rotation
+            speeds = [pin.getFrameVelocity(model, data, frame, pin.LOCAL) for frame in frames]
+            gains = [pin.getFrameAcceleration(model, data, frame, pin.LOCAL) for frame in frames]
+            parent, child = (pin.getFrameJacobian(model, data, frame, pin.LOCAL) for frame in frames)
+            # velocity and acceleration of the child's frame in the parent's, resolved in the child's
+            jacobian, carried = child - pose.inverse().action @ parent, pose.actInv(speeds[0])
+            speed = speeds[1] - carried
+            gain = gains[1] - pose.actInv(gains[0]) + speed.cross(carried)
+            turn = pin.skew(speed.angular)
+            for t in closure.translations:
+                gaps.append(float(t @ pose.translation))
+                rows.append(t @ axes @ jacobian[:3])
+                drifts.append(float(t @ axes @ (gain.linear + turn @ speed.linear)))
+            for u, v_child in closure.rotations:
+                row = axes.T @ u
+                gaps.append(float(row @ v_child))
+                rows.append(pin.skew(np.array(v_child)) @ row @ jacobian[3:])
+                drifts.append(float(row @ (pin.skew(gain.angular) + turn @ turn) @ v_child))
+        return _Equations(np.array(gaps), np.array(rows), np.array(drifts))
