@@ -1,7 +1,7 @@
 """All checks of the project: `python -m tests [--long] [--tests] [pytest arguments]`.
 
-With `--long`, as CI runs them, the tests come along that take more than some seconds; with `--tests` no code is
-linted.
+With `--long`, as CI runs them, the tests come along that take more than some seconds. With `--tests`, for one Python
+more, no code is linted, and those are left out that show the same with every Python.
 """
 
 import os
@@ -21,6 +21,7 @@ STATIC = {
 }
 EXAMPLES = {"examples in step": ["urdfsync", "build", "--check"]}
 QUICK = {"tests": [*PYTEST, "not slow and not large"]}
+ONE_MORE = {"tests": [*PYTEST, "not slow and not large and not once"]}
 # in one run with the others: each process takes 13 s to find all tests
 LONG = {"tests": [*PYTEST, "not large"]}
 OPTIONS = ("--long", "--tests")
@@ -32,7 +33,10 @@ def main() -> int:
     # without bytecode on disk each of thousands of processes compiles all modules: three quarters of their time
     environment = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
     given = [argument for argument in sys.argv[1:] if argument not in OPTIONS]
-    checks = ({} if "--tests" in sys.argv else STATIC) | EXAMPLES | (LONG if "--long" in sys.argv else QUICK)
+    if "--tests" in sys.argv:
+        checks = EXAMPLES | ONE_MORE
+    else:
+        checks = STATIC | EXAMPLES | (LONG if "--long" in sys.argv else QUICK)
     for name, (module, *arguments) in checks.items():
         print(f"== {name}", flush=True)  # noqa: T201
         extra = given if module == "pytest" else []

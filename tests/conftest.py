@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import gc
 import os
 import shutil
@@ -118,12 +119,20 @@ def corpus() -> Path:
 
 
 @pytest.fixture(scope="session")
-def modelica_library() -> Path:
-    """The folder with the Modelica Standard Library, in a version that the embedded compiler takes."""
+def modelica_library() -> Iterator[Path]:
+    """The folder with the Modelica Standard Library, in a version that the embedded compiler takes.
+
+    Checks in this process parse its files once: each would do that for a second.
+    """
+    from urdfsync.checks import names
+
     try:
-        return find_standard_library(os.environ).parts["Modelica"].parent
+        folder = find_standard_library(os.environ).parts["Modelica"].parent
     except LibraryError:
         pytest.skip(NO_LIBRARY)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(names, "parse_file", functools.cache(names.parse_file))
+        yield folder
 
 
 @pytest.fixture(scope="session")
@@ -213,9 +222,22 @@ def snapshot_of() -> Callable[[Path], dict[str, tuple[int, bytes]]]:
     return files.snapshot
 
 
+@pytest.hookimpl(tryfirst=True)  # before `-m` looks at the marks
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """The longest test comes first: it hardly computes. Then those that take seconds, so that no process ends late."""
+    """Mark what shows the same with every Python, and put long tests first.
+
+    The longest of all hardly computes. Then come those that take seconds, so that no process ends late.
+    """
+    for item in filter(_is_same_with_every_python, items):
+        item.add_marker("once")
     items.sort(key=lambda item: ("soak" not in item.nodeid, item.get_closest_marker("slow") is None))
+
+
+def _is_same_with_every_python(item: pytest.Item) -> bool:
+    """Whether a test compiles models, reads the corpus or draws random cases; compilers have tests of their own."""
+    needs = {"modelica_library", "corpus"} & set(getattr(item, "fixturenames", ()))
+    is_random = getattr(getattr(item, "obj", None), "is_hypothesis_test", False)
+    return bool(needs or is_random) and "checks/compilers" not in item.nodeid
 
 
 def pytest_collection_finish() -> None:

@@ -60,7 +60,6 @@ def test_what_a_line_may_become(edited: Path) -> None:
     assert names("build", "--dr") == ["--dry-run"]
     assert names("check", "--tool", "") == ["rumoca", "omc", "both"]
     assert names("check", "--tool=o") == ["--tool=omc"]
-    assert completion.complete(["check", "--tool", "=", "o"], is_split=True) == [("omc", "")]
     assert names("build", "--robot", "f") == ["filter"]
     assert names("resolve", "") == names("diff", "--edits", "mod") == [f"{LADDER}/Ladder.mo"]
     assert names("resolve", "nowhere") == names("init", "") == names("build", "--config", "") == [":files"]
@@ -114,7 +113,7 @@ def test_it_loads_no_more_than_the_up_to_date_check(edited: Path) -> None:
     )
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
     done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=True)
-    assert done.stdout.splitlines() == ["ladder", "filter"]
+    assert done.stdout.splitlines() == ["ladder\trobot", "filter\trobot"]
     loaded = set(done.stderr.split())
     assert {name for name in loaded if name.startswith("urdfsync.")} <= {
         f"urdfsync.{name}" for name in ("__main__", "uptodate", "dependencies", "streams", "completion")
@@ -128,6 +127,7 @@ LINES = {
     "urdfsync bui\tfil\t": "<build> <filter>",
     "urdfsync build --dry\tlad\t": "<build> <--dry-run> <ladder>",
     "urdfsync check --tool=o\t": "<check> <--tool=omc>",
+    "urdfsync resolve --rename-uses=nothing lad\t": "<resolve> <--rename-uses=nothing> <ladder.json>",
     "urdfsync diff --edits mod\t": f"<diff> <--edits> <{LADDER}/Ladder.mo>",
     "urdfsync init lad\t": "<init> <ladder.json>",
 }

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 from support.commands import Execute
 
-from urdfsync import cli
+from urdfsync import cli, config
 from urdfsync.checks.cache import LIMIT
 from urdfsync.checks.contents import MOST_BYTES
 from urdfsync.checks.libraries import NEXT, OLDEST
@@ -39,6 +39,16 @@ def test_the_picture_of_the_arm_is_the_diagram_of_the_example() -> None:
     assert (REPOSITORY / "docs/images/six_axis_arm.svg").read_text(encoding="utf-8") == drawing, (
         "run `urdfsync build six_axis_arm --svg` and copy .urdfsync/svg/six_axis_arm.svg"
     )
+
+
+def test_the_picture_of_the_four_bar_is_the_diagram_of_the_example() -> None:
+    robot = next(robot for robot in config.load(REPOSITORY / "urdfsync.toml").robots if robot.name == "four_bar")
+    source = REPOSITORY / robot.source_text
+    snapshot = DOMAIN.read(source.read_bytes(), source.name, robot.options).snapshot
+    assert snapshot is not None
+    assert (REPOSITORY / "docs/images/four_bar.svg").read_text(encoding="utf-8") == DOMAIN.drawing(
+        snapshot, {}, robot.target, robot.options
+    ), "run `urdfsync build four_bar --svg` and copy .urdfsync/svg/four_bar.svg"
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)

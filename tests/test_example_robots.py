@@ -17,7 +17,13 @@ ROBOTS = ROOT / "modelica" / "UrdfSync" / "Resources" / "robots"
 SOURCES = sorted(ROBOTS.glob("*/*.urdf"))
 STATES = sorted((ROOT / ".urdfsync" / "robots").glob("*.state"))
 MESHES = sorted(ROBOTS.glob("*/meshes/*"))
-TOTAL_MASS = {"floating_buoy": 63.3, "planar_platform": 11.9, "six_axis_arm": 52.345, "wheeled_robot": 36.1}
+TOTAL_MASS = {
+    "floating_buoy": 63.3,
+    "four_bar": 1.3,
+    "planar_platform": 11.9,
+    "six_axis_arm": 52.345,
+    "wheeled_robot": 36.1,
+}
 every_robot = pytest.mark.parametrize("source", SOURCES, ids=lambda path: path.stem)
 
 

@@ -22,7 +22,7 @@ from support.documents import is_described
 from urdfsync import cli, config
 from urdfsync.checks.results import CheckResult, CheckStatus, CompiledModel, EditEffect, ToolResult, TrialTime
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.domain import Deviation, Quantity, Role
+from urdfsync.domain import ChangeClass, ChangeKind, Deviation, Part, Quantity, Role
 from urdfsync.engine.actions import FileStatus, Kind, Reason
 from urdfsync.engine.result import Checked, Result
 from urdfsync.output.console import JSON_VERSION
@@ -331,9 +331,12 @@ def test_library(folder: Path, execute: Execute) -> None:
     assert tell_all(printed(execute, folder, "library"), "library", absent=FINDING | {"robots", "name"})
 
 
-def test_values_that_are_one_of_a_few_are_all_named() -> None:
-    few = (*Kind, *(reason.word for reason in Reason), *Role, *FileStatus, *Checked, *CheckStatus, *Quantity)
-    assert {f"`{kind}`" for kind in few} <= set(re.findall(r"`[\w -]+`", PAGE))
+def test_values_that_are_one_of_a_few_are_all_named(execute: Execute) -> None:
+    few = (*Kind, *Role, *FileStatus, *ChangeKind, *ChangeClass, *CheckStatus, *Quantity, *Part)
+    schemas = execute("schema", "build").out + execute("schema", "check").out
+    assert all(f'"{word}"' in schemas for word in few)
+    in_page = (*Checked, *(reason.word for reason in Reason))
+    assert {f"`{word}`" for word in in_page} <= set(re.findall(r"`[\w -]+`", PAGE))
     assert f"`version` is {JSON_VERSION}" in PAGE
 
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
@@ -25,8 +26,8 @@ from urdfsync.engine.options import BuildOptions, Progress, no_progress
 from urdfsync.engine.result import Result
 from urdfsync.files import shown
 from urdfsync.modelica.names import class_name, is_class_name, is_identifier, is_package_name
-from urdfsync.output.console import StyledLine, findings, html, line
-from urdfsync.output.results import all_lines
+from urdfsync.output.console import Console, StyledLine, findings, html, line
+from urdfsync.output.results import build_lines
 
 if TYPE_CHECKING:
     from urdfsync.checks.results import CheckResult
@@ -34,7 +35,7 @@ if TYPE_CHECKING:
     from urdfsync.simulation.report import Simulation
     from urdfsync.versions.comparison import Comparison
 
-R = TypeVar("R")
+R = TypeVar("R", bound="Result | Comparison | RobotEdits | CheckResult")
 Options = TypeVar("Options", bound=msgspec.Struct)
 Place: TypeAlias = Config | Path | str | None
 """A configuration, or its file; None for `urdfsync.toml` in the working folder or the nearest one above."""
@@ -61,10 +62,14 @@ class Results(list[R]):
             on_result(result)
 
     def __str__(self) -> str:
-        return "\n".join(str(text) for result in self for text in self._lines(result))
+        return "\n".join(map(str, self._shown()))
 
     def _repr_html_(self) -> str:
-        return html(text for result in self for text in self._lines(result))
+        return html(self._shown())
+
+    def _shown(self) -> Iterator[StyledLine]:
+        for result in self:
+            yield from (*findings(result.diagnostics), *self._lines(result))
 
 
 class WholeRecord(msgspec.Struct, frozen=True):
@@ -76,8 +81,7 @@ class WholeRecord(msgspec.Struct, frozen=True):
     diagnostics: tuple[Diagnostic, ...]
 
     def _repr_html_(self) -> str:
-        told = findings(self.diagnostics, quiet=False, verbose=False)
-        return html([*told, *(line((text, "")) for text in self.text.splitlines())])
+        return html([*findings(self.diagnostics), *(line((text, "")) for text in self.text.splitlines())])
 
 
 def load(config: Place = None) -> Config:
@@ -114,7 +118,8 @@ def build(
     chosen: Sequence[RobotConfig] = loaded.select(robots)
     if merge:
         chosen = [msgspec.structs.replace(robot, on_conflict="merge") for robot in chosen]
-    return Results(build_and_check(loaded, chosen, options_of(BuildOptions, **given)), all_lines, on_result)
+    built = build_and_check(loaded, chosen, options_of(BuildOptions, **given))
+    return Results(built, lambda result: build_lines(result, Console()), on_result)
 
 
 def build_and_check(config: Config, robots: Sequence[RobotConfig], options: BuildOptions) -> Iterator[Result]:
@@ -135,10 +140,10 @@ def status(
 
     A source that xacro or a command makes is not made anew: `stale` names the inputs that changed.
     """
-    from urdfsync.output.status import all_lines
+    from urdfsync.output.status import lines
 
     loaded, options = load(config), options_of(BuildOptions, dry=True, expands=False, **given)
-    return Results(build_robots(loaded, loaded.select(robots), options), all_lines, on_result)
+    return Results(build_robots(loaded, loaded.select(robots), options), lines, on_result)
 
 
 def diff(
@@ -162,7 +167,7 @@ def diff(
     loaded = load(config) if is_near or config or robots or not sources else None
     pairs = list(comparison.select_sources(sources, robots, against, loaded, folder))
     compared = (comparison.compare_sources(chosen, against, known, options, folder) for known, chosen in pairs)
-    return Results((each for group in compared for each in group), report.all_lines, on_result)
+    return Results((each for group in compared for each in group), report.robot_lines, on_result)
 
 
 def edits(
@@ -177,10 +182,10 @@ def edits(
     Raises ConfigError for a path that means none.
     """
     from urdfsync.engine.edits import find_edits
-    from urdfsync.output.edits import all_lines
+    from urdfsync.output.edits import robot_lines
 
     loaded, options = load(config), options_of(BuildOptions, dry=True, **given)
-    return Results(find_edits(paths, loaded, loaded.select(robots), options), all_lines, on_result)
+    return Results(find_edits(paths, loaded, loaded.select(robots), options), robot_lines, on_result)
 
 
 def check(
@@ -205,7 +210,8 @@ def check(
     chosen, tools = loaded.select(robots), chosen_tools(loaded, tool, trusted=trusted)
     options = options_of(CheckOptions, tools=tools, **given)
     checked = run.check_robots(loaded, chosen, options, progress)
-    return Results(checked, lambda result: report.all_lines(result, strict=options.strict), on_result)
+    lines = partial(report.robot_lines, strict=options.strict, verbose=False, marks=False)
+    return Results(checked, lines, on_result)
 
 
 def simulate(

@@ -33,32 +33,28 @@ def answer(arguments: list[str]) -> bool:
     if not arguments or arguments[0] not in SHELLS or arguments[1:2] not in ([], ["--"]):
         return False
     if len(arguments) == 1:
-        text = _read(f"completion.{arguments[0]}")
+        sys.stdout.write(_read(f"completion.{arguments[0]}"))
     else:
-        pairs = complete(arguments[2:], is_split=arguments[0] == "bash")
-        text = "".join(
-            f"{name}\n" if arguments[0] == "bash" or not words else f"{name}\t{words}\n" for name, words in pairs
-        )
-    sys.stdout.write(text)
+        sys.stdout.writelines(f"{name}\t{words}".rstrip() + "\n" for name, words in complete(arguments[2:]))
     return True
 
 
-def complete(words: list[str], *, is_split: bool = False) -> list[tuple[str, str]]:
-    """Return what the last word may become, each with its meaning; with `is_split`, `=` is a word of its own."""
+def complete(words: list[str]) -> list[tuple[str, str]]:
+    """Return what the last word may become, each with its meaning."""
     words = words or [""]
-    table = [tuple(line.split("\t")) for line in _read("options.tsv").splitlines()]
-    if len(words) == 1:
-        return _matching(words[0], [(row[1], row[3]) for row in table if row[0] == ""])
-    rows = [row for row in table if row[0] == words[0]]
-    if is_split:
-        words = _joined(words)
-    *before, current = words[1:]
-    option, sign, value = current.partition("=")
-    if current.startswith("--") and sign:
-        found = _values(_kind(rows, option), value, words)
-        return found if found is FILES or is_split else [(f"{option}={name}", text) for name, text in found]
-    if before and before[-1].startswith("-") and (kind := _kind(rows, before[-1])):
-        return _values(kind, current, words)
+    table = [line.split("\t") for line in _read("options.tsv").splitlines()]
+    rows = [row for row in table if row[0] == (words[0] if words[1:] else "")]
+    *before, current = words
+    if not before:
+        return _matching(current, [(row[1], row[3]) for row in rows])
+    kinds, begin = {row[1]: row[2] for row in rows if row[1]}, ""
+    if current.startswith("--") and "=" in current:
+        option, _, current = current.partition("=")
+        before, begin = [*before, option], f"{option}="
+    kind = kinds.get(before[-1], "")
+    if kind or begin:
+        found = _values(kind, current, words)
+        return found if found is FILES else [(begin + name, text) for name, text in found]
     if current.startswith("-"):
         return _matching(current, [(row[1], row[3]) for row in rows if row[1].startswith("-") and row[1] not in before])
     found = []
@@ -88,22 +84,6 @@ def _values(kind: str, begun: str, words: list[str]) -> list[tuple[str, str]]:
 
 def _matching(begun: str, pairs: Iterable[tuple[str, str]]) -> list[tuple[str, str]]:
     return [pair for pair in dict(pairs).items() if pair[0].startswith(begun)]
-
-
-def _kind(rows: list[tuple[str, ...]], option: str) -> str:
-    """Return the kind of value that an option has; empty if it has none."""
-    return next((row[2] for row in rows if option and row[1] == option), "")
-
-
-def _joined(words: list[str]) -> list[str]:
-    """Return words of bash, which takes `--name=value` for three, as they were typed."""
-    joined: list[str] = []
-    for word in words:
-        if joined and (word == "=" or joined[-1].endswith("=")) and joined[-1].startswith("--"):
-            joined[-1] += word
-        else:
-            joined.append(word)
-    return joined
 
 
 def _robots(words: list[str]) -> list[str]:

@@ -1,8 +1,9 @@
-"""Misspelled names: the known name that the user may have meant."""
+"""Texts that are alike: names that the user may have meant, and how far two texts are the same."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
+from itertools import zip_longest
 
 
 def nearest(name: str, candidates: Iterable[str], likeness: float = 0.6) -> str:
@@ -10,3 +11,8 @@ def nearest(name: str, candidates: Iterable[str], likeness: float = 0.6) -> str:
     import difflib
 
     return next(iter(difflib.get_close_matches(name, list(candidates), 1, likeness)), "")
+
+
+def same_count(old: Sequence[str], new: Sequence[str]) -> int:
+    """Return how many characters, or lines, at the beginning are the same."""
+    return next((index for index, pair in enumerate(zip_longest(old, new)) if pair[0] != pair[1]), len(old))

@@ -182,7 +182,7 @@ def test_without_a_fault_all_is_right(modelica_library: Path, tmp_path: Path) ->
     assert {each.part for each in (*arm, *cart)} == {*Part}
 
 
-@pytest.mark.parametrize("fault_name", sampled(PACKAGE, 5))
+@pytest.mark.parametrize("fault_name", sampled(PACKAGE, 7))
 def test_a_fault_in_a_package_is_seen(fault_name: str, modelica_library: Path, tmp_path: Path) -> None:
     fault = PACKAGE[fault_name]
     name, options = ("Cart", {"base": "floating"}) if fault.part is Part.CONTACTS else ("Arm", {})
@@ -191,7 +191,7 @@ def test_a_fault_in_a_package_is_seen(fault_name: str, modelica_library: Path, t
     assert is_seen(fault, found)
 
 
-@pytest.mark.parametrize("name", sampled((*LIBRARY, *FLOATING), 5))
+@pytest.mark.parametrize("name", sampled((*LIBRARY, *FLOATING), 7))
 def test_a_fault_in_the_library_is_seen(name: str, modelica_library: Path, tmp_path: Path) -> None:
     base = "floating" if name in FLOATING else "fixed"
     fault, own = {**LIBRARY, **FLOATING}[name], tmp_path / "own" / "UrdfSync"

@@ -112,7 +112,7 @@ def test_the_source_is_never_replaced(execute: Execute, name: str, folder: Path)
     source.write_bytes(TWIG.read_bytes())
     (folder / "link.mo").symlink_to(source)
     assert execute("record", source, "-o", name, "--force", code=2).errors[-1] == (
-        f"{name}: error: the record would replace its source; name another file [output-is-source]"
+        f"{name}: error: the source has this name; name another file [output-not-writable]"
     )
     assert source.read_bytes() == TWIG.read_bytes()
 
@@ -130,8 +130,8 @@ def test_a_link_stays_a_link(execute: Execute, folder: Path) -> None:
     ("arguments", "said"),
     [
         (["lost.urdf"], "lost.urdf: error: the source can't be read: No such file or directory; name a file that is"),
-        ([TWIG, "-o", "lost/Twig.mo"], "lost/Twig.mo: error: it can't be written: No such file or directory; check"),
-        ([TWIG, "-o", "."], ".: error: it can't be written: Is a directory; "),
+        ([TWIG, "-o", "lost/Twig.mo"], "lost/Twig.mo: error: there is no such folder; make it first"),
+        ([TWIG, "-o", "."], ".: error: a folder is in its place; name a file"),
         ([TWIG, "--class", "twig"], "error: 'twig' can't be a class; choose one that begins with a capital"),
         ([TWIG, "--within", "Plant.end"], "error: 'Plant.end' can't be a package; name one like Plant.Robots"),
         ([TWIG, "--within", "Modelica"], "error: 'Modelica' can't be a package; name one like Plant.Robots"),

@@ -135,7 +135,7 @@ def result_of(*actions: Action, changes: Changes | None = None) -> Result:
 
 
 def said(result: Result, *, verbose: bool = False) -> list[str]:
-    return list(map(str, lines(result, verbose)))
+    return list(map(str, lines(result, verbose=verbose)))
 
 
 def changed(*classes: ChangeClass, noise: bool = False) -> Changes:

@@ -357,9 +357,8 @@ def test_own_classes_beside_a_new_package_are_listed_if_it_is_adopted(project: P
     own = Path(LADDER, "Mine.mo")
     own.parent.mkdir(parents=True)
     own.write_text("within Ladder;\nmodel Mine\nend Mine;\n")
-    own.with_name("package.mo").write_text("within;\npackage Ladder\nend Ladder;\n")
-    run(adopts=adopts, choices={f"{LADDER}/package.mo": Choice.TAKE})
-    assert Path(LADDER, "package.order").read_text().split() == ["Elements", "Ladder", *(["Mine"] if adopts else [])]
+    run(adopts=adopts)
+    assert ("Mine" in Path(LADDER, "package.order").read_text().split()) is adopts
 
 
 # Names that the package has no more

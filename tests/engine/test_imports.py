@@ -93,7 +93,7 @@ def test_a_further_file_of_an_import_that_is_gone_comes_back(project: Path, monk
     further = Path(LADDER, "Resources/step_1.txt")
     assert further.read_text() == "2"
     further.unlink()
-    assert kinds(run(full=True)) == {"Resources/step_1.txt": Reason.RESTORE}
+    assert kinds(run()) == {"Resources/step_1.txt": Reason.RESTORE}
     assert further.read_text() == "2"
 
 

@@ -69,7 +69,7 @@ def test_long_texts_are_cut() -> None:
 
 
 def test_of_long_texts_that_differ_at_once_the_beginning_is_shown() -> None:
-    texts = (f"{first} + {' + '.join(f'term{number}' for number in range(20))}" for first in ("one", "two", "ten"))
+    texts = (f"term + {first} + {' + '.join(f'term{n}' for n in range(20))}" for first in ("one", "two", "ten"))
     told = describe(Contradiction(("body", "component m", "value", "expression"), *texts))
-    assert "you set `m = two + term0" in told
-    assert "the export changes one + term0" in told
+    assert "you set `m = term + two + term0" in told
+    assert "the export changes term + one + term0" in told

@@ -34,7 +34,7 @@ def test_generated_examples_move_as_pinocchio_says(
 
 def test_the_quick_checks_of_generated_examples_compile(modelica_library: Path) -> None:
     """Without the six-axis arm: what extends it is compiled with the page on models of your own."""
-    names = ("WheeledRobot", "PlanarPlatform", "FloatingBuoy")
+    names = ("WheeledRobot", "PlanarPlatform", "FloatingBuoy", "FourBar")
     found = execute(modelica_library, [], [compile_task(f"UrdfSync.Examples.{name}.{name}Test") for name in names])
     assert [outcome.error for outcome in found] == [""] * len(names)
 

@@ -9,6 +9,7 @@ import contextlib
 import hashlib
 import os
 import shutil
+import stat
 import time
 import uuid
 from collections.abc import Iterator
@@ -128,10 +129,11 @@ def cache_errors(folder: Path) -> Iterator[None]:
 def _entry(path: Path) -> Iterator[tuple[float, Path, int]]:
     """Yield the last use of a file or folder, its path, and its bytes on disk; nothing if it was deleted."""
     with contextlib.suppress(OSError):
-        used, note = path.lstat().st_mtime, path.with_name(path.name.removesuffix(_ACCESS) + _ACCESS)
+        status, note = path.lstat(), path.with_name(path.name.removesuffix(_ACCESS) + _ACCESS)
+        used = status.st_mtime
         with contextlib.suppress(OSError):  # nobody noted when it was used
             used = max(used, note.lstat().st_mtime)
-        is_folder = path.is_dir() and not path.is_symlink()
-        inside = [status.lstat() for status in (path, *(path.rglob("*") if is_folder else ()))]
+        is_folder = stat.S_ISDIR(status.st_mode)
+        inside = [status, *(below.lstat() for below in (path.rglob("*") if is_folder else ()))]
         sizes = (max(status.st_size, getattr(status, "st_blocks", 0) * 512) for status in inside)
         yield used, path, sum(sizes)

@@ -24,8 +24,8 @@ from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 
 T = TypeVar("T")
 
-_INTERVAL = 0.1
-"""Seconds between two looks at memory and clock."""
+_INTERVAL = 0.25
+"""Seconds between two looks at memory and clock; a look reads a file of each process of the system."""
 
 
 class Limits(msgspec.Struct):

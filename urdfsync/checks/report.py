@@ -23,7 +23,7 @@ from urdfsync.checks.results import (
 )
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Deviation, Part, Quantity
-from urdfsync.output.console import StyledLine, findings, line
+from urdfsync.output.console import StyledLine, line
 from urdfsync.output.markdown import Mark, Section, Table
 from urdfsync.output.phrases import counted
 
@@ -40,12 +40,6 @@ _STATED = {
     Quantity.CONNECTION: "{detail} is not connected as it should be",
 }
 """Differences that are no amounts."""
-
-
-def all_lines(result: CheckResult, *, strict: bool) -> Iterator[StyledLine]:
-    """Yield all that `urdfsync check` shows of a result, its findings last."""
-    yield from robot_lines(result, strict=strict, verbose=False, marks=False)
-    yield from findings(result.diagnostics, quiet=False, verbose=False)
 
 
 def robot_lines(result: CheckResult, *, strict: bool, verbose: bool, marks: bool) -> Iterator[StyledLine]:

@@ -23,12 +23,8 @@ def add(commands: arguments.Commands) -> None:
         "as it is.",
         epilog="example: urdfsync add cad/gripper.urdf",
     )
-    parser.add_argument(
-        "sources",
-        nargs="+",
-        metavar="SOURCE",
-        help="the sources of the new robots; of xacro with arguments NAME:=VALUE",
-    )
+    sources = "the sources of the new robots; of xacro with arguments NAME:=VALUE"
+    parser.add_argument("sources", nargs="+", metavar="SOURCE", help=sources)
     parser.add_argument("--domain", default="urdf", metavar="NAME", help="what the sources are (default: %(default)s)")
 
 

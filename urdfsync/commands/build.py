@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import os
 from collections.abc import Iterator, Sequence
+from functools import partial
 from pathlib import Path
 
 from urdfsync.api import build
@@ -36,31 +37,20 @@ def add(commands: arguments.Commands) -> None:
     mode = parser.add_mutually_exclusive_group()
     arguments.add_dry_run(mode)
     mode.add_argument("--check", action="store_true", help="write nothing; exit with 1 if out of step")
-    mode.add_argument(
-        "--svg", dest="draw", action="store_true", help="also draw each robot's diagram, to .urdfsync/svg/"
-    )
-    parser.add_argument(
-        "--merge",
-        action="store_true",
-        help="merge changes into files that you edited, unless they contradict your edits",
-    )
+    svg = "also draw each robot's diagram, to .urdfsync/svg/"
+    mode.add_argument("--svg", dest="draw", action="store_true", help=svg)
+    merge = "merge changes into files that you edited, unless they contradict your edits"
+    parser.add_argument("--merge", action="store_true", help=merge)
     parser.add_argument("--full", action="store_true", help="render and compare everything, even if nothing changed")
-    parser.add_argument(
-        "--explain",
-        action="store_true",
-        help="list all changes, and what happens to each file and why; unchanged files only with -v",
-    )
+    explain = "list all changes, and what happens to each file and why; unchanged files only with -v"
+    parser.add_argument("--explain", action="store_true", help=explain)
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
     """Build the robots, one after the other, and show each as soon as it is built."""
-
-    def show(result: Result) -> None:
-        show_result(console, result, explain=args.explain)
-
-    results = arguments.call(
-        build, BuildOptions, args, console, dry=args.dry_run or args.check, merge=args.merge, on_result=show
-    )
+    given = {"dry": args.dry_run or args.check, "merge": args.merge}
+    given["on_result"] = partial(show_result, console, explain=args.explain)
+    results = arguments.call(build, BuildOptions, args, console, **given)
     console.tell(_next_steps(results))
     return console.end(exit_code(results, args.check))
 

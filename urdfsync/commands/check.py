@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import sys
+from functools import partial
 from pathlib import Path
 
 from urdfsync.api import check
@@ -13,7 +14,7 @@ from urdfsync.checks.results import CheckOptions, CheckResult, CheckStatus, exit
 from urdfsync.checks.tools import BOTH
 from urdfsync.commands import arguments
 from urdfsync.commands.report import prepare_report
-from urdfsync.output.console import Console, Format, has_marks, line
+from urdfsync.output.console import Console, has_marks, line
 
 
 def add(commands: arguments.Commands) -> None:
@@ -61,10 +62,8 @@ def run(args: argparse.Namespace, console: Console) -> int:
 
 def show_result(console: Console, result: CheckResult, *, strict: bool) -> None:
     """Show the result of one robot."""
-    if console.format is Format.JSON:
-        console.add_robot(to_json(result, strict))
-    elif console.is_document:
-        console.add_section(to_section(result, strict))
+    if console.is_document:
+        console.add(result, partial(to_json, strict=strict), partial(to_section, strict=strict))
     elif not console.quiet or result.status(strict) is not CheckStatus.RIGHT:
         marks = has_marks(sys.stdout)
         console.print(robot_lines(result, strict=strict, verbose=console.verbose, marks=marks))

@@ -7,7 +7,7 @@ import argparse
 from urdfsync.api import diff
 from urdfsync.commands import arguments
 from urdfsync.engine.findings import CONNECTORS
-from urdfsync.output.console import Console, Format
+from urdfsync.output.console import Console
 from urdfsync.output.repeated import show_findings
 from urdfsync.versions.comparison import Comparison, exit_code
 from urdfsync.versions.report import robot_lines, to_json, to_section
@@ -44,11 +44,8 @@ def run(args: argparse.Namespace, console: Console) -> int:
         return edits.run(args, console)
 
     def show(compared: Comparison) -> None:
-        if console.format is Format.JSON:
-            console.add_robot(to_json(compared))
-            return
         if console.is_document:
-            console.add_section(to_section(compared))
+            console.add(compared, to_json, to_section)
             return
         told = [diagnostic for diagnostic in compared.result.diagnostics if diagnostic.code != CONNECTORS]
         show_findings(console, compared.result, told)

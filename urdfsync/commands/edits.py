@@ -7,7 +7,7 @@ import argparse
 from urdfsync.api import edits
 from urdfsync.engine.edits import RobotEdits
 from urdfsync.engine.result import Exit
-from urdfsync.output.console import Console, Format
+from urdfsync.output.console import Console
 from urdfsync.output.edits import robot_lines, to_json, to_section
 
 
@@ -15,13 +15,9 @@ def run(args: argparse.Namespace, console: Console) -> int:
     """Show the edits in the files that the paths mean, or in all."""
 
     def show(edited: RobotEdits) -> None:
-        if console.format is Format.JSON:
-            console.add_robot(to_json(edited))
-        elif console.is_document:
-            console.add_section(to_section(edited))
+        console.add(edited, to_json, to_section)
         console.findings(edited.diagnostics)
-        if not edited.failed:
-            console.tell(robot_lines(edited, verbose=console.verbose))
+        console.tell(robot_lines(edited, verbose=console.verbose))
 
     options = {"config": args.config, "wait": args.wait, "progress": console.progress, "on_result": show}
     edited = edits(*args.sources, robots=args.robot or (), **options)

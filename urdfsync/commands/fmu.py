@@ -43,9 +43,8 @@ def add(commands: arguments.Commands) -> None:
     option("--model", metavar="NAME", default="", help="the model (default: Run of the robot, else Test)")
     option("--output", type=Path, metavar="FILE.fmu", help="where to write it (default: the model's name, here)")
     option("--fmi", choices=tuple(_VERSIONS), default="2", help="the version of FMI (default: 2)")
-    option(
-        "--kind", choices=tuple(_EXPORTED), default="both", help="model exchange, co-simulation or both (default: both)"
-    )
+    kind = "model exchange, co-simulation or both (default: both)"
+    option("--kind", choices=tuple(_EXPORTED), default="both", help=kind)
     tolerance = f"of the integration inside, for co-simulation (default: {TOLERANCE:g})"
     option("--tolerance", type=arguments.amount, metavar="T", help=tolerance)
     stop = f"end of the simulation that the FMU proposes (default: as the model says, else {STOP:g})"
@@ -58,9 +57,8 @@ def add(commands: arguments.Commands) -> None:
 def run(args: argparse.Namespace, console: Console) -> int:
     """Export one model, check it if that is wanted, and write it."""
     configuration = arguments.configuration(args)
-    robot = configuration.select_one(
-        [robot.name for robot in arguments.select_robots(args, configuration, console)], "fmu"
-    )
+    robots = arguments.select_robots(args, configuration, console)
+    robot = configuration.select_one([robot.name for robot in robots], "fmu")
     if args.check and importlib.util.find_spec("fmpy") is None:
         raise ConfigError.of("no-fmpy", "`--check` needs FMPy, which is not installed", hint=install_command("fmu"))
     if args.motion and (args.kind == "me" or not args.check):

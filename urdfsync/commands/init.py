@@ -66,17 +66,10 @@ def add(commands: arguments.Commands) -> None:
         description="Write a commented urdfsync.toml for some sources, with guesses and their reasons.",
         epilog="example: urdfsync init cad/arm.urdf cad/gripper.urdf",
     )
-    parser.add_argument(
-        "sources",
-        nargs="*",
-        metavar="SOURCE",
-        help="URDF files (default: all below this folder), or xacro files with arguments NAME:=VALUE",
-    )
-    parser.add_argument(
-        "--merge",
-        action="store_true",
-        help="let builds merge changes into files that you edited, unless they contradict your edits",
-    )
+    sources = "URDF files (default: all below this folder), or xacro files with arguments NAME:=VALUE"
+    parser.add_argument("sources", nargs="*", metavar="SOURCE", help=sources)
+    merge = "let builds merge changes into files that you edited, unless they contradict your edits"
+    parser.add_argument("--merge", action="store_true", help=merge)
     parser.add_argument("--domain", default="urdf", metavar="NAME", help="format of the sources (default: %(default)s)")
 
 

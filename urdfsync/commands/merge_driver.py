@@ -42,9 +42,8 @@ def add(commands: arguments.Commands) -> None:
     parser.add_argument("--path", metavar="PATH", type=Path, help="what messages call the file (%%P)")
     parser.add_argument("--ours", metavar="LABEL", default="", help="what MINE is called in markers (%%X)")
     parser.add_argument("--theirs", metavar="LABEL", default="", help="what OTHER is called in markers (%%Y)")
-    parser.add_argument(
-        "--marker-size", metavar="N", type=int, default=_MARKER_SIZE, help="length of markers (%%L; default: 7)"
-    )
+    size = "length of markers (%%L; default: 7)"
+    parser.add_argument("--marker-size", metavar="N", type=int, default=_MARKER_SIZE, help=size)
 
 
 def run(args: argparse.Namespace, console: Console) -> int:

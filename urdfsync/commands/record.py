@@ -11,9 +11,10 @@ from urdfsync.commands import arguments
 from urdfsync.dependencies import read_unrecorded
 from urdfsync.diagnostics import OutputError
 from urdfsync.engine.result import Exit
-from urdfsync.files import normalised, put, shown
+from urdfsync.files import normalised, shown
 from urdfsync.modelica.names import is_class_name
 from urdfsync.output.console import Console, line
+from urdfsync.simulation.files import check_file, write_file
 
 
 def add(commands: arguments.Commands) -> None:
@@ -29,20 +30,15 @@ def add(commands: arguments.Commands) -> None:
         epilog="examples: urdfsync record robot.urdf\n"
         "          urdfsync record robot.urdf -o modelica/Plant/ArmParameters.mo --within Plant",
     )
-    parser.add_argument(
-        "source", nargs="+", metavar="SOURCE", help="the URDF or xacro file; for xacro also arguments, NAME:=VALUE"
-    )
-    parser.add_argument("-o", "--output", type=Path, metavar="FILE", help="where it goes (default: -, standard output)")
-    parser.add_argument("--force", action="store_true", help="replace a FILE that holds something else")
-    parser.add_argument(
-        "--class",
-        dest="class_",
-        default="",
-        metavar="NAME",
-        help="name of the record (default: that of FILE, or of SOURCE)",
-    )
-    parser.add_argument("--within", default="", metavar="PACKAGE", help="the package that FILE is in (default: none)")
-    parser.add_argument("--domain", default="urdf", metavar="NAME", help="format of the source (default: %(default)s)")
+    option = parser.add_argument
+    source = "the URDF or xacro file; for xacro also arguments, NAME:=VALUE"
+    option("source", nargs="+", metavar="SOURCE", help=source)
+    option("-o", "--output", type=Path, metavar="FILE", help="where it goes (default: -, standard output)")
+    option("--force", action="store_true", help="replace a FILE that holds something else")
+    name = "name of the record (default: that of FILE, or of SOURCE)"
+    option("--class", dest="class_", default="", metavar="NAME", help=name)
+    option("--within", default="", metavar="PACKAGE", help="the package that FILE is in (default: none)")
+    option("--domain", default="urdf", metavar="NAME", help="format of the source (default: %(default)s)")
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
@@ -72,23 +68,14 @@ def _write(text: str, source: Path, file: Path, *, force: bool) -> bool:
     A file that holds something else is replaced with `force` only, the source never. Raises OutputError for that, and
     for what can't be written.
     """
+    check_file(file, {"the source": source})
     content = text.encode()
-    try:
-        if file.exists():
-            if normalised(read_unrecorded(file)) == content:
-                return False
-            if file.samefile(source):
-                message = "the record would replace its source"
-                raise OutputError.of("output-is-source", message, shown(file), hint="name another file")
-            if not force:
-                message, hint = (
-                    "the file exists, and holds something else",
-                    "name another one, or replace it with --force",
-                )
-                raise OutputError.of("file-exists", message, shown(file), hint=hint)
-        put(file.resolve(), content)
-    except OSError as error:
-        hint = "check that its folder exists and may be written to, and that there is space on the disk"
-        message = f"it can't be written: {error.strerror}"
-        raise OutputError.of("output-not-writable", message, shown(file), hint=hint) from None
+    if file.exists():
+        if normalised(read_unrecorded(file)) == content:
+            return False
+        if not force:
+            message = "the file exists, and holds something else"
+            hint = "name another one, or replace it with --force"
+            raise OutputError.of("file-exists", message, shown(file), hint=hint)
+    write_file(file, content)
     return True

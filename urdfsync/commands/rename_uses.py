@@ -6,17 +6,17 @@ import argparse
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
-from urdfsync.api import Results, build_and_check
+from urdfsync.api import build_and_check
 from urdfsync.commands import arguments
 from urdfsync.config.trust import find_untrusted_file, find_untrusted_output
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
 from urdfsync.engine.rename_uses import RenamedUses, rename_uses
-from urdfsync.engine.result import Exit, Result, exit_code
+from urdfsync.engine.result import Exit, exit_code
 from urdfsync.files import failure, shown
 from urdfsync.output.conflicts import difference_lines
 from urdfsync.output.console import Console, StyledLine, line
 from urdfsync.output.phrases import counted
-from urdfsync.output.results import all_lines, show_result
+from urdfsync.output.results import show_result
 from urdfsync.state.transaction import save
 
 
@@ -48,11 +48,10 @@ def run(args: argparse.Namespace, console: Console) -> int:
         return console.end(Exit.OUT_OF_STEP)
     _write(renamed.texts)
     console.tell([line((f"{count} written", ""))])
-
-    def show(result: Result) -> None:
+    results = []
+    for result in build_and_check(loaded, renamed.robots, arguments.request(args, console)):
         show_result(console, result)
-
-    results = Results(build_and_check(loaded, renamed.robots, arguments.request(args, console)), all_lines, show)
+        results.append(result)
     return console.end(exit_code(results) or code)
 
 

@@ -11,7 +11,7 @@ from pathlib import Path
 import msgspec
 
 from urdfsync import config
-from urdfsync.api import Results, build_and_check
+from urdfsync.api import build_and_check
 from urdfsync.commands import arguments, editor
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Role
@@ -21,7 +21,7 @@ from urdfsync.engine.package_files import key_of
 from urdfsync.engine.result import Exit, Result, exit_code
 from urdfsync.files import shown
 from urdfsync.output.console import Console
-from urdfsync.output.results import all_lines, show_result
+from urdfsync.output.results import show_result
 from urdfsync.state.record import Choice, UsersChoice
 
 
@@ -90,11 +90,10 @@ def run(args: argparse.Namespace, console: Console) -> int:
     for path, text in edited.items():
         choices[path] = msgspec.structs.replace(choices[path], text=text)
     request = arguments.request(args, console, dry=args.dry_run, choices=choices)
-
-    def show(result: Result) -> None:
+    results = []
+    for result in build_and_check(configuration, robots, request):
         show_result(console, result, named=targets)
-
-    results = Results(build_and_check(configuration, robots, request), all_lines, show)
+        results.append(result)
     accepted, problems = _compare(targets, results, choice)
     code = exit_code(results)
     if problems and code is Exit.IN_STEP:

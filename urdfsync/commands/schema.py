@@ -6,7 +6,8 @@ import argparse
 import importlib
 import json
 import sys
-from typing import Any, TypedDict
+from collections.abc import Mapping
+from typing import Any
 
 import msgspec
 
@@ -16,28 +17,6 @@ from urdfsync.diagnostics import Diagnostic
 from urdfsync.engine.result import Exit, Result
 from urdfsync.output.console import JSON_VERSION, Console
 from urdfsync.output.results import RobotDocument
-
-
-class Written(TypedDict):
-    """What `init` and `add` write."""
-
-    config: str
-
-
-class Library(TypedDict):
-    """Where the Modelica library is."""
-
-    folder: str
-    line: str
-
-
-Record = TypedDict("Record", {"class": str, "within": str, "file": str, "written": bool, "text": str})
-"""What `record` writes: a file, or its text."""
-
-
-class Nothing(TypedDict):
-    """No values of its own."""
-
 
 _ROBOTS = {
     **dict.fromkeys(("build", "status", "resolve", "remove", "adopt", "hook"), "output.results:RobotDocument"),
@@ -49,8 +28,12 @@ _ROBOTS = {
     **dict.fromkeys(("init", "add"), "commands.init:Guess"),
 }
 """By commands, the types of robots in their documents: they take long to load."""
-_VALUES: dict[str, Any] = {"init": Written, "add": Written, "record": Record, "library": Library}
-"""Likewise, other values; a document of a command that failed has none."""
+_VALUES: Mapping[str, Mapping[str, Any]] = {
+    **{name: {"config": str} for name in ("init", "add")},
+    "record": {"class": str, "within": str, "file": str, "written": bool, "text": str},
+    "library": {"folder": str, "line": str},
+}
+"""Likewise, the types of other values; a document of a command that failed has none."""
 
 
 def add(commands: arguments.Commands) -> None:
@@ -77,33 +60,39 @@ def run(args: argparse.Namespace, _console: Console) -> int:
 
 def document_schema(command: str) -> dict[str, Any]:
     """Return the schema of a command's document, of `watch` that of each line."""
+    parts: dict[str, Any] = {}
+
+    def schema_of(kind: Any) -> dict[str, Any]:
+        (described,), more = msgspec.json.schema_components(
+            [kind], ref_template="#/$defs/{name}", schema_hook=lambda _: {"type": "string"}
+        )
+        parts.update(more)
+        return described
+
     places = (place.split(":") for place in _ROBOTS.get(command, "").split())
-    kinds = [getattr(importlib.import_module(f"urdfsync.{module}"), name) for module, name in places]
-    events = _events() if command == "watch" else []
-    fields = [field for event in events for field in msgspec.structs.fields(event)]
-    types = [RobotDocument if field.type is Result else field.type for field in fields]
-    everything = [Diagnostic, _VALUES.get(command, Nothing), *kinds, *types]
-    (finding, values, *schemas), parts = msgspec.json.schema_components(
-        everything, ref_template="#/$defs/{name}", schema_hook=lambda _: {"type": "string"}
-    )
+    robots = [schema_of(getattr(importlib.import_module(f"urdfsync.{module}"), name)) for module, name in places]
     properties = {
         "version": {"const": JSON_VERSION},
         "command": {"enum": [command, ""]},
         "exit": {"type": "integer"},
-        "robots": {"type": "array", "items": {"anyOf": schemas[: len(kinds)]} if kinds else False},
-        "diagnostics": {"type": "array", "items": finding},
-        **parts[values["$ref"].rpartition("/")[2]]["properties"],
+        "robots": {"type": "array", "items": {"anyOf": robots} if robots else False},
+        "diagnostics": {"type": "array", "items": schema_of(Diagnostic)},
+        **{name: schema_of(kind) for name, kind in _VALUES.get(command, {}).items()},
     }
     document = {"type": "object", "properties": properties, "required": ["version", "command", "exit", "diagnostics"]}
-    lines, rest = [document], iter(schemas[len(kinds) :])
-    for event in events:
-        own = {field.name: next(rest) for field in msgspec.structs.fields(event)}
-        result = own.pop("result", None)
-        own = {"robot": {"type": "string"}, **parts["RobotDocument"]["properties"], **own} if result else own
-        own |= {"version": properties["version"], "event": {"const": event.__struct_config__.tag}}
-        own["time"] = {"type": "string", "format": "date-time"}
+    lines = [document]
+    for event in _events() if command == "watch" else ():
+        own = {
+            "version": properties["version"],
+            "event": {"const": event.__struct_config__.tag},
+            "time": {"type": "string", "format": "date-time"},
+        }
+        for field in msgspec.structs.fields(event):
+            own[field.name] = schema_of(RobotDocument if field.type is Result else field.type)
+        if own.pop("result", None):
+            own = {"robot": {"type": "string"}, **parts["RobotDocument"]["properties"], **own}
         lines.append({"type": "object", "properties": own, "required": [*own]})
-    top = {"anyOf": lines} if events else document
+    top = {"anyOf": lines} if len(lines) > 1 else document
     return {"$schema": "https://json-schema.org/draft/2020-12/schema", "title": command, **top, "$defs": parts}
 
 

@@ -37,7 +37,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
         show_findings(console, result, result.diagnostics)
         console.stop_progress()
         if not console.quiet or result.conflicts or result.is_broken:
-            console.print(lines(result, console.verbose), error=result.failed)
+            console.print(lines(result, verbose=console.verbose), error=result.failed)
 
     results = arguments.call(status, BuildOptions, args, console, on_result=show)
     return console.end(exit_code(results, check=True))

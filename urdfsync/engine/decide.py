@@ -298,7 +298,7 @@ def _users_classes(files: PackageFiles, order: str, names: Collection[str]) -> l
     """Return the classes beside a new `package.order` that are not generated: it would hide them from tools."""
     folder = order.removesuffix("package.order")
     paths = (key.removeprefix(folder).removesuffix("/package.mo") for key in files.classes(folder))
-    classes = {path.removesuffix(".mo") for path in paths if "/" not in path} - {"package"}
+    classes = {path.removesuffix(".mo") for path in paths if "/" not in path}
     return sorted(name for name in classes.difference(names) if is_identifier(name))
 
 

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from itertools import zip_longest
-
 from urdfsync.merge.lines import Contradiction
+from urdfsync.spelling import same_count
 
 _LONGEST = 60
 """Characters of a text that a sentence quotes."""
@@ -86,11 +84,6 @@ def _change(base: str, side: str, what: str) -> str:
     if before and after:
         return f"changed `{before}` to `{after}`"
     return f"added `{after}`" if after else f"removed `{before}`"
-
-
-def same_count(old: Sequence[str], new: Sequence[str]) -> int:
-    """Return how many items at the beginning are the same."""
-    return next((index for index, pair in enumerate(zip_longest(old, new)) if pair[0] != pair[1]), len(old))
 
 
 def _quoted_pair(old: str, new: str) -> list[str]:

@@ -13,8 +13,8 @@ import os
 import sys
 import time
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
-from typing import IO, TYPE_CHECKING, Any, Literal
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import IO, TYPE_CHECKING, Any, Literal, TypeVar
 
 import msgspec
 
@@ -28,6 +28,7 @@ if TYPE_CHECKING:
 
     from urdfsync.output.markdown import Section
 
+R = TypeVar("R")
 JSON_VERSION = 3
 """Version of the JSON documents and events; raised when a key changes its meaning or goes away."""
 FEW = 5
@@ -86,7 +87,7 @@ def visible(text: str) -> str:
     return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
 
 
-def findings(diagnostics: Sequence[Diagnostic], *, quiet: bool, verbose: bool) -> list[StyledLine]:
+def findings(diagnostics: Sequence[Diagnostic], *, quiet: bool = False, verbose: bool = False) -> list[StyledLine]:
     """Return diagnostics as lines: with `quiet` errors alone, without `verbose` the first warnings of each code."""
     if quiet:
         diagnostics = [diagnostic for diagnostic in diagnostics if diagnostic.severity is Severity.ERROR]
@@ -197,10 +198,13 @@ class Console:
         self.stop_progress()
         self._robots.append(values)
 
-    def add_section(self, section: Section) -> None:
-        """Add a robot to the Markdown or SARIF, likewise."""
-        self.stop_progress()
-        self._sections.append(section)
+    def add(self, result: R, to_json: Callable[[R], Mapping[str, Any]], to_section: Callable[[R], Section]) -> None:
+        """Add a robot to the document of whichever format, likewise."""
+        if self.format is Format.JSON:
+            self.add_robot(to_json(result))
+        elif self.is_document:
+            self.stop_progress()
+            self._sections.append(to_section(result))
 
     def end(self, code: int, diagnostics: Sequence[Diagnostic] = (), values: Mapping[str, Any] | None = None) -> int:
         """End a command: show what stopped it, or write its document (docs/json.md). Returns the exit code.

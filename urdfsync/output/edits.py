@@ -11,7 +11,7 @@ from urdfsync.engine.edits import EditedFile, RobotEdits
 from urdfsync.files import shown
 from urdfsync.merge.edits import Edit, find_edits, in_words
 from urdfsync.output.conflicts import difference_lines
-from urdfsync.output.console import StyledLine, findings, first_lines, line
+from urdfsync.output.console import StyledLine, first_lines, line
 from urdfsync.output.markdown import Mark, Section, Table
 from urdfsync.output.phrases import counted
 
@@ -19,15 +19,10 @@ _EDITS = 20
 """So many edits of a file are listed at most, without --verbose."""
 
 
-def all_lines(edited: RobotEdits) -> Iterator[StyledLine]:
-    """Yield all that `urdfsync diff --edits` shows of a robot."""
-    yield from findings(edited.diagnostics, quiet=False, verbose=False)
-    if not edited.failed:
-        yield from robot_lines(edited, verbose=False)
-
-
-def robot_lines(edited: RobotEdits, *, verbose: bool) -> Iterator[StyledLine]:
-    """Yield the edits of a robot, file by file."""
+def robot_lines(edited: RobotEdits, *, verbose: bool = False) -> Iterator[StyledLine]:
+    """Yield the edits of a robot, file by file; of one that failed nothing, since its findings say why."""
+    if edited.failed:
+        return
     yield line((edited.robot, "bold"), (f": {_summary(edited)}", ""))
     for file in edited.files:
         yield from edit_lines(file, edited.root, verbose)

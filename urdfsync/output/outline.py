@@ -16,6 +16,7 @@ from typing import Any, NamedTuple
 
 from urdfsync.changes import Change, Changes, is_number
 from urdfsync.domain import ChangeClass, ChangeKind, Effect
+from urdfsync.spelling import same_count
 
 _NAMES = 140
 """Characters of the names of elements in a title; there is always one name."""
@@ -145,8 +146,7 @@ def _pair(old: Any, new: Any, *, mark: str = "", exact: bool = False) -> str:
         if re.fullmatch(_HASH, old) and re.fullmatch(_HASH, new):
             shown = old[:8], new[:8]
         elif not exact and max(len(old), len(new)) > _WIDTH:
-            same = next((k for k, (a, b) in enumerate(zip(old, new, strict=False)) if a != b), min(len(old), len(new)))
-            begin = max(0, same - _CONTEXT)
+            begin = max(0, same_count(old, new) - _CONTEXT)
             dots = "…" if begin else ""
             shown = _cut(dots + " ".join(old[begin:].split())), _cut(dots + " ".join(new[begin:].split()))
     else:

@@ -14,7 +14,7 @@ from urdfsync.engine.actions import Action, FileStatus, Kind, Reason
 from urdfsync.engine.result import Checked, Result
 from urdfsync.files import shown
 from urdfsync.output.conflicts import conflict_lines, describe, find_conflicts, saved_texts, shown_path
-from urdfsync.output.console import Console, Format, StyledLine, findings, first_lines, has_marks, line
+from urdfsync.output.console import Console, StyledLine, first_lines, has_marks, line
 from urdfsync.output.phrases import change_lines, counted, reason, summary
 from urdfsync.output.repeated import show_findings
 from urdfsync.output.sections import build_section
@@ -126,23 +126,14 @@ def change_line(text: str) -> StyledLine:
 
 def show_result(console: Console, result: Result, *, explain: bool = False, named: Container[str] = ()) -> None:
     """Show what was done with one robot; `named` files are listed."""
-    if console.format is Format.JSON:
-        console.add_robot(result_values(result))
-        return
     if console.is_document:
-        console.add_section(build_section(result))
+        console.add(result, result_values, build_section)
         return
     show_findings(console, result, result.diagnostics)
     if console.quiet and not (result.conflicts or result.is_broken):
         console.stop_progress()
         return
     console.print(build_lines(result, console, explain=explain, named=named), error=result.failed)
-
-
-def all_lines(result: Result) -> Iterator[StyledLine]:
-    """Yield all that `urdfsync build` shows of a result, its findings first."""
-    yield from findings(result.diagnostics, quiet=False, verbose=False)
-    yield from build_lines(result, Console())
 
 
 def build_lines(

@@ -16,6 +16,7 @@ from urdfsync.output.conflicts import DisputedFile, describe, find_conflicts, se
 from urdfsync.output.markdown import Mark, Section, Table
 from urdfsync.output.outline import outline
 from urdfsync.output.phrases import change_counts, generator_change, reason, summary
+from urdfsync.spelling import same_count
 
 _BUILD = "run `urdfsync build`, and commit what it writes"
 _SETTLE = "run `urdfsync build` for both sides, and settle the conflicts with `urdfsync resolve`"
@@ -67,8 +68,6 @@ def _edited_line(target: DisputedFile) -> int:
     """Return the first line that the user edited; 0 if that is not known."""
     if target.texts is None or target.texts.base is None:
         return 0
-    from urdfsync.merge.words import same_count  # the merge takes 20 ms; only a conflict needs it
-
     base, mine = target.texts.base.splitlines(), target.texts.mine.splitlines()
     return min(same_count(base, mine) + 1, len(mine))
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from urdfsync.engine.actions import Action, FileStatus, Kind, Reason
 from urdfsync.engine.result import Result
 from urdfsync.output.conflicts import describe, find_conflicts, settle_hint, shown_path
-from urdfsync.output.console import StyledLine, findings, first_lines, line
+from urdfsync.output.console import StyledLine, first_lines, line
 from urdfsync.output.phrases import change_counts, generator_change, reason
 from urdfsync.output.phrases import summary as build_summary
 from urdfsync.output.results import action_word, file_line, headline
@@ -18,13 +18,7 @@ _STALE = 20
 """So many stale files of a robot are listed at most, without --verbose."""
 
 
-def all_lines(result: Result) -> Iterator[StyledLine]:
-    """Yield all that `urdfsync status` shows of a result, its findings first."""
-    yield from findings(result.diagnostics, quiet=False, verbose=False)
-    yield from lines(result, verbose=False)
-
-
-def lines(result: Result, verbose: bool) -> Iterator[StyledLine]:
+def lines(result: Result, *, verbose: bool = False) -> Iterator[StyledLine]:
     """Yield all that there is to say about one robot: with `verbose` all files, else those that are not in step.
 
     Stale files come last. New files of a robot that was never built are not named.

@@ -21,7 +21,7 @@ class Simulation(SimulateResult, frozen=True):
     """A simulation, to look at as well."""
 
     def _repr_html_(self) -> str:
-        return html([*result_lines(self, {}), *findings(self.diagnostics, quiet=False, verbose=False)])
+        return html([*result_lines(self, {}), *findings(self.diagnostics)])
 
 
 def result_lines(result: SimulateResult, files: Mapping[str, Path]) -> Iterator[StyledLine]:

@@ -32,6 +32,7 @@ from urdfsync.urdf.diff.comparable import comparable
 from urdfsync.urdf.diff.effects import effects, find_doubtful, interface
 from urdfsync.urdf.diff.meanings import describe
 from urdfsync.urdf.diff.renames import find_renames
+from urdfsync.urdf.drives import dependent_joints
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.loop_findings import find_loop_findings
 from urdfsync.urdf.meshes.lookup import COLORLESS, TEXTURED, dependencies, mentioned_files, mesh
@@ -136,11 +137,14 @@ class UrdfDomain(Domain):
 
     def check_options(self, snapshot: Snapshot, options: Options) -> Iterable[tuple[str, Diagnostic]]:
         """Hold the names in `driven` and `frames` against the robot, and look at the loops in `loops`."""
-        yield from option_names.check_options(snapshot["links"], joints_of(snapshot["joints"]), options)
+        tree = KinematicTree.of(from_snapshot(snapshot)) if "loops" in snapshot else None
+        dependent = dependent_joints(tree, options) if tree else frozenset[str]()
+        joints = joints_of(snapshot["joints"])
+        yield from option_names.check_options(snapshot["links"], joints, options, dependent)
         if options.loops:
             yield from option_names.check_loops(snapshot["links"], options)
-            tree, stated = KinematicTree.of(from_snapshot(snapshot)), {loop.name for loop in options.loops}
-            for finding in find_loop_findings(tree, options):
+            stated = {loop.name for loop in options.loops}
+            for finding in find_loop_findings(tree, options) if tree else ():
                 if finding.loop in stated:
                     yield f"loops.{finding.loop}", diagnostic(finding.code, finding.message, 0, finding.hint)
 

@@ -31,12 +31,11 @@ def driven_joints(tree: KinematicTree, options: Options) -> frozenset[str]:
 
 
 def dependent_joints(tree: KinematicTree, options: Options) -> frozenset[str]:
-    """Return the names of the joints whose positions follow from those of other joints through loops.
-
-    Raises ValueError if the loops can't be closed.
-    """
-    closed = assembly(tree, options)
-    return frozenset(closed.joints).difference(closed.states) if closed else frozenset()
+    """Return the names of the joints whose positions follow from those of other joints through loops."""
+    closed = assemble_loops(tree, options)
+    if closed is None or isinstance(closed, tuple):
+        return frozenset()
+    return frozenset(closed.joints).difference(closed.states)
 
 
 def assembly(tree: KinematicTree, options: Options) -> Assembly | None:

@@ -26,11 +26,12 @@ _DRIVEN = f"{_DRIVABLE} that Run and Test drive"
 
 
 def check_options(
-    links: Collection[str], joints: Sequence[Joint], options: Options
+    links: Collection[str], joints: Sequence[Joint], options: Options, dependent: Set[str]
 ) -> Iterator[tuple[str, Diagnostic]]:
     """Yield diagnostics about a robot's options, each with the name of its option, and without file and line.
 
-    `links` are the names of all links. The record approach has no use for these options, but for `start`.
+    `links` are the names of all links, `dependent` joints follow from others through loops. The record approach has no
+    use for these options, but for `start`.
     """
     ranges = {joint.name: own_range(joint) for joint in joints if can_be_driven(joint)}
     drivable, driven = list(ranges), wanted_joints(joints, options)
@@ -70,7 +71,7 @@ def check_options(
     if "package" in options.approach:
         yield from _check_laws(joints, options)
     if "package" in options.approach and options.driven is None:
-        yield from _find_passive(joints, passive_joints(joints) - driven)
+        yield from _find_passive(joints, passive_joints(joints) - driven - dependent)
 
 
 def check_loops(links: Collection[str], options: Options) -> Iterator[tuple[str, Diagnostic]]:

@@ -59,6 +59,11 @@ class Comparison(msgspec.Struct, frozen=True):
     """The older version and the new one, each with its imported files by path; none of a last build, or an error."""
 
     @property
+    def diagnostics(self) -> tuple[Diagnostic, ...]:
+        """The findings of the comparison."""
+        return self.result.diagnostics
+
+    @property
     def change_class(self) -> ChangeClass:
         """Return how far the changes reach."""
         return self.result.changes.change_class if self.result.changes else ChangeClass.NONE

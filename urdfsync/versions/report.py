@@ -10,7 +10,7 @@ from urdfsync.domain import Effect
 from urdfsync.engine.actions import USERS, Kind, Reason
 from urdfsync.engine.findings import CONNECTORS
 from urdfsync.output.conflicts import settle_hint, shown_path
-from urdfsync.output.console import StyledLine, findings, first_lines, line
+from urdfsync.output.console import StyledLine, first_lines, line
 from urdfsync.output.markdown import Mark, Section, Table
 from urdfsync.output.outline import effect_rows
 from urdfsync.output.phrases import change_counts, change_lines, counted, error_count, generator_change
@@ -34,13 +34,7 @@ class ComparisonDocument(RobotDocument):
     effects: Sequence[Effect]
 
 
-def all_lines(compared: Comparison) -> Iterator[StyledLine]:
-    """Yield all that `urdfsync diff` shows of a source, its findings first."""
-    yield from findings(compared.result.diagnostics, quiet=False, verbose=False)
-    yield from robot_lines(compared, verbose=False)
-
-
-def robot_lines(compared: Comparison, *, verbose: bool) -> Iterator[StyledLine]:
+def robot_lines(compared: Comparison, *, verbose: bool = False) -> Iterator[StyledLine]:
     """Yield what changed in a source, without findings."""
     yield headline(compared.result, _summary(compared), is_fine=compared.in_step)
     yield from _lines(compared, verbose)

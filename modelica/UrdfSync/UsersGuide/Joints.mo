@@ -75,6 +75,12 @@ The second equation is the balance of power: what the follower needs, the leader
 different kinds, and a follower may itself be followed. A joint that follows a fixed one is held at its offset. The robot has no
 <code>&hellip;Axis</code> and no <code>&hellip;Support</code> for a follower.
 </p>
+<h4>Loops</h4>
+<p>
+A robot with loops is no tree: one joint of each loop is left out of the tree and <a href=\"modelica://UrdfSync.Loops\">closes it</a>. It has no flanges, limits or
+losses; its variables are <code>gap</code>, <code>f</code> and <code>t</code>. The loops leave fewer freedoms than the tree has joints: the positions of joints without
+states follow from those of the others, and their start values are guesses.
+</p>
 <h4>Start values</h4>
 <p>
 Position and speed at the beginning are parameters of the joint: <code>robot(elbow(phi_start = 0.5))</code>. With <code>fixedStart = true</code> the simulation begins there; with

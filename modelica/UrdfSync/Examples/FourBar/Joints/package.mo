@@ -1,0 +1,12 @@
+within UrdfSync.Examples.FourBar;
+
+package Joints "Joints of robot FourBar"
+  extends UrdfSync.Icons.JointsPackage;
+
+  annotation (
+    Documentation(info="<html>
+<p>
+One model and one record of numbers per joint.
+</p>
+</html>"));
+end Joints;
