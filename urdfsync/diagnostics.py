@@ -95,7 +95,7 @@ class UrdfsyncError(Exception):
     """Base of all errors that a user can cause; carries the diagnostics that explain it."""
 
     is_locked = False
-    """Whether another process is at work on the same: exit code 4 instead of 2."""
+    """Whether another process is at work on the same; the exit code is 4 then, not 2."""
 
     def __init__(self, *diagnostics: Diagnostic) -> None:
         super().__init__(*diagnostics)  # by which it is pickled, when a worker of a pool raises it
