@@ -262,7 +262,7 @@ def record(
     from urdfsync.engine.generate import Package
 
     source, target, form = Path(source), _target(class_, within, Path(source)), registry.domain(domain)
-    text = sources.read_file_source(source, arguments or {}, configuration.ros_package_path(os.environ))
+    text = sources.read_file_source(form, source, arguments or {}, configuration.ros_package_path(os.environ))
     with text.locating():
         snapshot, reading = sources.read(form, form.permissive_options(), text.content, text.name)
     reading = msgspec.structs.replace(reading, snapshot=snapshot)

@@ -465,6 +465,17 @@ class Domain(Protocol):
 
     # Files that a source refers to
 
+    def beside(self, source: Path) -> Path | None:
+        """Return the file that may stand beside a source and say more of the model; None if this format has none."""
+        return None
+
+    def join(self, content: bytes, other: bytes, file: str) -> tuple[bytes, Sequence[tuple[int, int]]]:
+        """Return a source with further lines for what the file beside it says, and the numbers of each, here and there.
+
+        `file` is how diagnostics name it. Raises SourceError if it can't be read.
+        """
+        return content, ()
+
     def dependencies(
         self, snapshot: Snapshot, lookup: Lookup, options: Any, lines: Mapping[str, int]
     ) -> Sequence[Dependency]:

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 import msgspec
 
+from urdfsync import registry
 from urdfsync.config import Config, RobotConfig, templates_folder
 from urdfsync.config.trust import find_untrusted_command
 from urdfsync.dependencies import is_file, is_folder, mark_incomplete, read_file, read_unrecorded
@@ -84,7 +85,10 @@ class Source(msgspec.Struct, frozen=True):
         """Return a message with files and lines in the place of the lines that it names."""
 
         def replace(match: re.Match[str]) -> str:
-            places = dict.fromkeys(self._place(int(line)) for line in match[2].split(", "))
+            lines = [int(line) for line in match[2].split(", ")]
+            if all(self._place(line) == (self.name, line) for line in lines):
+                return match[0]
+            places = dict.fromkeys(map(self._place, lines))
             return f"{match[1]} {', '.join(f'{file}:{line}' for file, line in places)}"
 
         return _LINES.sub(replace, text)
@@ -107,7 +111,7 @@ def read_source(config: Config, robot: RobotConfig, store: Store, options: Build
     if not robot.command:
         content = _read(config, robot)  # says what is wrong with a file that xacro can't read
         if robot.arguments is None and not is_xacro(robot.source, content):
-            return Source(content, shown(robot.source))
+            return _with_file_beside(registry.domain(robot.domain), robot.source, content)
     from urdfsync.engine import expansion  # 5 ms, and few robots need it
 
     inputs = expansion.Inputs(config.root, robot.source, (*robot.package_paths, *options.package_paths))
@@ -146,7 +150,22 @@ def _expand(config: Config, robot: RobotConfig, inputs: Inputs, options: BuildOp
     return made
 
 
-def read_file_source(file: Path, arguments: Mapping[str, str], package_paths: Sequence[Path]) -> Source:
+def _with_file_beside(domain: Domain, source: Path, content: bytes) -> Source:
+    """Return a source that may have a file beside it. Raises SourceError."""
+    path = domain.beside(source)
+    return joined(domain, content, shown(source), read_file(path) if path and is_file(path) else b"", path)
+
+
+def joined(domain: Domain, content: bytes, name: str, other: bytes, path: Path | None) -> Source:
+    """Return a source with what the file beside it says, at `path`. Raises SourceError."""
+    text, lines = domain.join(content, other, shown(path)) if path and other else (content, ())
+    if not lines:
+        return Source(content, name)
+    own = [(line, name, line) for line in range(1, lines[0][0])]
+    return Source(text, name, (*own, *((line, shown(path), other_line) for line, other_line in lines)))  # type: ignore[arg-type] # there is a path
+
+
+def read_file_source(domain: Domain, file: Path, arguments: Mapping[str, str], package_paths: Sequence[Path]) -> Source:
     """Read a source that is no robot's, with these arguments if it is xacro. Raises SourceError."""
     try:
         content = read_unrecorded(file)
@@ -154,7 +173,7 @@ def read_file_source(file: Path, arguments: Mapping[str, str], package_paths: Se
         message, hint = f"the source can't be read: {error.strerror}", "name a file that is there and may be read"
         raise SourceError.of("no-source", message, shown(file), hint=hint) from None
     if not is_xacro(file, content):
-        return Source(content, shown(file))
+        return _with_file_beside(domain, file, content)
     from urdfsync.engine import expansion
 
     inputs = expansion.Inputs(file.absolute().parent, file.absolute(), package_paths)

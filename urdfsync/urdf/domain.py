@@ -38,6 +38,7 @@ from urdfsync.urdf.loop_findings import find_loop_findings
 from urdfsync.urdf.meshes.lookup import COLORLESS, TEXTURED, dependencies, mentioned_files, mesh
 from urdfsync.urdf.names import identify
 from urdfsync.urdf.options import LeftOut, Options
+from urdfsync.urdf.parse import beside
 from urdfsync.urdf.parse.fields import located
 from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.plausibility import find_implausible
@@ -84,6 +85,14 @@ class UrdfDomain(Domain):
         elif any(finding.is_fault and finding.loop not in stated for finding in findings):
             return Reading(None, diagnostics, lines)
         return Reading(to_snapshot(robot), diagnostics, lines)
+
+    def beside(self, source: Path) -> Path:
+        """Return the YAML with the loops of a robot."""
+        return source.with_suffix(".yaml")
+
+    def join(self, content: bytes, other: bytes, file: str) -> tuple[bytes, Sequence[tuple[int, int]]]:
+        """Return the URDF with the loops, motors and joints of that YAML."""
+        return beside.join(content, other, file)
 
     def cross_check(self, content: bytes, file: str) -> Sequence[Diagnostic]:
         """Return the differences from the links, joints and poses that yourdfpy reads."""

@@ -185,7 +185,7 @@ def _with_version(
         source, file = robot.source, folder / against
         arguments, folders = robot.arguments or {}, (*robot.package_paths, *options.package_paths)
         if file.is_file():
-            other = _VersionedSource(source_files.read_file_source(file, arguments, folders), (file, source))
+            other = _VersionedSource(source_files.read_file_source(domain, file, arguments, folders), (file, source))
         else:
             revision = Revision(source.parent, against)
             text = _in_revision(revision, robot, config)
@@ -193,7 +193,7 @@ def _with_version(
         if config and not robot.command:  # it may be expanded already
             text = source_files.read_source(config, robot, Store(config.root), options)
         else:
-            text = source_files.read_file_source(source, arguments, folders)
+            text = source_files.read_file_source(domain, source, arguments, folders)
         current = _VersionedSource(text, (source,))
         new, imported, told = _read(domain, robot, current, imports.Imported(), options)
         old, imported_before, told_before = _read(domain, robot, other, imported, options)
@@ -231,7 +231,10 @@ def _in_revision(revision: Revision, robot: RobotConfig, config: Config | None) 
     if config is None or not (robot.arguments is not None or source_files.is_xacro(robot.source, b"")):
         content = revision.read(robot.source)
         if config is None or not source_files.is_xacro(robot.source, content):
-            return Source(content, label)
+            domain = registry.domain(robot.domain)
+            beside = domain.beside(robot.source)
+            other = revision.read(beside) if beside and revision.holds(beside) else b""
+            return source_files.joined(domain, content, label, other, beside)
     path = Store(config.root).expansion(robot.name)
     if (recorded := expansion.loads(revision.read(path))) is None:
         message, hint = "the expanded source can't be read", "name a revision with a complete build"

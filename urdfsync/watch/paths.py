@@ -43,7 +43,8 @@ def find_robot_paths(
 ) -> RobotPaths:
     """Return the paths of a robot as far as the last build recorded them; of one that failed, what its error names."""
     store, patterns = Store(config.root), set(error.patterns if error else ())
-    inputs = {str(config.file), str(robot.source), *(error.reads if error else ())}
+    beside = registry.domain(robot.domain).beside(robot.source)
+    inputs = {str(config.file), str(robot.source), *(error.reads if error else ()), *([str(beside)] if beside else [])}
     outputs = {*parents.files(robot), str(store.path(robot.name))}
     with contextlib.suppress(UrdfsyncError, OSError):  # told by the build
         state = store.load(robot.name)

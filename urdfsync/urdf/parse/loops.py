@@ -16,6 +16,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from xml.etree.ElementTree import Element
 
 import msgspec
+from msgspec.structs import replace
 
 from urdfsync.urdf import validate
 from urdfsync.urdf.kinematics.poses import Matrix, Pose, compose, link_poses, pose
@@ -71,6 +72,8 @@ def read_loops(reader: Reader, root: Element, robot: Robot, options: Options) ->
     poses: Mapping[str, Pose] | None = None
     loops = list[Loop]()
     elements = list(find_loop_elements(root))
+    links = {link.name for link in robot.links}
+    ends = {joint.name: joint.child for joint in robot.joints if joint.name not in links}
     names = [element.get("name") or f"loop_{number}" for number, element in enumerate(elements, start=1)]
     for element, name, path in zip(elements, names, validate.element_paths("loop", names), strict=True):
         reader.place(element, path)
@@ -82,8 +85,12 @@ def read_loops(reader: Reader, root: Element, robot: Robot, options: Options) ->
             loop = read(reader, element, path, name)
         if loop is not None:
             loops.append(loop)
+    # a frame may be that of a joint, which is that of its child
+    loops = [
+        replace(loop, parent=ends.get(loop.parent, loop.parent), child=ends.get(loop.child, loop.child))
+        for loop in loops
+    ]
     loops += _frames_by_name(reader, robot.links)
-    links = {link.name for link in robot.links}
     reader.extend(validate.check_loops(loops, links))
     configured = configured_loops(options.loops)
     faulty = {finding.path.removeprefix("loop ") for finding in validate.check_loops(configured, links)}
@@ -115,7 +122,7 @@ def _ends(loop: Loop) -> frozenset[tuple[str, Origin]]:
 
 def _unit(loop: Loop) -> Loop:
     axes = validate.unit_vector(loop.axis), validate.unit_vector(loop.child_axis)
-    return msgspec.structs.replace(loop, axis=axes[0], child_axis=axes[1])
+    return replace(loop, axis=axes[0], child_axis=axes[1])
 
 
 def _kind(reader: Reader, element: Element, path: str) -> LoopKind | None:

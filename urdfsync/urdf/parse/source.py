@@ -18,6 +18,7 @@ from urdfsync.diagnostics import Diagnostic, cut
 from urdfsync.urdf import validate
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.parse import xml
+from urdfsync.urdf.parse.beside import split_joints
 from urdfsync.urdf.parse.contacts import read_contacts
 from urdfsync.urdf.parse.drives import configured_drives, read_drives, with_drives
 from urdfsync.urdf.parse.elements import read_joint, read_link, read_material, resolve_materials
@@ -171,9 +172,10 @@ def _read(reader: Reader, document: xml.Document, options: Options) -> Robot:
     by_path = dict(zip(validate.element_paths("link", [link.name for link in links]), links, strict=True))
     defined = {material.get("name", "") for material in root.iter("material") if len(material)}
     links_with_materials = resolve_materials(reader, by_path, materials, defined)
+    linked, joints = split_joints(reader, root, links_with_materials, joints)
     sensors = read_sensors(reader, root, {link.name for link in links}, joints) if complete else ()
     extensions = tuple(Extension(owner, part.tag, xml.canonical(part)) for owner, part in reader.unmodelled())
-    robot = Robot(name, links_with_materials, tuple(joints), extensions, sensors)
+    robot = Robot(name, tuple(linked), tuple(joints), extensions, sensors)
     reader.extend(validate.check(robot, complete=complete))
     if complete:  # else the joint that a transmission names may be one of those left out
         names = {joint.name for joint in joints}

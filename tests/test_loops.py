@@ -1,0 +1,100 @@
+"""A robot with a loop in step: stated in the configuration or beside the URDF, renamed, moved, removed, and edited."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from support.commands import Execute
+from support.urdfs import joint, link, robot
+
+URDF = robot(
+    *(link("base"), link("crank", 1.0), link("rod", 1.0), link("rocker", 1.0)),
+    joint("drive", "continuous", "base", "crank", xyz="0 0 0", rpy="0 0 0", axis="0 0 1"),
+    joint("elbow", "continuous", "crank", "rod", xyz="0.3 0.1 0", rpy="0 0 0", axis="0 0 1"),
+    joint("pivot", "continuous", "base", "rocker", xyz="0.5 0 0", rpy="0 0 0", axis="0 0 1"),
+)
+CONFIGURATION = """[robots.bars]
+source = "bars.urdf"
+package = "Bars"
+output = "modelica"
+"""
+LOOP = """
+[[robots.bars.loops]]
+name = "closing"
+kind = "revolute"
+frames = [{link = "rod", xyz = [0.4, 0.2, 0]}, {link = "rocker", xyz = [0.2, 0.3, 0]}]
+"""
+RECORD, MODEL = "modelica/Bars/Joints/ClosingParameters.mo", "modelica/Bars/Joints/Closing.mo"
+
+
+@pytest.fixture
+def project(folder: Path, execute: Execute) -> Path:
+    (folder / "bars.urdf").write_text(URDF)
+    (folder / "urdfsync.toml").write_text(CONFIGURATION + LOOP)
+    execute("build")
+    return folder
+
+
+def configure(project: Path, old: str, new: str) -> None:
+    text = (project / "urdfsync.toml").read_text()
+    assert old in text
+    (project / "urdfsync.toml").write_text(text.replace(old, new))
+
+
+def test_an_edit_and_another_place_of_the_pivot_meet(project: Path, execute: Execute) -> None:
+    model = (project / MODEL).read_text()
+    (project / MODEL).write_text(model.replace("equation", "  Real mine = constraint.f[1];\n\nequation"))
+    configure(project, "0.2, 0.3, 0]", "0.2, 0.301, 0]")
+    assert "loop closing" in execute("diff", code=1).out
+    execute("build")
+    assert "0.301" in (project / RECORD).read_text()
+    assert "mine" in (project / MODEL).read_text()
+
+
+def test_a_loop_that_is_renamed_takes_its_edits_along(project: Path, execute: Execute) -> None:
+    record = (project / RECORD).read_text()
+    (project / RECORD).write_text(record.replace('name = "closing"', 'name = "closing" "Bolt M6"'))
+    configure(project, 'name = "closing"', 'name = "hinge"')
+    execute("build")
+    assert not (project / RECORD).exists()
+    assert "Bolt M6" in (project / "modelica/Bars/Joints/HingeParameters.mo").read_text()
+
+
+def test_a_loop_that_is_removed_takes_its_files_along(project: Path, execute: Execute) -> None:
+    (project / "urdfsync.toml").write_text(CONFIGURATION)
+    execute("build")
+    assert not (project / MODEL).exists()
+    assert "closing" not in (project / "modelica/Bars/Bars.mo").read_text()
+
+
+@pytest.mark.parametrize(("old", "new", "words"), [
+    ('link = "rocker"', 'link = "rockr"', "urdfsync.toml:6: error: robot `bars`: loop 'closing' has a frame on link"),
+    ('link = "rocker"', 'link = "rod"', "has both frames on link 'rod'"),
+    ("0.2, 0.3, 0]", "2, 3, 0]", "loop 'closing' cannot be closed"),
+    ('"revolute"', '"prismatic"', "urdfsync.toml:6: error"),
+])  # fmt: skip
+def test_a_fault_stops_the_build_with_its_line(project: Path, execute: Execute, old: str, new: str, words: str) -> None:
+    configure(project, old, new)
+    assert words in execute("build", code=2).err
+
+
+def test_a_link_that_the_next_export_lacks_is_told(project: Path, execute: Execute) -> None:
+    (project / "bars.urdf").write_text(URDF.replace("rocker", "lever"))
+    assert "'rocker', which does not exist" in execute("build", code=2).err
+
+
+def test_the_yaml_beside_a_urdf_is_watched_and_compared(project: Path, execute: Execute) -> None:
+    yaml, ends = project / "bars.yaml", [link("a"), link("b")]
+    ends += [joint("fa", "fixed", "rod", "a", xyz="0.4 0.2 0", rpy="0 0 0")]
+    ends += [joint("fb", "fixed", "rocker", "b", xyz="0.2 0.3 0", rpy="0 0 0")]
+    (project / "urdfsync.toml").write_text(CONFIGURATION)
+    (project / "bars.urdf").write_text(URDF.replace("</robot>", "\n".join([*ends, "</robot>"])))
+    yaml.write_text("closed_loop: [[a, b]]\ntype: ['3d']\n")
+    execute("build")
+    assert (project / "modelica/Bars/Joints/A_b.mo").exists()
+    execute("build", "--check")
+    yaml.write_text("closed_loop: [[a, b]]\ntype: ['6d']\n")
+    assert "kind" in execute("diff", code=1).out
+    yaml.write_text("closed_loop: [[a, x]]\ntype: ['6d']\n")
+    assert "bars.yaml:1: error: loop 'a_x' has a frame on link 'x'" in execute("build", code=2).err

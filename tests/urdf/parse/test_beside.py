@@ -1,0 +1,63 @@
+"""The YAML beside a URDF: its loops, motors and joints are read as if the URDF had them, at the lines of the YAML."""
+
+from __future__ import annotations
+
+import pytest
+from support.urdfs import joint, link, robot
+
+from urdfsync.diagnostics import SourceError
+from urdfsync.urdf.parse.beside import join
+from urdfsync.urdf.parse.source import read_robot
+
+URDF = robot(
+    *(link("base"), link("a", 1.0), link("b", 1.0), link("c", 1.0)),
+    joint("m", "continuous", "base", "a", xyz="0 0 0", rpy="0 0 0", axis="0 0 1"),
+    joint("e", "continuous", "a", "b", xyz="0.3 0.1 0", rpy="0 0 0", axis="0 0 1"),
+    joint("p", "continuous", "base", "c", xyz="0.5 0 0", rpy="0 0 0", axis="0 0 1"),
+    *(link("tip_A"), link("tip_B")),
+    joint("fa", "fixed", "b", "tip_A", xyz="0.4 0.2 0", rpy="0 0 0"),
+    joint("fb", "fixed", "c", "tip_B", xyz="0.2 0.3 0", rpy="0 0 0"),
+).encode()
+YAML = b"""closed_loop: [['tip_A', 'tip_B']]
+type: ['6d']
+name_mot: ['m']
+joint_name: ['e']
+joint_type: [SPHERICAL]
+"""
+
+
+def test_loops_motors_and_joints_are_as_the_yaml_says() -> None:
+    text, places = join(URDF, YAML, "a.yaml")
+    reading = read_robot(text, "a.urdf")
+    assert reading.robot is not None
+    (loop,) = reading.robot.loops
+    assert (loop.kind, loop.parent, loop.child) == ("fixed", "tip_A", "tip_B")
+    joints = {joint.name: joint for joint in reading.robot.joints}
+    assert joints["m"].actuated
+    assert [(joints[f"e_{axis}"].parent, joints[f"e_{axis}"].child) for axis in "xyz"] == [
+        ("a", "e_x"),
+        ("e_x", "e_y"),
+        ("e_y", "b"),
+    ]
+    assert joints["e_y"].axis == (0.0, 1.0, 0.0)
+    assert dict(places)[reading.lines["loop tip_A_tip_B"]] == 1
+    assert dict(places)[reading.lines["joint e_x"]] == 4
+
+
+def test_another_yaml_says_nothing() -> None:
+    assert join(URDF, b"controller: {gain: 3}\n", "a.yaml") == (URDF, ())
+
+
+@pytest.mark.parametrize(("yaml", "line", "words"), [
+    (b"a: 1\nclosed_loop: [[x, y]\ntype: ['6d']\n", 3, "expected"),
+    (b"a: 1\nclosed_loop: [[x, y]]\ntype: []\n", 2, "it has 1 loops and 0 types"),
+    (b"closed_loop: [[x, y]]\ntype: ['5d']\n", 1, "the type '5d' is none of 3d, 6d"),
+    (b"closed_loop: [[x]]\ntype: ['6d']\n", 1, "not enough values"),
+    (b"closed_loop: 5\ntype: ['6d']\n", 1, ""),
+])  # fmt: skip
+def test_a_fault_is_one_line(yaml: bytes, line: int, words: str) -> None:
+    with pytest.raises(SourceError) as raised:
+        join(URDF, yaml, "a.yaml")
+    (error,) = raised.value.diagnostics
+    assert (error.file, error.line) == ("a.yaml", line)
+    assert words in error.message

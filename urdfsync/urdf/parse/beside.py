@@ -1,0 +1,111 @@
+"""The YAML that the collection `example-parallel-robots` keeps beside a URDF, as elements at the end of the URDF.
+
+    closed_loop: [[FRAME, FRAME], …]          pairs of links
+    type: [3d | 6d, …]                        a ball or a fixed joint for each pair
+    name_mot: [JOINT, …]                      the joints that have a motor
+    joint_name: [JOINT, …]                    joints that URDF has no type for, each with
+    joint_type: [SPHERICAL | UJOINT_XY | FIXED, …]
+
+So its lines are known, and all that reads the URDF reads them as well. A joint of more than one axis becomes a chain.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+from xml.etree.ElementTree import Element
+from xml.sax.saxutils import quoteattr
+
+import msgspec
+
+from urdfsync.diagnostics import SourceError
+from urdfsync.urdf.parse.fields import Reader
+from urdfsync.urdf.robot import Joint, Link, Origin, Vector
+
+AXES = "joint_axes"
+"""Element of a joint that turns about other axes than URDF says, one after the other: `<joint_axes joint axes>`."""
+_KINDS = {"3d": "ball", "6d": "fixed"}
+_TYPES = {
+    "FIXED": "",
+    "SPHERICAL": "xyz",
+    **{f"UJOINT_{a}{b}": f"{a}{b}".lower() for a in "XYZ" for b in "XYZ" if a != b},
+}
+_MARK = b"closed_loop"
+_DIRECTIONS: dict[str, Vector] = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
+
+
+def join(content: bytes, other: bytes, file: str) -> tuple[bytes, Sequence[tuple[int, int]]]:
+    """Return a URDF with the elements that a YAML stands for before its last tag, and each one's line here and there.
+
+    Another YAML adds nothing. Raises SourceError for one that can't be read.
+    """
+    end = content.rfind(b"</robot")
+    if _MARK not in other or end < 0:
+        return content, ()
+    import yaml  # 20 ms, and few robots need it
+
+    try:
+        document = yaml.compose(other, yaml.SafeLoader)
+        elements = list(_elements(document)) if document else []
+    except (yaml.YAMLError, AttributeError, TypeError, ValueError) as error:
+        mark = getattr(error, "problem_mark", None)
+        line = mark.line + 1 if mark else other.count(b"\n", 0, other.find(_MARK)) + 1
+        message = f"this is no list of loops: {getattr(error, 'problem', None) or error}"
+        hint = "write `closed_loop: [[FRAME, FRAME]]` and `type: [6d]`"
+        raise SourceError.of("loops-file", message, file, line, hint=hint) from None
+    lines = "".join(f"\n{element}" for element, _ in elements).encode()
+    first = content.count(b"\n", 0, end) + 2
+    places = [(number, line) for number, (_, line) in enumerate(elements, first)]
+    return content[:end] + lines + b"\n" + content[end:], places
+
+
+def _elements(document: Any) -> Iterator[tuple[str, int]]:
+    """Yield each element, and its line in the YAML."""
+    parts = {key.value: value.value for key, value in document.value}
+    pairs, kinds = parts.get("closed_loop", []), parts.get("type", [])
+    if len(pairs) != len(kinds):
+        raise ValueError(f"it has {len(pairs)} loops and {len(kinds)} types")
+    for pair, kind in zip(pairs, kinds, strict=True):
+        first, second = (quoteattr(end.value) for end in pair.value)
+        if kind.value.lower() not in _KINDS:
+            raise ValueError(f"the type {kind.value!r} is none of {', '.join(_KINDS)}")
+        name = quoteattr(f"{pair.value[0].value}_{pair.value[1].value}")
+        ends = f"<link1 link={first}/><link2 link={second}/>"
+        kind_name = _KINDS[kind.value.lower()]
+        yield f'<loop_joint name={name} type="{kind_name}">{ends}</loop_joint>', pair.start_mark.line + 1
+    for joint in parts.get("name_mot", []):
+        name = quoteattr(joint.value)
+        yield f"<transmission name={name}><joint name={name}/></transmission>", joint.start_mark.line + 1
+    for joint, kind in zip(parts.get("joint_name", []), parts.get("joint_type", []), strict=True):
+        if kind.value not in _TYPES:
+            raise ValueError(f"the joint type {kind.value!r} is none of {', '.join(_TYPES)}")
+        yield f'<{AXES} joint={quoteattr(joint.value)} axes="{_TYPES[kind.value]}"/>', joint.start_mark.line + 1
+
+
+def split_joints(
+    reader: Reader, root: Element, links: Sequence[Link], joints: Sequence[Joint]
+) -> tuple[Sequence[Link], list[Joint]]:
+    """Return links and joints with a chain in place of each joint that turns about several axes, or about none."""
+    axes = {element.get("joint", ""): element for element in root.findall(AXES)}
+    reader.used.update(axes.values())
+    for name, element in axes.items():
+        if name not in {joint.name for joint in joints}:
+            reader.add(element, "unknown-reference", f"there is no joint {name!r} to turn about other axes")
+    added, result = list[Link](), list[Joint]()
+    for joint in joints:
+        letters = axes[joint.name].get("axes", "") if joint.name in axes else None
+        if letters is None:
+            result.append(joint)
+        elif not letters:
+            result.append(msgspec.structs.replace(joint, type="fixed", limit=None, dynamics=None))
+        else:
+            names = [f"{joint.name}_{letter}" for letter in letters]
+            ends = [joint.parent, *names[:-1], joint.child]
+            added += map(Link, names[:-1])
+            origins = [joint.origin, *[Origin()] * (len(letters) - 1)]
+            for k, letter in enumerate(letters):
+                reader.place(axes[joint.name], f"joint {names[k]}")
+                reader.place(axes[joint.name], f"link {names[k]}")
+                chain = Joint(names[k], "continuous", ends[k], ends[k + 1], origins[k], _DIRECTIONS[letter])
+                result.append(msgspec.structs.replace(chain, measured=True))
+    return (*links, *added), result
