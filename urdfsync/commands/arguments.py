@@ -178,15 +178,18 @@ def call(
     """
     loaded = configuration(args)
     robots = select_robots(args, loaded, console)
-    chosen = {name: value for name, value in vars(args).items() if name in kind.__struct_fields__}
-    given |= {"config": loaded, "progress": console.progress}
-    return function(*(robot.name for robot in robots), **chosen | given)
+    given = {**chosen(kind, args), **given, "config": loaded, "progress": console.progress}
+    return function(*(robot.name for robot in robots), **given)
 
 
 def request(args: argparse.Namespace, console: Console, **options: Any) -> BuildOptions:
     """Return how to build, as the arguments and `options` say."""
-    chosen = {name: value for name, value in vars(args).items() if name in BuildOptions.__struct_fields__}
-    return options_of(BuildOptions, progress=console.progress, **chosen | options)
+    return options_of(BuildOptions, progress=console.progress, **{**chosen(BuildOptions, args), **options})
+
+
+def chosen(kind: type[msgspec.Struct], args: argparse.Namespace) -> dict[str, Any]:
+    """Return the options of a kind that are arguments of the same names."""
+    return {name: value for name, value in vars(args).items() if name in kind.__struct_fields__}
 
 
 def split_sources(texts: Sequence[str], parser: argparse.ArgumentParser) -> tuple[list[Path], dict[str, str]]:

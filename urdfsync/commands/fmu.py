@@ -69,8 +69,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     if args.output:
         check_file(args.output, input_files(configuration, robot, args.motion))
     (tool,) = chosen_tools(configuration, "omc", trusted=args.trusted)
-    chosen = {name: value for name, value in vars(args).items() if name in SimulateOptions.__struct_fields__}
-    options = options_of(SimulateOptions, tool=tool, **chosen)
+    options = options_of(SimulateOptions, tool=tool, **arguments.chosen(SimulateOptions, args))
     kind = Export(_VERSIONS[args.fmi], _EXPORTED[args.kind])
     exported = export(configuration, robot, options, kind, console.progress, for_trial=args.check)
     file = args.output or _default_file(exported)
