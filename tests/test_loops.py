@@ -73,6 +73,7 @@ def test_a_loop_that_is_removed_takes_its_files_along(project: Path, execute: Ex
     ('link = "rocker"', 'link = "rod"', "has both frames on link 'rod'"),
     ("0.2, 0.3, 0]", "2, 3, 0]", "loop 'closing' cannot be closed"),
     ('"revolute"', '"prismatic"', "urdfsync.toml:6: error"),
+    ('output = "modelica"', 'output = "modelica"\napproach = ["record"]', "[loops-not-in-record]"),
 ])  # fmt: skip
 def test_a_fault_stops_the_build_with_its_line(project: Path, execute: Execute, old: str, new: str, words: str) -> None:
     configure(project, old, new)

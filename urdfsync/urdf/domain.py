@@ -51,7 +51,7 @@ WARNINGS = frozenset(
         *(code for code, (severity, _) in ADVICE.items() if severity is not Severity.ERROR),
         *("floating-not-generic", "moves-no-mass", "name-repeated", "passive-joints", "passive-moves-no-mass"),
         *("mesh-guessed", "mesh-not-found", "mesh-not-found-kept", "mesh-unreadable", "mesh-unreadable-kept"),
-        *("mass-jump", "mesh-colors", "not-in-record", "planar-not-generic", "texture"),
+        *("loops-not-in-record", "mass-jump", "mesh-colors", "not-in-record", "planar-not-generic", "texture"),
     }
 )
 
@@ -150,6 +150,10 @@ class UrdfDomain(Domain):
         dependent = dependent_joints(tree, options) if tree else frozenset[str]()
         joints = joints_of(snapshot["joints"])
         yield from option_names.check_options(snapshot["links"], joints, options, dependent)
+        if "record" in options.approach and snapshot.get("loops"):
+            message = "the record approach has no loops: the generic robot would be open"
+            hint = 'take "record" out of `approach`'
+            yield "approach", Diagnostic(Severity.ERROR, "loops-not-in-record", message, hint=hint)
         if options.loops:
             yield from option_names.check_loops(snapshot["links"], options)
             stated = {loop.name for loop in options.loops}

@@ -57,6 +57,10 @@ def out_of_scope(tree: KinematicTree, file: str, lines: Mapping[str, int]) -> It
     def warning(code: str, message: str, hint: str, element: str) -> Diagnostic:
         return Diagnostic(Severity.WARNING, code, message, file, lines.get(element, 0), hint=hint)
 
+    if tree.loops:
+        message = "the generic robot has no loops, and is open in the record"
+        hint = "generate a package for it"
+        yield warning("loops-not-in-record", message, hint, f"loop {tree.loops[0].name}")
     unfit = obstacles(tree.joints)
     for joint in unfit:
         message = (
