@@ -124,14 +124,14 @@ def modelica_library() -> Iterator[Path]:
 
     Checks in this process parse its files once: each would do that for a second.
     """
-    from urdfsync.checks import names
+    from urdfsync.modelica.files import parse_file
 
     try:
         folder = find_standard_library(os.environ).parts["Modelica"].parent
     except LibraryError:
         pytest.skip(NO_LIBRARY)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(names, "parse_file", functools.cache(names.parse_file))
+        patch.setattr("urdfsync.checks.names.parse_file", functools.cache(parse_file))
         yield folder
 
 
