@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
+import psutil
 import pytest
 from support import checks
 from support.checks import act
@@ -49,6 +50,22 @@ def test_progress_is_told_until_the_end() -> None:
     told: list[int] = []
     assert run(act, "one", limits=limits(), progress=lambda: told.append(1)) == ["one"]
     assert told
+
+
+def test_what_a_process_has_started_ends_with_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    looks: list[list[psutil.Process]] = []
+
+    def progress() -> None:
+        if Path("started").exists():
+            looks.append(psutil.Process().children(recursive=True))
+        if len(looks) == 2:  # the process was looked at in between
+            Path("seen").touch()
+
+    assert run(act, "start", limits=limits(600), progress=progress) == ["start"]
+    _, alive = psutil.wait_procs(looks[0], timeout=60)
+    assert [child for child in alive if child.status() != psutil.STATUS_ZOMBIE] == []
+    assert len(looks[0]) == 2
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no such signals")

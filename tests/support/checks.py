@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+import subprocess
 import sys
 import time
 from collections.abc import Iterator
@@ -57,6 +58,11 @@ def act(*deeds: str) -> Iterator[str]:
                 memory = bytearray(400_000_000)
                 time.sleep(1)
                 del memory
+            case "start":
+                subprocess.Popen([sys.executable, "-c", "import time; time.sleep(600)"])
+                Path("started").touch()
+                while not Path("seen").exists():
+                    time.sleep(0.01)
             case "print":
                 os.write(1, b"noise")
             case "abort":

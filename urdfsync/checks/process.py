@@ -119,11 +119,11 @@ def _wait(
             process.wait(_INTERVAL)
             return
         used = 0
-        with contextlib.suppress(psutil.Error):  # it has just ended
-            started.update(psutil.Process(process.pid).children(recursive=True))
         for child in psutil.Process().children(recursive=True):  # what other threads have started counts as well
-            with contextlib.suppress(psutil.Error):
+            with contextlib.suppress(psutil.Error):  # it has just ended
                 used += child.memory_info().rss
+                if process.pid in [parent.pid for parent in child.parents()]:
+                    started.add(child)
         limits.peak = max(limits.peak, used)
         if time.monotonic() >= limits.deadline:
             message = f"{limits.owner} takes more than {limits.seconds:g} s"

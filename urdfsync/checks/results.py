@@ -115,7 +115,7 @@ class ToolResult(msgspec.Struct):
     """The effects of the user's edits, each apart where that can be told."""
     seconds: float = 0.0
     megabytes: float = 0.0
-    """The most memory that its processes took together, looked at ten times a second."""
+    """The most memory that its processes took together, looked at four times a second."""
     times: tuple[TrialTime, ...] = ()
     """Those of the comparison, if the compiler tells them."""
 
@@ -149,7 +149,7 @@ class CheckResult(msgspec.Struct):
     seconds: float = 0.0
     """From beginning to end."""
     megabytes: float = 0.0
-    """The most memory that its processes took together, looked at ten times a second."""
+    """The most memory that its processes took together, looked at four times a second."""
     folder: str = ""
     """The package's folder, as people see it; empty if the check did not come that far."""
     reference: str = ""
