@@ -112,10 +112,8 @@ def package_texts(folder: Path, top: Path | None = None, without: Collection[Pat
                     with contextlib.suppress(FileNotFoundError):  # somebody deletes it at this moment
                         texts[path.relative_to(top or folder).as_posix()] = read_unrecorded(path)
     except OSError as error:
-        message, hint = (
-            f"the package can't be read: {error.strerror or error}",
-            "check the permissions of file and folder",
-        )
+        message = f"the package can't be read: {error.strerror or error}"
+        hint = "check the permissions of file and folder"
         file = shown(Path(os.fsdecode(error.filename))) if error.filename else ""
         raise OutputError(Diagnostic(Severity.ERROR, "unreadable", message, file, hint=hint)) from error
     return texts

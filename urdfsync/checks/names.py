@@ -104,12 +104,8 @@ def _diagnostic(package: RobotPackage, file: Path, places: Sequence[Unresolved])
         first, *rest = earliest.name.split(".")
         hint = f"write `{first}({'('.join(rest)} = …{')' * len(rest)}`, which every tool follows"
     else:
-        severity, code, hint = (
-            Severity.ERROR,
-            "unresolved",
-            f"did you mean `{earliest.meant}`?" if earliest.meant else "",
-        )
-        message = earliest.message
+        severity, code, message = Severity.ERROR, "unresolved", earliest.message
+        hint = f"did you mean `{earliest.meant}`?" if earliest.meant else ""
         if earliest.kind is UnresolvedKind.ELEMENT:
             robot, snapshot = package.robot, package.generation.now.snapshot
             if earliest.owner in [f"{robot.target.package}.{model}" for model in package.models]:
@@ -119,9 +115,8 @@ def _diagnostic(package: RobotPackage, file: Path, places: Sequence[Unresolved])
                 hint = brings_back(option) or hint
     lines = sorted({place.line for place in places} - {earliest.line})
     also = f"also in line{'s' if len(lines) > 1 else ''} {listed([*map(str, lines)])}" if lines else ""
-    if not file.is_relative_to(files.folder):
-        hint = "; ".join(filter(None, (hint, also)))
-        return Diagnostic(severity, code, message, shown(file), earliest.line, hint=hint)
-    path = file.relative_to(files.folder).as_posix()
+    path = file.relative_to(files.folder).as_posix() if file.is_relative_to(files.folder) else ""
     hint = "; ".join(filter(None, (hint, also, files.by_hand(path))))
-    return files.diagnostic(severity, code, message, path, earliest.line, hint=hint)
+    if path:
+        return files.diagnostic(severity, code, message, path, earliest.line, hint=hint)
+    return Diagnostic(severity, code, message, shown(file), earliest.line, hint=hint)

@@ -121,19 +121,17 @@ def complaints(problem: str) -> list[Complaint]:
         words = one_line(problem[message.end() : end])
         if _BUILDS.search(words):
             words = f"{words}; OpenModelica needs a C compiler, make, and for FMUs cmake: install them"
+        place = Complaint("", message["file"] or "", int(message["line"] or 0), int(message["column"] or 0))
         if message["level"] == "Notification":
             if words == "From here:":
-                origin = Complaint("", message["file"] or "", int(message["line"] or 0), int(message["column"] or 0))
+                origin = place
             continue
         if result and not message["file"] and words.startswith(_UNITS_GO_ON):
             result[-1] = msgspec.structs.replace(result[-1], message=f"{result[-1].message}; {words}")
             continue
-        place = origin.file or message["file"] or "", origin.line or int(message["line"] or 0)
-        column = origin.column or int(message["column"] or 0)
-        code = (
-            "units" if _UNITS in words else "compiler-warning" if message["level"] == "Warning" else "does-not-compile"
-        )
-        result.append(Complaint(words, *place, column, code))
+        code = "compiler-warning" if message["level"] == "Warning" else "does-not-compile"
+        code = "units" if _UNITS in words else code
+        result.append(msgspec.structs.replace(origin if origin.file else place, message=words, code=code))
         origin = Complaint("")
     result = [complaint for complaint in result if not _FOLLOWS.match(complaint.message)] or result
     return result or ([Complaint(one_line(problem))] if problem.strip() and not messages else [])

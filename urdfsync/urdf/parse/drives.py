@@ -250,8 +250,7 @@ def _with_drives(reader: Reader, joint: Joint, drives: list[Drive]) -> Joint:
 
     place = f"joint {joint.name} / mimic"
     if joint.mimic:
-        drives.append(Drive(place, joint.name, mimic=joint.mimic, is_driven=False))
-        drives.sort(key=lambda drive: drive.path != place)  # it comes first, and the others stay in their order
+        drives.insert(0, Drive(place, joint.name, mimic=joint.mimic, is_driven=False))
     mimic = first("mimic")
     if mimic and not joint.mimic:
         reader.lines[place] = reader.lines[mimic.path]  # of later findings about the coupling
