@@ -28,9 +28,19 @@ from urdfsync.checks.jobs import Jobs
 from urdfsync.checks.libraries import Libraries
 from urdfsync.checks.package import PackageTexts, RobotPackage, UsersModels
 from urdfsync.checks.process import Limits
-from urdfsync.checks.results import MOST_SINGLE_EDITS, CompiledModel, EditEffect, ToolResult, TrialTime, agrees, listed
+from urdfsync.checks.results import (
+    KINDS,
+    MOST_SINGLE_EDITS,
+    CompiledModel,
+    Curve,
+    EditEffect,
+    ToolResult,
+    TrialTime,
+    agrees,
+    listed,
+)
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError, findings_of
-from urdfsync.domain import Compared, Deviation, Experiment, Trial
+from urdfsync.domain import Compared, Deviation, Experiment, Quantity, Trial
 from urdfsync.engine.generation import generated_texts
 from urdfsync.files import shown
 from urdfsync.output.phrases import counted
@@ -120,6 +130,7 @@ class Compilation:
             own = robot.templates is not None
             wiring = () if own else domain.wiring(self._completed, snapshot, robot.target, experiment.options)
             self.result.deviations = (*compare_all(trials, self.generated), *wiring)
+            self.result.curves = tuple(curves(trials[0], self.generated[trials[0].name]))
         if "edited" not in done:
             return
         without_edits = self.generated
@@ -283,6 +294,21 @@ def compare(compared: Iterable[Compared], series: Series, expected: Series) -> t
         msgspec.structs.replace(deviation, size=sizes[deviation.quantity, deviation.unit, deviation.part])
         for deviation in deviations
     )
+
+
+def curves(trial: Trial, series: Series) -> Iterator[Curve]:
+    """Yield the poses and efforts of each element beside what is expected of them; parts of one quantity are joined."""
+    parts = dict[tuple[Quantity, str, str], list[Compared]]()
+    for compared in trial.compared:
+        if compared.quantity in KINDS[0] or compared.quantity is Quantity.EFFORT:
+            parts.setdefault((compared.quantity, compared.element, compared.unit), []).append(compared)
+    for key, every in parts.items():
+        times = tuple(time for compared in every for time in compared.instants)
+        found, expected = (
+            tuple(tuple(_number(numbers, name, time) for time in times) for name in every[0].values)
+            for numbers in (series, trial.expected)
+        )
+        yield Curve(*key, times, found, expected)
 
 
 def _number(series: Series, name: str, instant: float) -> float:

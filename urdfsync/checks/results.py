@@ -94,6 +94,18 @@ class EditEffect(msgspec.Struct, frozen=True):
     """The elements that the files belong to, in the domain's words."""
 
 
+class Curve(msgspec.Struct, frozen=True):
+    """A quantity of an element over the times at which it was compared."""
+
+    quantity: Quantity
+    element: str
+    unit: str
+    times: tuple[float, ...]
+    values: tuple[tuple[float, ...], ...]
+    """Of each component, at all times."""
+    expected: tuple[tuple[float, ...], ...]
+
+
 class TrialTime(msgspec.Struct, frozen=True):
     """The CPU time of one simulation with its compiling."""
 
@@ -118,6 +130,8 @@ class ToolResult(msgspec.Struct):
     """The most memory that its processes took together, looked at four times a second."""
     times: tuple[TrialTime, ...] = ()
     """Those of the comparison, if the compiler tells them."""
+    curves: tuple[Curve, ...] = ()
+    """Poses and efforts of the package as it is generated, in the first simulation."""
 
 
 class CheckResult(msgspec.Struct):
