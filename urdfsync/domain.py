@@ -15,7 +15,7 @@ from typing import Any, NamedTuple, Protocol, TypeAlias
 import msgspec
 
 from urdfsync.diagnostics import Diagnostic
-from urdfsync.scene import Meshes, Scene
+from urdfsync.scene import Scene, Triangles
 
 Snapshot: TypeAlias = Mapping[str, Any]
 """A model as plain data: mappings with string keys, lists, strings, numbers, booleans, None.
@@ -595,7 +595,7 @@ class Domain(Protocol):
         """Return the model as a picture with axes to move, or None if the domain has none. Pure."""
         return None
 
-    def triangles(self, contents: Mapping[str, bytes]) -> tuple[Meshes, Mapping[str, str]]:
+    def triangles(self, contents: Mapping[str, bytes]) -> tuple[Mapping[str, Triangles], Mapping[str, str]]:
         """Return the meshes of imported files by their paths, large ones simplified, and why others have none."""
         return {}, {}
 

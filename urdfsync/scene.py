@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, TypeAlias
 
 import msgspec
@@ -62,7 +62,7 @@ class Hinge(msgspec.Struct, frozen=True):
     """Of the axis's frame in the parent's, at position 0."""
     axis: tuple[float, ...]
     motion: str = ""
-    """`rotational` or `translational`; empty for one without an axis to move about."""
+    """`rotational` or `translational` along `axis`, `planar` with it as normal, `floating`; empty for a fixed one."""
     start: float = 0.0
     lower: float | None = None
     upper: float | None = None
@@ -94,6 +94,3 @@ class Triangles(msgspec.Struct, frozen=True):
     """Number of triangles of the file itself."""
     is_simplified: bool = False
     """Whether corners that are apart in the file have become one."""
-
-
-Meshes: TypeAlias = Mapping[str, Triangles]

@@ -12,7 +12,9 @@ import pytest
 from support.browser import NEEDS_CHROMIUM, Page
 
 from urdfsync import cli, config
+from urdfsync.checks.results import CheckResult, Curve, ToolResult
 from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.domain import Quantity
 from urdfsync.engine.options import BuildOptions
 from urdfsync.pages.content import gather
 from urdfsync.pages.page import page as page_of
@@ -146,6 +148,54 @@ def test_a_simulation_moves_the_robot_and_stands_beside_its_limits(arm: Path, tm
         "new Promise((go) => { const wait = () => page.player.isPlaying ? setTimeout(wait, 20) : go(1); wait(); })"
     )
     assert page.run("page.player.time") == 2
+    assert page.problems == []
+
+
+def test_a_check_is_drawn_beside_its_reference_with_the_error_on_a_log_scale(
+    arm: Path, tmp_path: Path, chromium: Page
+) -> None:
+    loaded = config.load(Path("urdfsync.toml"))
+    content = gather(loaded, loaded.robots[0], None, BuildOptions(), tmp_path)
+    times, expected = (0.0, 0.2, 0.4, 0.6), (1.0, 2.0, 3.0, 4.0)
+    values = ((1.0, 2.0 + 1e-12, 3.0, 4.01),)
+    curve = Curve(Quantity.EFFORT, "joint elbow", "N·m", times, values, (expected,))
+    file = tmp_path / "check.html"
+    check = CheckResult("arm", "Arm", tools=(ToolResult("rumoca", curves=(curve,)),), reference="Pinocchio 3")
+    file.write_bytes(page_of(content, check=check))
+    page = opened(chromium, file)
+    drawn = "[...document.querySelectorAll('#curves .{}')].map((path) => path.getAttribute('d'))"
+    (reference,), (curve_, error) = (page.run(drawn.format(kind)) for kind in ("reference", "curve"))
+    assert [text.count("M") for text in (reference, curve_, error)] == [2, 2, 2]  # a gap, where the motion jumps
+    heights = [float(point.split(",")[1].removesuffix(" h0")) for point in error.replace("L", "M").split("M")[1:]]
+    assert heights[0] > heights[1] > heights[3]  # 1e-17, 1e-12, 1e-2
+    assert "error of effort in N·m, 10^-17 … 10^-2 on a log scale" in page.run("element('curves').textContent")
+    page.run("document.querySelector('#curves button').click()")
+    assert page.run("page.selected") == "joint elbow"
+    assert page.problems == []
+
+
+PLANAR = """<robot name="cart"><link name="floor"/><link name="cart"/><link name="drone"/>
+<joint name="drive" type="planar"><parent link="floor"/><child link="cart"/><origin xyz="0 0 1"/><axis xyz="{0}"/>
+</joint><joint name="fly" type="floating"><parent link="cart"/><child link="drone"/></joint></robot>"""
+
+
+def test_a_planar_joint_has_three_sliders_and_a_floating_one_six(report: Report, chromium: Page) -> None:
+    page = opened(chromium, report(PLANAR.format("0 1 0")))
+    names = page.run("[...document.querySelectorAll('[data-axis]')].map((each) => each.dataset.axis)")
+    assert names == [
+        *(f"joint drive: {way}" for way in ("x", "y", "turn")),
+        *(f"joint fly: {way}" for way in ("x", "y", "z", "yaw", "pitch", "roll")),
+    ]
+    page.run("move('joint drive: x', 2), move('joint drive: y', 3), move('joint drive: turn', 0.3)")
+    # x of the frame is in the plane, y is the cross product of the normal with it
+    assert page.run("page.pose('link cart').slice(12, 15)") == pytest.approx([2, 0, 1 - 3])
+    assert page.run("page.pose('link cart').slice(0, 3)") == pytest.approx([math.cos(0.3), 0, -math.sin(0.3)])
+    page.run("page.positions.forEach((_, name) => move(name, 0)), move('joint fly: z', 1)")
+    page.run("move('joint fly: roll', 0.1), move('joint fly: pitch', 0.2), move('joint fly: yaw', 0.3)")
+    pose = np.array(page.run("page.pose('link drone')")).reshape(4, 4).T
+    origin = pytest.importorskip("pinocchio").rpy.rpyToMatrix(0.1, 0.2, 0.3)
+    assert np.abs(pose[:3, :3] - origin).max() < 1e-12
+    assert pose[:3, 3] == pytest.approx([0, 0, 2])
     assert page.problems == []
 
 

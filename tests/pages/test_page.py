@@ -26,7 +26,7 @@ from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Exit
 from urdfsync.pages import page as page_module
 from urdfsync.pages.content import gather
-from urdfsync.pages.page import SCRIPTS
+from urdfsync.pages.page import FOLLOWER, SCRIPTS
 from urdfsync.pages.page import page as page_of
 
 Report = Callable[..., Path]
@@ -187,8 +187,8 @@ def test_a_check_has_its_verdict_and_a_scale_for_each_difference(arm: Path, tmp_
     tool = ToolResult("rumoca", deviations=(right, wrong), effects=(effect,))
     page = _Elements(page_of(content, check=CheckResult("arm", "Arm", tools=(tool,), reference="Pinocchio 3")).decode())
     meters = [each for tag, each in page.tags if tag == "meter"]
-    assert [each["value"] for each in meters] == ["0.00", "-15.00"]  # the worst first
-    assert meters[0]["high"] == "-10.00"
+    assert [each["value"] for each in meters] == ["0.0", "-15.0"]  # the worst first
+    assert meters[0]["high"] == "-10.0"
     assert "link <b>hand</b>" in page.words
     assert "Joints/Elbow.mo" in page.words
     assert "0.67 N·m" in page.words
@@ -216,8 +216,8 @@ def test_a_domain_without_a_picture_says_so(project: Path, execute: Execute) -> 
 @pytest.mark.skipif(not shutil.which("node"), reason="no node to look at the scripts with")
 def test_the_scripts_are_sound(tmp_path: Path) -> None:
     folder = Path(page_module.__file__).parent
-    assert {file.name for file in folder.glob("*.js")} == set(SCRIPTS)
-    for name in SCRIPTS:
+    assert {file.name for file in folder.glob("*.js")} == {*SCRIPTS, FOLLOWER}
+    for name in (*SCRIPTS, FOLLOWER):
         checked = subprocess.run(["node", "--check", folder / name], capture_output=True, text=True, check=False)
         assert checked.returncode == 0, checked.stderr
         assert (folder / name).read_text("utf-8").startswith('"use strict";\n')

@@ -54,14 +54,16 @@ class Page:
         for domain in ("Page", "Runtime", "Log"):
             self._call(f"{domain}.enable")
 
-    def open(self, file: Path, *, width: int = 1280, height: int = 900, dark: bool = False, ready: str = "") -> None:
-        """Open a file in a window of this size, and wait for the promise `ready` of the page."""
+    def open(
+        self, place: Path | str, *, width: int = 1280, height: int = 900, dark: bool = False, ready: str = ""
+    ) -> None:
+        """Open a file, or an address, in a window of this size, and wait for the promise `ready` of the page."""
         metrics = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False}
         self._call("Emulation.setDeviceMetricsOverride", **metrics)
         feature = {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}
         self._call("Emulation.setEmulatedMedia", features=[feature])
         self._seen.discard("Page.loadEventFired")
-        self._call("Page.navigate", url=file.resolve().as_uri())
+        self._call("Page.navigate", url=place if isinstance(place, str) else place.resolve().as_uri())
         while "Page.loadEventFired" not in self._seen:
             self._read()
         if ready:

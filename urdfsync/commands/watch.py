@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import argparse
 import contextlib
+import os
 import signal
+import sys
 from collections.abc import Iterator
 from types import FrameType
 from typing import TYPE_CHECKING
 
 from urdfsync import config
 from urdfsync.commands import arguments
+from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.engine.result import Exit
 from urdfsync.output.console import Console
 
@@ -26,6 +29,7 @@ _TIMES = (
     ("patience", "S", 30, "seconds before an invalid source is reported as an error"),
     ("rescan", "S", 30, "seconds between two reads of all files: the system may drop events, and mounts have none"),
 )
+_PORT = 8357
 _GRACE = 10.0
 """Seconds after the first signal in which the work in hand has to end."""
 
@@ -43,8 +47,11 @@ def add(commands: arguments.Commands) -> None:
     for name, unit, default, words in _TIMES:
         words = f"{words} (default: {default})"
         parser.add_argument(f"--{name}", type=_duration, metavar=unit, default=default, help=words)
-    command = "shell command to run after a build that changed files"
-    parser.add_argument("--exec", metavar="CMD", default="", help=command)
+    option = parser.add_argument
+    option("--exec", metavar="CMD", default="", help="shell command to run after a build that changed files")
+    option("--view", action="store_true", help="serve a page for each robot to browsers on this machine, see `report`")
+    option("--open", action="store_true", help="open it in a browser, too")
+    option("--port", type=int, metavar="N", default=_PORT, help=f"its port, 0 for any (default: {_PORT})")
 
 
 def _duration(text: str) -> float:
@@ -56,11 +63,12 @@ def _duration(text: str) -> float:
 
 def run(args: argparse.Namespace, console: Console) -> int:
     """Run the daemon until a signal ends it."""
+    from urdfsync.watch import events
     from urdfsync.watch.daemon import Daemon, WatchOptions  # not at the top: watchdog takes 45 ms
     from urdfsync.watch.report import Report, show_json
 
     with contextlib.ExitStack() as stack:
-        listener = show_json if console.is_document else stack.enter_context(Report(console)).show
+        show = listener = show_json if console.is_document else stack.enter_context(Report(console)).show
         options = WatchOptions(
             file=args.config or config.find(config.working_folder()),
             robots=(*args.robots, *(args.robot or ())),
@@ -71,10 +79,31 @@ def run(args: argparse.Namespace, console: Console) -> int:
             command=args.exec,
             build=arguments.request(args, console),
         )
+        if args.view or args.open:
+            from urdfsync.watch.view import View  # with numpy 100 ms
+
+            view = stack.enter_context(contextlib.closing(View(options, args.port)))
+            show(events.Viewing(address := f"http://{view.hosts[0]}/"))
+            if args.open and not _open(address):
+                message, hint = "there is no browser, or no screen", f"open {address} in one on this machine"
+                show(events.Noted((Diagnostic(Severity.WARNING, "no-browser", message, hint=hint),)))
+
+            def listener(event: events.Event) -> None:
+                show(event)
+                view.take(event)
+
         daemon = Daemon(options, listener)
         with _signals(daemon) as received:
             daemon.run()
     return Exit.INTERRUPTED if received[0] == "SIGINT" else Exit.IN_STEP
+
+
+def _open(address: str) -> bool:
+    """Open a page in a browser; without a screen this would be one for terminals, where the daemon writes."""
+    import webbrowser
+
+    has_screen = sys.platform != "linux" or any(map(os.environ.get, ("BROWSER", "DISPLAY", "WAYLAND_DISPLAY")))
+    return has_screen and webbrowser.open(address)
 
 
 @contextlib.contextmanager

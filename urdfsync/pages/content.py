@@ -2,28 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+import contextlib
+from collections.abc import Mapping, Sequence
 from pathlib import Path, PurePosixPath
-from typing import Any
 
 import msgspec
 
 from urdfsync import registry
-from urdfsync.changes import Changes
+from urdfsync.changes import Changes, compare
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import UrdfsyncError
-from urdfsync.domain import ChangeClass, ChangeKind, Version
+from urdfsync.domain import ChangeClass, ChangeKind
 from urdfsync.engine.edits import RobotEdits, find_edited
 from urdfsync.engine.generation import Generation, generate_robot
 from urdfsync.engine.inputs import inspect
 from urdfsync.engine.last_build import NO_MODEL
 from urdfsync.engine.options import BuildOptions
+from urdfsync.engine.renames import find_renames
 from urdfsync.files import digest, shown
 from urdfsync.output.conflicts import DisputedFile, find_conflicts
 from urdfsync.output.markdown import Section
 from urdfsync.output.outline import outline
-from urdfsync.scene import Body, Scene, Triangles
-from urdfsync.versions.comparison import Comparison, compare_sources
+from urdfsync.scene import Scene, Triangles
+from urdfsync.versions.comparison import Contents, compare_sources
 from urdfsync.versions.report import to_section
 
 
@@ -31,6 +32,8 @@ class Content(msgspec.Struct, frozen=True):
     """The page of one robot as values."""
 
     robot: RobotConfig
+    version: Contents
+    """What is shown."""
     section: Section
     """What changed, in words."""
     against: str
@@ -39,9 +42,12 @@ class Content(msgspec.Struct, frozen=True):
     before: Scene | None
     """None if nothing changed, or there is no older version."""
     meshes: Mapping[str, Triangles]
-    """By the names that shapes have for them, in both versions."""
+    """Those of both versions, by names that follow from their contents."""
+    names_now: Mapping[str, str]
+    names_before: Mapping[str, str]
+    """The names by the paths that shapes have."""
     statuses: Mapping[str, str]
-    """Elements that are `changed`, `added`, `removed` or `renamed`."""
+    """Elements that are `changed`, `added`, `removed` or `renamed`; the page adds those with other meshes."""
     renamed: Mapping[str, str]
     """New names of elements by the old ones."""
     changes: Mapping[str, Sequence[str]]
@@ -56,9 +62,17 @@ class Content(msgspec.Struct, frozen=True):
     """What the picture does not show as it is."""
 
 
-def gather(config: Config, robot: RobotConfig, against: str | None, options: BuildOptions, folder: Path) -> Content:
+def gather(
+    config: Config,
+    robot: RobotConfig,
+    against: str | None,
+    options: BuildOptions,
+    folder: Path,
+    shown_before: Sequence[Contents] = (),
+) -> Content:
     """Return all about one robot; `against` is a file, counted from `folder`, or a git revision.
 
+    Where nothing changed since the last build, the older version is the first of `shown_before` that differs.
     Raises UrdfsyncError if the source can't be read, or the older version.
     """
     options = msgspec.structs.replace(options, dry=True)
@@ -66,97 +80,80 @@ def gather(config: Config, robot: RobotConfig, against: str | None, options: Bui
     if compared.result.failed:
         raise UrdfsyncError(*compared.result.diagnostics)
     generation = generate_robot(inspect(config, robot, options))
-    pictures = _Pictures(robot)
-    now = pictures.scene(generation.now, generation.imported.contents)
+    version = generation.now, generation.imported.contents
+    changes, result = compared.result.changes, compared.result
+    older = compared.versions[0] if compared.versions else _last_build(generation)
+    domain, before = registry.domain(robot.domain), None
+    other = next((each for each in shown_before if each[0] != version[0]), None)
+    if other and not (changes and changes.changes):
+        same = find_renames(domain, other[0].snapshot, version[0].snapshot, robot.renamed)
+        older, changes = other, compare(other[0], version[0], domain, robot.options, same)
+        told = msgspec.structs.replace(result, changes=changes)
+        compared = msgspec.structs.replace(compared, result=told, against="the picture before")
+    now = domain.scene(version[0].snapshot, version[0].imports or {}, robot.target, robot.options)
     if now is None:
         message = f"packages of the domain `{robot.domain}` have no picture"
         raise UrdfsyncError.of("no-picture", message, shown(robot.source))
-    changes = compared.result.changes
-    before, renamed = None, dict[str, str]()
-    if changes is not None and changes.changes:
-        renamed = {f"{kind} {old}": f"{kind} {new}" for (kind, old), new in changes.renames.items()}
-        before = _before(generation, compared, pictures)
-    meshes, problems = pictures.triangles()
-    actions = compared.result.actions if against is None else None  # others are those of a comparison
-    drawing = pictures.domain.drawing(generation.now.snapshot, generation.imported.imports, robot.target, robot.options)
+    if older and changes and changes.changes:
+        old, options_then = older[0], older[0].options or robot.options
+        with contextlib.suppress(*NO_MODEL):  # what is recorded may be no model
+            before = domain.scene(old.snapshot, old.imports or {}, robot.target, options_then)
+    contents = [_meshes(now, version), _meshes(before, older)]
+    paths = {name: path for every in contents for path, (name, _) in every.items()}
+    meshes, problems = domain.triangles({name: content for every in contents for name, content in every.values()})
+    names_now, names_before = ({path: name for path, (name, _) in every.items()} for every in contents)
+    actions = result.actions if against is None else None  # others are those of a comparison
+    renames = changes.renames if changes and before else {}
     return Content(
         robot=robot,
+        version=version,
         section=to_section(compared),
-        against="the last build" if against is None else against,
+        against=(compared.against or "the last build").encode("utf-8", "replace").decode(),
         now=now,
         before=before,
         meshes=meshes,
-        statuses=_statuses(changes, now, before) if changes else {},
-        renamed=renamed,
+        names_now=names_now,
+        names_before=names_before,
+        statuses=_statuses(changes) if changes else {},
+        renamed={f"{kind} {old}": f"{kind} {new}" for (kind, old), new in renames.items()},
         changes=_change_words(changes) if changes else {},
         files=_files(generation),
-        diagram=drawing or "",
+        diagram=domain.drawing(version[0].snapshot, generation.imported.imports, robot.target, robot.options) or "",
         edits=RobotEdits(robot.name, config.root, tuple(find_edited(generation, actions))),
-        conflicts=find_conflicts([compared.result]),
-        notes=(*now.missing, *problems, *_simplified(meshes, pictures.names)),
+        conflicts=find_conflicts([result]),
+        notes=(
+            *now.missing,
+            *(f"{paths[name]} can't be shown: {problem}" for name, problem in problems.items()),
+            # triangles without area are left out of every mesh
+            *(
+                f"{paths[name]} is simplified for this page: {len(of.faces):,} of its {of.total:,} triangles are left"
+                for name, of in meshes.items()
+                if of.is_simplified
+            ),
+        ),
     )
 
 
-class _Pictures:
-    """Scenes of a robot, and the contents of their meshes: one that both versions have is there once."""
-
-    def __init__(self, robot: RobotConfig) -> None:
-        self.domain, self._robot = registry.domain(robot.domain), robot
-        self._contents = dict[str, bytes]()
-        self.names = dict[str, str]()
-        """Names of the files for people."""
-
-    def scene(self, version: Version, contents: Mapping[str, bytes]) -> Scene | None:
-        """Return the scene of a version, whose shapes have the names of meshes; `contents` are by path."""
-        options = self._robot.options if version.options is None else version.options
-        scene = self.domain.scene(version.snapshot, version.imports or {}, self._robot.target, options)
-        if scene is None:
-            return None
-        bodies = [
-            msgspec.structs.replace(
-                body,
-                shapes=tuple(
-                    msgspec.structs.replace(shape, mesh=self._mesh(shape.mesh, contents)) for shape in body.shapes
-                ),
-            )
-            for body in scene.bodies
-        ]
-        return msgspec.structs.replace(scene, bodies=tuple(bodies))
-
-    def _mesh(self, path: str, contents: Mapping[str, bytes]) -> str:
-        if not path or path not in contents:
-            return ""
-        name = f"{digest(contents[path])}{PurePosixPath(path).suffix}"
-        self._contents[name], self.names[name] = contents[path], path
-        return name
-
-    def triangles(self) -> tuple[Mapping[str, Triangles], list[str]]:
-        """Return the meshes of all scenes, and in words which can't be shown."""
-        if not self._contents:
-            return {}, []
-        meshes, problems = self.domain.triangles(self._contents)
-        return meshes, [f"{self.names[name]} can't be shown: {problem}" for name, problem in problems.items()]
-
-
-def _before(generation: Generation, compared: Comparison, pictures: _Pictures) -> Scene | None:
-    """Return the older version's scene; None if there is none, or what is recorded of it is no model."""
-    if compared.versions:
-        return pictures.scene(*compared.versions[0])
-    last = generation.inputs.last
+def _last_build(generation: Generation) -> Contents | None:
+    """Return the version that is recorded of the last complete build, with its imports as far as they are still so."""
+    last, contents = generation.inputs.last, dict[str, bytes]()
     if last.version is None:
         return None
-    contents = dict[str, bytes]()
     for entry in (last.version.imports or {}).values():
         content = generation.inputs.files.read(last.folder.key(entry.target))
         if content is not None and digest(content) == entry.target_hash:
             contents[entry.target] = content
-    try:
-        return pictures.scene(last.version, contents)
-    except NO_MODEL:
-        return None
+    return last.version, contents
 
 
-def _statuses(changes: Changes, now: Scene, before: Scene | None) -> dict[str, str]:
+def _meshes(scene: Scene | None, version: Contents | None) -> dict[str, tuple[str, bytes]]:
+    """Return the imported meshes of a scene by their paths, each with a name that follows from its content."""
+    used = {shape.mesh for body in scene.bodies for shape in body.shapes} if scene else set[str]()
+    contents = {path: content for path, content in version[1].items() if path in used} if version else {}
+    return {path: (f"{digest(each)}{PurePosixPath(path).suffix}", each) for path, each in contents.items()}
+
+
+def _statuses(changes: Changes) -> dict[str, str]:
     """Return which elements differ; rounding, and what is not modelled, is no difference."""
     statuses = dict[str, str]()
     for change in changes.changes:
@@ -167,15 +164,7 @@ def _statuses(changes: Changes, now: Scene, before: Scene | None) -> dict[str, s
             statuses[change.element] = str(change.kind)
         elif not (change.noise or change.change_class is ChangeClass.UNMODELLED):
             statuses[change.element] = "changed"
-    old = {body.element: _looks(body) for body in before.bodies} if before else {}
-    for body in now.bodies:  # a mesh may have another content
-        if body.element in old and old[body.element] != _looks(body):
-            statuses.setdefault(body.element, "changed")
     return statuses
-
-
-def _looks(body: Body) -> list[Any]:
-    return [(shape.kind, shape.form, shape.mesh) for shape in body.shapes]
 
 
 def _change_words(changes: Changes) -> dict[str, list[str]]:
@@ -190,14 +179,6 @@ def _change_words(changes: Changes) -> dict[str, list[str]]:
 def _files(generation: Generation) -> dict[str, list[str]]:
     folder, files = generation.inputs.robot.folder, dict[str, list[str]]()
     for path, artifact in generation.package.artifacts.items():
-        files.setdefault(artifact.owner, []).append(shown(folder / path))
+        name = shown(folder / path).encode("utf-8", "replace").decode()  # a folder may have any bytes for a name
+        files.setdefault(artifact.owner, []).append(name)
     return files
-
-
-def _simplified(meshes: Mapping[str, Triangles], names: Mapping[str, str]) -> Iterator[str]:
-    """Yield a sentence for each mesh of which the page has fewer triangles than the file."""
-    for name, mesh in meshes.items():
-        # triangles without area are left out of every mesh
-        if mesh.is_simplified:
-            numbers = f"{len(mesh.faces):,} of its {mesh.total:,} triangles"
-            yield f"{names[name]} is simplified for this page: {numbers} are left"

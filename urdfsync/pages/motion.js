@@ -18,10 +18,10 @@ function placeInTime(times, time) {
 
 /* Returns the positions of all axes at a time, by their elements. */
 function positionsAt(motion, time) {
-  const [low, high, share] = placeInTime(motion.times, time), positions = new Map();
+  const { series } = motion, [low, high, share] = placeInTime(series.time, time), positions = new Map();
   for (const { element, position } of motion.joints) {
     if (!position) continue;
-    const [before, after] = [position.values[low], position.values[high]];
+    const [before, after] = [low, high].map((place) => series[position.variable][place]);
     if (before !== null && after !== null) positions.set(element, before + share * (after - before));
   }
   return positions;
@@ -33,20 +33,26 @@ function svg(tag, attributes) {
   return element;
 }
 
-/* Returns a chart of a quantity with its limits, and the line that stands at the present time. */
-function chart(motion, quantity, label) {
-  const values = quantity.values.filter((value) => value !== null);
-  let low = values.reduce((least, value) => Math.min(least, value), Infinity), high = values.reduce((most, value) => Math.max(most, value), -Infinity);
-  const reach = NEAR * (high - low) || 1, limits = [quantity.lower, quantity.upper].filter((limit) => limit !== null);
-  const near = limits.filter((limit) => limit >= low - reach && limit <= high + reach);
+/* Returns the ends of values, those that are no number left out. */
+function rangeOf(values) {
+  return values.reduce(([least, most], value) => value === null ? [least, most] : [Math.min(least, value), Math.max(most, value)], [Infinity, -Infinity]);
+}
+
+/* Returns a chart of curves over time, pairs of their classes and values, with limits as far as they are near, and the
+   line that stands at the present time. Where a value is null a curve has a gap. */
+function chart(times, curves, limits, label) {
+  let [low, high] = rangeOf(curves.flatMap(([, values]) => values));
+  const reach = NEAR * (high - low) || 1, near = limits.filter((limit) => limit !== null && limit >= low - reach && limit <= high + reach);
   [low, high] = [Math.min(low, ...near), Math.max(high, ...near)];
-  const margin = 0.06 * (high - low) || 0.5, begin = motion.times[0], end = motion.times[motion.times.length - 1];
+  const margin = 0.06 * (high - low) || 0.5, begin = times[0], end = times[times.length - 1];
   const x = (time) => CHART.width * (time - begin) / (end - begin || 1);
   const y = (value) => CHART.height * (high + margin - value) / (high - low + 2 * margin);
   const picture = svg("svg", { viewBox: `0 0 ${CHART.width} ${CHART.height}`, preserveAspectRatio: "none", class: "chart", role: "img", "aria-label": label });
   for (const limit of near) picture.append(svg("line", { class: "limit", x1: 0, x2: CHART.width, y1: y(limit), y2: y(limit) }));
-  const points = quantity.values.map((value, place) => value === null ? "" : `${x(motion.times[place]).toFixed(1)},${y(value).toFixed(2)}`);
-  picture.append(svg("polyline", { class: "curve", points: points.join(" ") }));
+  for (const [kind, values] of curves) {
+    const points = values.map((value, place) => value === null ? "" : `${(values[place - 1] ?? null) === null ? "M" : "L"}${x(times[place]).toFixed(1)},${y(value).toFixed(2)} h0`); // h0: one value alone is a dot
+    picture.append(svg("path", { class: kind, d: points.join("") }));
+  }
   const cursor = svg("line", { class: "cursor", x1: 0, x2: 0, y1: 0, y2: CHART.height });
   picture.append(cursor);
   return [picture, (time) => { cursor.setAttribute("x1", x(time)); cursor.setAttribute("x2", x(time)); }];
@@ -54,7 +60,7 @@ function chart(motion, quantity, label) {
 
 /* Fills the place of charts, a row for each joint. `seek` is called with a time. Returns what moves all cursors. */
 function fillCharts(place, motion, seek, select) {
-  const cursors = [], end = motion.times[motion.times.length - 1], begin = motion.times[0];
+  const cursors = [], times = motion.series.time, begin = times[0], end = times[times.length - 1];
   for (const joint of motion.joints) {
     const row = make("div", { class: "charts" }, make("button", { type: "button", class: "name" }, nameOf(joint.element), { click: () => select(joint.element) }));
     for (const name of QUANTITIES) {
@@ -62,16 +68,17 @@ function fillCharts(place, motion, seek, select) {
       row.append(cell);
       if (!quantity) continue;
       const limits = [quantity.lower, quantity.upper].map((limit) => limit === null ? "–" : rounded(limit)).join(" … ");
-      const nothing = 1e-4 * (quantity.greatest - quantity.least); // what the integration leaves of 0
-      const [least, greatest] = [quantity.least, quantity.greatest].map((value) => Number((Math.abs(value) < nothing ? 0 : value).toPrecision(4)));
+      const values = motion.series[quantity.variable], ends = rangeOf(values);
+      const nothing = 1e-4 * (ends[1] - ends[0]); // what the integration leaves of 0
+      const [least, greatest] = ends.map((value) => Number((Math.abs(value) < nothing ? 0 : value).toPrecision(4)));
       const words = `${name} ${least} … ${greatest} ${quantity.unit}`;
-      const [picture, move] = chart(motion, quantity, `${nameOf(joint.element)}: ${words}, limits ${limits}`);
+      const [picture, move] = chart(times, [["curve", values]], [quantity.lower, quantity.upper], `${nameOf(joint.element)}: ${words}, limits ${limits}`);
       picture.addEventListener("click", (event) => {
         const box = picture.getBoundingClientRect();
         seek(begin + (end - begin) * (event.clientX - box.left) / box.width);
       });
       cursors.push(move);
-      const passed = joint.passed.includes(name);
+      const passed = joint.passed.some((limit) => limit.quantity === name);
       cell.append(picture, make("figcaption", { class: passed ? "removed" : "" }, `${words}${limits === "– … –" ? "" : `, limits ${limits}`}${passed ? ": passed" : ""}`));
     }
     place.append(row);
@@ -79,11 +86,35 @@ function fillCharts(place, motion, seek, select) {
   return (time) => { for (const move of cursors) move(time); };
 }
 
+/* Fills the place of curves: of each joint the effort, of each link its place, beside the reference, and the error on a log scale. */
+function fillCurves(place, curves, select) {
+  const LEAST = 1e-17, rows = new Map();
+  const error = ({ values, expected }) => values.reduce((worst, own, part) => own.map((value, time) =>
+    Math.max(worst[time] ?? LEAST, Math.abs(value - expected[part][time]) || LEAST)), []).map(Math.log10);
+  const gapped = ({ times, values }) => { // between two instants all jumps
+    const ends = times.flatMap((time, at) => at && Math.round(time) !== Math.round(times[at - 1]) ? [at] : []);
+    return [times, values].map((list) => list.flatMap((value, at) => ends.includes(at) ? [list === times ? value : null, value] : [value]));
+  };
+  for (const curve of curves) rows.set(curve.element, [...rows.get(curve.element) || [], curve]);
+  for (const [element, every] of rows) {
+    const row = make("div", { class: "charts two" }, make("button", { type: "button", class: "name" }, nameOf(element), { click: () => select(element) }));
+    const [first] = every, parts = [...first.expected.map((values) => ["reference", values]), ...first.values.map((values) => ["curve", values])];
+    const errors = every.map((curve) => ["curve", error(curve)]), units = every.map((curve) => `${curve.quantity}${curve.unit && ` in ${curve.unit}`}`);
+    for (const [drawn, words] of [[parts, `${units[0]}, the reference broad`], [errors, `error of ${units.join(" and ")}, 10^${rangeOf(errors.flatMap(([, values]) => values)).map(Math.round).join(" … 10^")} on a log scale`]]) {
+      const lines_ = drawn.map(([kind, values]) => [kind, ...gapped({ times: first.times, values })]);
+      const [picture] = chart(lines_[0][1], lines_.map(([kind, , values]) => [kind, values]), [], `${nameOf(element)}: ${words}`);
+      row.append(make("figure", {}, [picture, make("figcaption", {}, words)]));
+    }
+    place.append(row);
+  }
+}
+
 /* Plays from the present time on, in real time, until the end; `show` is called with each time. */
 class Player {
   constructor(motion, show) {
-    this.begin = motion.times[0];
-    this.end = motion.times[motion.times.length - 1];
+    const times = motion.series.time;
+    this.begin = times[0];
+    this.end = times[times.length - 1];
     this.time = this.begin;
     this.isPlaying = false;
     this.show = show;

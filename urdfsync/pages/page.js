@@ -5,16 +5,23 @@ const data = JSON.parse(document.getElementById("data").textContent);
 const SWITCHES = { visual: ["Visuals", "v"], collision: ["Collisions", "c"], frame: ["Frames", "f"], mass: ["Centres of mass", "m"], inertia: ["Inertia boxes", "i"] };
 const VERSIONS = { now: "Now", both: "Both", before: "Before" };
 
+const looks = (body, names) => JSON.stringify(body.shapes.map(({ kind, form, mesh }) => [kind, form, names[mesh]]));
+for (const old of data.before?.bodies || []) { // a mesh may have another content
+  const body = data.now.bodies.find((each) => each.element === old.element);
+  if (body && looks(body, data.names_now) !== looks(old, data.names_before)) data.statuses[old.element] ??= "changed";
+}
+
 /* The state of the page; tests read it. `ready` is a promise of the picture. */
 const page = {
   selected: null,
   layers: { visual: true, collision: false, frame: data.now.missing.length > 0 || !data.now.bodies.some((body) => body.shapes.length), mass: false, inertia: false },
   version: data.before ? "both" : "now",
-  positions: new Map(data.now.hinges.map((hinge) => [hinge.element, hinge.start])),
+  positions: startPositions(data.now),
   now: null,
   before: null,
   pose: (element) => page.now.pose(element),
   player: null,
+  isLit: null,
   ready: null,
 };
 
@@ -59,7 +66,7 @@ function move(name, position) {
       if (hinge.leader) page.positions.set(hinge.element, hinge.multiplier * page.positions.get(hinge.leader) + hinge.offset);
     }
   }
-  if (page.before) for (const old of page.before.hinges.keys()) if ((data.renamed[old] || old) === name) page.before.move(old, position);
+  page.before?.moveAll(page.positions, data.renamed);
   hideSame();
   showPositions(page.positions);
   draw();
@@ -91,7 +98,8 @@ function paint() {
   const compares = page.version !== "now";
   page.now.paint((name) => {
     const status = data.statuses[name] === "renamed" ? "changed" : data.statuses[name];
-    return { color: compares && status ? colors[status] : null, opacity: 1, glow: name === selected ? colors.accent.clone().multiplyScalar(0.55) : null };
+    const light = name === selected ? colors.accent : page.isLit && status ? colors[status] : null;
+    return { color: compares && status ? colors[status] : null, opacity: 1, glow: light && light.clone().multiplyScalar(0.55) };
   });
   page.now.root.visible = page.version !== "before";
   if (page.before) {
@@ -167,10 +175,10 @@ function resize() {
 /* Sets up the simulation, if the page has one: it moves the robot, and what is moved by hand stays until it goes on. */
 function setUpMotion() {
   const { motion } = data;
-  if (!motion || motion.times.length < 2) return;
+  if (!motion || motion.series.time.length < 2) return;
   const moveCursors = fillCharts(element("charts"), motion, (time) => page.player.seek(time), select);
   const button = make("button", { type: "button", id: "play", title: "Play or pause (space)" }, "▶", { click: () => page.player.toggle() });
-  const slider = make("input", { type: "range", step: "any", min: motion.times[0], max: motion.times[motion.times.length - 1], "aria-label": "Time" }, [], { input: () => page.player.seek(Number(slider.value)) });
+  const slider = make("input", { type: "range", step: "any", min: motion.series.time[0], max: motion.series.time[motion.series.time.length - 1], "aria-label": "Time" }, [], { input: () => page.player.seek(Number(slider.value)) });
   const told = make("output", {}, "");
   element("player").append(button, slider, told);
   element("player").hidden = false;
@@ -181,7 +189,7 @@ function setUpMotion() {
     moveCursors(player.time);
     moveAll(positionsAt(motion, player.time));
   });
-  page.player.seek(motion.times[0]);
+  page.player.seek(page.player.begin);
 }
 
 async function show() {
@@ -194,13 +202,13 @@ async function show() {
   }
   stage.renderer.outputEncoding = THREE.sRGBEncoding;
   const packed = element("meshes"), meshes = packed ? await loadMeshes(packed.textContent, data.meshes) : new Map();
-  page.now = new RobotView(data.now, meshes);
+  page.now = new RobotView(data.now, meshes, data.names_now);
   stage.scene = new THREE.Scene();
   stage.lamp = new THREE.DirectionalLight(0xffffff, 0.55);
   stage.scene.add(page.now.root, new THREE.HemisphereLight(0xffffff, 0x8a8f99, 0.75), stage.lamp);
   const box = page.now.bounds();
   if (data.before) {
-    page.before = new RobotView(data.before, meshes);
+    page.before = new RobotView(data.before, meshes, data.names_before);
     stage.scene.add(page.before.root);
     box.union(page.before.bounds());
   }
@@ -218,6 +226,7 @@ async function show() {
   setUpMotion();
 }
 
+if (data.curves.length) fillCurves(element("curves"), data.curves, select);
 const showPositions = fillAxes(element("axes"), data, move, select);
 const markTree = fillTree(element("tree"), data, select);
 const markDiagram = drawDiagram(element("drawing"), data, select);
@@ -225,7 +234,7 @@ showPositions(page.positions);
 if (page.positions.size) element("axes").prepend(make("button", { type: "button", id: "reset", title: "All axes as they start (r)" }, "Reset", { click: reset }));
 
 function reset() {
-  for (const hinge of data.now.hinges) if (!hinge.leader) move(hinge.element, hinge.start);
+  moveAll(startPositions(data.now));
 }
 
 for (const [layer, [label, key]] of Object.entries(SWITCHES)) {

@@ -8,7 +8,6 @@ from __future__ import annotations
 import base64
 import gzip
 import hashlib
-import json
 import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
@@ -21,38 +20,52 @@ import msgspec
 
 from urdfsync import __version__
 from urdfsync.checks.report import to_section as check_section
-from urdfsync.checks.results import CheckResult, agrees, relative, tolerance
-from urdfsync.output.conflicts import DisputedFile, describe, difference_lines, settle_hint
+from urdfsync.checks.results import CheckResult, relative, tolerance
+from urdfsync.domain import Deviation
+from urdfsync.output.conflicts import describe, difference_lines, settle_hint
 from urdfsync.output.edits import to_section as edits_section
-from urdfsync.output.markdown import Table, findings_table
+from urdfsync.output.markdown import findings_table
 from urdfsync.output.phrases import reason
 from urdfsync.pages import threejs
 from urdfsync.pages.content import Content
-from urdfsync.scene import Scene, Triangles
+from urdfsync.scene import Triangles
 from urdfsync.simulation.files import check_file, not_writable
 from urdfsync.simulation.results import SimulateResult
 
 SCRIPTS = ("robot.js", "orbit.js", "panels.js", "motion.js", "page.js")
 """Our own scripts, in the order in which they run: each may use what those before it declare."""
+FOLLOWER = "follow.js"
+"""The last one, if a daemon serves the page."""
 _FOLDER = Path(__file__).parent
 _STYLE = re.compile("<style>(.*?)</style>", re.DOTALL)
 _CODE = re.compile("`([^`]+)`")
 _MOST_INSTANTS = 1000
 """Instants of a simulation that the page has."""
-_MOST_COMPARED, _LEAST = 300, 1e-17
-"""Deviations of a check that the page lists, and the least one that its scale has."""
+_LEAST = 1e-17
+"""The least relative error that the scale of a check has."""
 _MOST_LINES = 400
 """Lines of one difference that are shown."""
+_DATA = "now before names_now names_before against statuses renamed changes files diagram".split()
+"""What the scripts need of the content."""
 _SUFFIXES = (".html", ".htm")
 _GENERATOR, _BEGINNING = b'<meta name="generator" content="urdfsync', 2000
 """What every page has in so many of its first bytes."""
 _ESCAPES = {ord(char): f"\\u{ord(char):04x}" for char in "<>&\u2028\u2029"}
 
 
-def page(content: Content, simulation: SimulateResult | None = None, check: CheckResult | None = None) -> bytes:
-    """Return the page, with a simulation that plays, and a check. Raises UrdfsyncError if three.js can't be had."""
+def page(
+    content: Content,
+    simulation: SimulateResult | None = None,
+    check: CheckResult | None = None,
+    build: int | None = None,
+) -> bytes:
+    """Return the page, with a simulation that plays, and a check. Raises UrdfsyncError if three.js can't be had.
+
+    With the number of a `build` it follows the daemon that serves it.
+    """
     library = threejs.load()
-    scripts = [library.text, *((_FOLDER / name).read_text("utf-8") for name in SCRIPTS)]
+    names = SCRIPTS if build is None else (*SCRIPTS, FOLLOWER)
+    scripts = [library.text, *((_FOLDER / name).read_text("utf-8") for name in names)]
     style = (_FOLDER / "page.css").read_text("utf-8")
     styles = [style, *_STYLE.findall(content.diagram)]
     environment = jinja2.Environment(
@@ -62,31 +75,34 @@ def page(content: Content, simulation: SimulateResult | None = None, check: Chec
         lstrip_blocks=True,
         autoescape=True,
     )
-    environment.filters["words"] = _words
-    edits = edits_section(content.edits)
-    section = content.section
+    environment.filters |= {"words": _words, "findings": findings_table}
+    environment.globals |= {"difference_lines": _difference, "settle_hint": settle_hint}
+    data = {name: getattr(content, name) for name in _DATA} | {
+        "robot": content.robot.name,
+        "meshes": {name: [len(mesh.points), len(mesh.faces)] for name, mesh in content.meshes.items()},
+        "motion": simulation and _motion(simulation),
+        "curves": check.tools[0].curves if check and check.tools else (),
+        "build": build,
+    }
     text = environment.get_template("page.html.jinja").render(
-        robot=content.robot,
         version=__version__,
-        policy=_policy(scripts, styles),
+        policy=_policy(scripts, styles, "'none'" if build is None else "'self'"),
         style=markupsafe.Markup(style),  # noqa: S704 - our own
         scripts=[markupsafe.Markup(script) for script in scripts],  # noqa: S704 - our own, and those of trimesh
-        data=markupsafe.Markup(_json(_data(content) | {"motion": simulation and _motion(simulation)})),  # noqa: S704 - escaped for a script element
+        data=markupsafe.Markup(_json(data)),  # noqa: S704 - escaped for a script element
         meshes=_packed(content.meshes.values()),
-        section=section,
-        findings=findings_table(section.findings),
-        tables=[table for table in section.tables if table.rows],
-        elements={*content.statuses, *content.changes},
-        edits=[table for table in edits.tables if table.rows],
-        edits_summary=edits.summary,
-        edited=[_edited(file.path, file.base, file.mine) for file in content.edits.files if file.base is not None],
-        conflicts=list(map(_conflict, content.conflicts)),
-        notes=content.notes,
-        motion=simulation and _motion_words(simulation),
-        check=check and _check(check),
-        against=content.against,
-        has_diagram=bool(content.diagram),
-        bodies=content.now.bodies,
+        section=content.section,
+        edits=edits_section(content.edits),
+        conflicts=[
+            (conflict, reason(conflict.action, conflict.result.changes, brief=True), describe(conflict))
+            for conflict in content.conflicts
+        ],
+        content=content,
+        motion=simulation,
+        check=check,
+        check_section=check and check_section(check, strict=False),
+        compared=_compared(check) if check else (),
+        follows=build is not None,
         library=library,
     )
     return text.encode("utf-8", "replace")
@@ -107,18 +123,11 @@ def is_page(file: Path) -> bool:
         return _GENERATOR in opened.read(_BEGINNING)
 
 
-def _policy(scripts: Sequence[str], styles: Sequence[str]) -> str:
+def _policy(scripts: Sequence[str], styles: Sequence[str], connections: str) -> str:
     """Return the content security policy: these scripts and styles alone, and nothing from elsewhere."""
-    return "; ".join(
-        (
-            "default-src 'none'",
-            f"script-src {' '.join(map(_hash, dict.fromkeys(scripts)))}",
-            f"style-src {' '.join(map(_hash, dict.fromkeys(styles)))}",
-            "img-src data: blob:",
-            "base-uri 'none'",
-            "form-action 'none'",
-        )
-    )
+    hashes = [" ".join(map(_hash, dict.fromkeys(texts))) for texts in (scripts, styles)]
+    own = f"script-src {hashes[0]}; style-src {hashes[1]}; connect-src {connections}; img-src data: blob:"
+    return f"default-src 'none'; {own}; base-uri 'none'; form-action 'none'"
 
 
 def _hash(text: str) -> str:
@@ -126,39 +135,12 @@ def _hash(text: str) -> str:
 
 
 def _json(values: Any) -> str:
-    """Return JSON that ends no script element and begins no comment, whatever texts are in it."""
-    return json.dumps(values, ensure_ascii=False, separators=(",", ":"), allow_nan=False).translate(_ESCAPES)
-
-
-def _data(content: Content) -> dict[str, Any]:
-    """Return what the scripts need."""
-    names = {name: f"m{number}" for number, name in enumerate(content.meshes)}
-    return {
-        "robot": content.robot.name,
-        "now": _scene(content.now, names),
-        "before": _scene(content.before, names) if content.before else None,
-        "against": content.against,
-        "meshes": [[len(mesh.points), len(mesh.faces)] for mesh in content.meshes.values()],
-        "statuses": content.statuses,
-        "renamed": content.renamed,
-        "changes": content.changes,
-        "files": content.files,
-        "diagram": content.diagram,
-    }
-
-
-def _scene(scene: Scene, names: Mapping[str, str]) -> dict[str, Any]:
-    """Return a scene whose meshes are named by their numbers; without shapes that can't be shown."""
-    values: dict[str, Any] = msgspec.to_builtins(scene)
-    for body in values["bodies"]:
-        for shape in body["shapes"]:
-            shape["mesh"] = names.get(shape["mesh"], "")
-        body["shapes"] = [shape for shape in body["shapes"] if shape["form"] != "mesh" or shape["mesh"]]
-    return values
+    """Return JSON that ends no script element and begins no comment, whatever texts are in it; no number is null."""
+    return msgspec.json.encode(values).decode().translate(_ESCAPES)
 
 
 def _packed(meshes: Iterable[Triangles]) -> str:
-    """Return the points and the faces of meshes, one after the other; `_data` says how many there are of each.
+    """Return the points and the faces of meshes, one after the other; the data say how many there are of each.
 
     GLB by trimesh would hold the same numbers, and takes 0.7 s to import: more than all else of a small robot.
     """
@@ -172,72 +154,23 @@ def _packed(meshes: Iterable[Triangles]) -> str:
 
 
 def _motion(result: SimulateResult) -> dict[str, Any]:
-    """Return the series of the joints of one robot, in so many instants as a page shows; what is no number is null."""
+    """Return the joints of one robot, and the series of their variables at so many times as a page shows."""
     robots = [joint.robot for joint in result.joints]
     robot = "robot" if "robot" in robots else next(iter(robots), "")
-    step = math.ceil(len(result.series["time"]) / _MOST_INSTANTS)
-
-    def values(name: str) -> list[float | None]:
-        series = result.series[name]
-        return [float(f"{value:.7g}") if math.isfinite(value) else None for value in [*series[:-1:step], series[-1]]]
-
-    joints = []
-    for joint in result.joints:
-        if joint.robot == robot:
-            ranges = {name: getattr(joint, name) for name in ("position", "speed", "effort")}
-            quantities = {
-                name: {
-                    "values": values(each.variable),
-                    "unit": each.unit,
-                    "least": each.least if math.isfinite(each.least) else 0.0,
-                    "greatest": each.greatest if math.isfinite(each.greatest) else 0.0,
-                    "lower": each.lower,
-                    "upper": each.upper,
-                }
-                for name, each in ranges.items()
-                if each is not None
-            }
-            joints.append({"element": joint.element, **quantities, "passed": [each.quantity for each in joint.passed]})
-    return {"times": values("time"), "joints": joints}
+    joints = [joint for joint in result.joints if joint.robot == robot]
+    ranges = [each for joint in joints for each in (joint.position, joint.speed, joint.effort) if each is not None]
+    step, series = math.ceil(len(result.series["time"]) / _MOST_INSTANTS), {}
+    for name in ("time", *(each.variable for each in ranges)):
+        values = result.series[name]
+        series[name] = [float(f"{value:.7g}") for value in (*values[:-1:step], values[-1])]
+    return {"joints": joints, "series": series}
 
 
-def _motion_words(result: SimulateResult) -> dict[str, Any]:
-    findings = msgspec.structs.replace(findings_table(result.diagnostics), title="Findings of the simulation")
-    return {"model": result.model, "stop": f"{result.series['time'][-1]:g}", "findings": findings}
-
-
-# --- a check ------------------------------------------------------------------------------------------------------
-
-
-def _check(result: CheckResult) -> dict[str, Any]:
-    """Return the verdict, all that was compared, the worst first, and what each edit does."""
-    section = check_section(result, strict=False)
+def _compared(result: CheckResult) -> list[tuple[Deviation, float, float]]:
+    """Return all that was compared, the worst first, each with the logarithms of its error and of what is allowed."""
     deviations = sorted(result.deviations, key=lambda each: relative(each) / tolerance(each), reverse=True)
-    compared = [
-        {
-            "element": each.element,
-            "what": f"{each.quantity}{f', {each.detail}' if each.detail else ''}",
-            "amount": f"{each.difference:.2g} {each.unit} of {each.size:.4g}",
-            "relative": f"{each.relative:.1e}",
-            "log": f"{math.log10(min(max(relative(each), _LEAST), 1.0)):.2f}",
-            "most": f"{math.log10(tolerance(each)):.2f}",
-            "agrees": agrees(each),
-        }
-        for each in deviations
-    ]
-    effects = [
-        (", ".join(effect.files), each.element, str(each.quantity), f"{each.difference:.4g} {each.unit}".rstrip())
-        for effect in result.effects
-        for each in effect.deviations
-    ]
-    return {
-        "section": section,
-        "findings": msgspec.structs.replace(findings_table(section.findings), title="Findings of the check"),
-        "reference": result.reference,
-        "compared": compared[:_MOST_COMPARED],
-        "rest": max(0, len(compared) - _MOST_COMPARED),
-        "effects": Table("What your edits change", ("Files", "Element", "Quantity", "By up to"), effects),
-    }
+    logs = [[math.log10(min(max(of(each), _LEAST), 1.0)) for of in (relative, tolerance)] for each in deviations]
+    return [(each, round(log, 2), round(most, 2)) for each, (log, most) in zip(deviations, logs, strict=True)]
 
 
 # --- texts ----------------------------------------------------------------------------------------------------------
@@ -249,33 +182,6 @@ def _words(text: str) -> markupsafe.Markup:
         markupsafe.Markup("<code>{}</code>").format(piece) if number % 2 else piece
         for number, piece in enumerate(_CODE.split(text))
     )
-
-
-def _edited(path: str, base: str | None, mine: str) -> dict[str, Any]:
-    return {"path": path, "lines": _difference(base or "", mine, "as generated", "yours")}
-
-
-def _conflict(target: DisputedFile) -> dict[str, Any]:
-    """Return a conflict: what happened, each side's changes, and what settles it."""
-    texts, differences = target.texts, list[dict[str, Any]]()
-    if texts is not None and texts.base is not None:
-        sides = {"Your changes": texts.mine, "What is new": texts.generated}
-        differences = [
-            {"title": title, "lines": _difference(texts.base, text, "base", title)} for title, text in sides.items()
-        ]
-    elif texts is not None:
-        lines = _difference(texts.mine, texts.generated, "yours", "generated")
-        differences = [{"title": "Yours, and what would be generated", "lines": lines}]
-    if texts is not None and texts.merge is not None:
-        lines = _difference(texts.mine, texts.merge.proposal, "yours", "merged")
-        differences.append({"title": "The merge that is proposed", "lines": lines})
-    return {
-        "path": target.shown,
-        "owner": target.action.owner,
-        "why": f"{reason(target.action, target.result.changes, brief=True)}: {describe(target)}",
-        "settle": settle_hint(target.result).strip(),
-        "differences": differences,
-    }
 
 
 def _difference(old: str, new: str, old_name: str, new_name: str) -> list[str]:

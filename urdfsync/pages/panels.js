@@ -1,7 +1,7 @@
 "use strict";
 /* Axes, tree, details and diagram: what stands beside the picture. All texts of the data are set as text, never as HTML. */
 
-const SYMBOLS = { rotational: "⟳", translational: "↔", "": "─" };
+const SYMBOLS = { rotational: "⟳", translational: "↔", planar: "⬔", floating: "✥", "": "─" };
 const DEGREES = 180 / Math.PI;
 
 /* Returns a new HTML element with attributes, a text or children, and listeners. */
@@ -37,34 +37,34 @@ function fillAxes(panel, data, move, select) {
   const shown = new Map();
   const order = new Map(data.now.bodies.map((body, place) => [body.element, place]));
   free.sort((one, other) => order.get(one.child) - order.get(other.child));
-  for (const hinge of [...free, ...followers]) {
-    const turns = hinge.motion === "rotational", name = nameOf(hinge.element);
+  for (const [hinge, way] of [...free, ...followers].flatMap((each) => waysOf(each).map((way) => [each, way]))) {
+    const { turns } = way, name = nameOf(way.name);
     const label = make("button", { type: "button", class: "name" }, [`${SYMBOLS[hinge.motion]} ${name}`, ...mark(data.statuses, hinge.element)],
       { click: () => select(hinge.element) });
     const unit = make("span", { class: "unit" }, turns ? "rad" : "m");
     if (hinge.leader) {
       const value = make("output", {}, "");
       panel.append(make("div", { class: "axis", "data-axis": hinge.element }, make("div", { class: "top" }, [label, make("span", { class: "quiet" }, `follows ${nameOf(hinge.leader)}`), value, unit])));
-      shown.set(hinge.element, (position) => { value.textContent = position.toFixed(4); });
+      shown.set(way.name, (position) => { value.textContent = position.toFixed(4); });
       continue;
     }
     const reach = turns ? Math.PI : 1;
     const low = hinge.lower ?? Math.min(-reach, hinge.start), high = hinge.upper ?? Math.max(reach, hinge.start);
-    const set = (text) => { if (text !== "" && Number.isFinite(Number(text))) move(hinge.element, Number(text)); };
+    const set = (text) => { if (text !== "" && Number.isFinite(Number(text))) move(way.name, Number(text)); };
     const slider = make("input", { type: "range", min: low, max: high, step: "any", "aria-label": `Position of ${name}` }, [], { input: () => set(slider.value) });
     const number = make("input", { type: "number", step: "any", "aria-label": `Position of ${name} in ${turns ? "rad" : "m"}` }, [], { change: () => set(number.value) });
     const degrees = make("span", {}, "");
     const ends = make("div", { class: "ends" }, [
       make("span", {}, hinge.lower === null ? "no limit" : rounded(low)), degrees,
       make("span", {}, hinge.upper === null ? "no limit" : rounded(high))]);
-    panel.append(make("div", { class: "axis", "data-axis": hinge.element }, [make("div", { class: "top" }, [label, number, unit]), slider, ends]));
-    shown.set(hinge.element, (position) => {
+    panel.append(make("div", { class: "axis", "data-axis": way.name }, [make("div", { class: "top" }, [label, number, unit]), slider, ends]));
+    shown.set(way.name, (position) => {
       slider.value = position;
       if (document.activeElement !== number) number.value = Number(position.toFixed(6));
       degrees.textContent = turns ? `${(position * DEGREES).toFixed(1)}°` : `${(position * 1000).toFixed(1)} mm`;
     });
   }
-  return (positions) => { for (const [element, show] of shown) show(positions.get(element)); };
+  return (positions) => { for (const [name, show] of shown) show(positions.get(name)); };
 }
 
 /* Fills the panel with the tree of links. Returns what marks an element in it. */

@@ -5,6 +5,27 @@ const LAYERS = ["visual", "collision", "frame", "mass", "inertia"];
 const CREASE = Math.cos(35 * Math.PI / 180); // edges that are sharper are shown as edges
 const MOST_AROUND = 48; // faces at one corner that are looked at: a fan has thousands
 
+const ONE_WAY = { rotational: true, translational: false }; // whether it turns
+const ALONG = { x: [1, 0, 0], y: [0, 1, 0], z: [0, 0, 1] };
+
+/* Returns the ways in which a hinge moves, one after the other: each has a name, an axis, and turns about it or slides. */
+function waysOf(hinge) {
+  const way = (label, axis, turns) => ({ name: label ? `${hinge.element}: ${label}` : hinge.element, label, axis, turns });
+  if (hinge.motion in ONE_WAY) return [way("", hinge.axis, ONE_WAY[hinge.motion])];
+  if (hinge.motion === "floating") {
+    const turns = { yaw: "z", pitch: "y", roll: "x" }; // in this order, each about an axis that the ones before have turned
+    return [...Object.entries(ALONG).map(([label, axis]) => way(label, axis, false)), ...Object.entries(turns).map(([label, axis]) => way(label, ALONG[axis], true))];
+  }
+  if (hinge.motion !== "planar") return [];
+  const normal = new THREE.Vector3().fromArray(hinge.axis); // as UrdfSync.Functions.normalTo in the package
+  const x = new THREE.Vector3().fromArray(Math.abs(normal.x) < 0.9 ? ALONG.x : ALONG.y).projectOnPlane(normal).normalize();
+  return [way("x", x.toArray(), false), way("y", normal.clone().cross(x).toArray(), false), way("turn", hinge.axis, true)];
+}
+
+function startPositions(scene) {
+  return new Map(scene.hinges.flatMap((hinge) => [{ name: hinge.element }, ...waysOf(hinge)].map(({ name }) => [name, hinge.start])));
+}
+
 /* Returns the colour of the page's style sheet by its name. */
 function themeColor(name) {
   return new THREE.Color(getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim()).convertSRGBToLinear();
@@ -60,22 +81,22 @@ async function loadMeshes(text, sizes) {
   const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
   const buffer = await new Response(stream).arrayBuffer(), meshes = new Map();
   let place = 0;
-  sizes.forEach(([points, faces], number) => {
+  for (const [name, [points, faces]] of Object.entries(sizes)) {
     const corners = new Float32Array(buffer, place, 3 * points);
-    meshes.set(`m${number}`, creased(corners, new Uint32Array(buffer, place + 12 * points, 3 * faces)));
+    meshes.set(name, creased(corners, new Uint32Array(buffer, place + 12 * points, 3 * faces)));
     place += 12 * (points + faces);
-  });
+  }
   return meshes;
 }
 
-function shapeGeometry(shape, meshes) {
+function shapeGeometry(shape, mesh) {
   const [x, y] = shape.size;
   switch (shape.form) {
     case "box": return new THREE.BoxGeometry(...shape.size);
     case "sphere": return new THREE.SphereGeometry(x, 32, 20);
     case "cylinder": return new THREE.CylinderGeometry(x, x, y, 40).rotateX(Math.PI / 2);
     case "capsule": return new THREE.CapsuleGeometry(x, y, 12, 32).rotateX(Math.PI / 2);
-    default: return meshes.get(shape.mesh);
+    default: return mesh;
   }
 }
 
@@ -92,13 +113,13 @@ function lines(points, colors, opacity = 1) {
 
 /* One version of the robot. `root` is its root frame; `bodies` and `hinges` are by their elements. */
 class RobotView {
-  constructor(scene, meshes) {
+  constructor(scene, meshes, names) {
     this.scene = scene;
     this.root = new THREE.Group();
     this.bodies = new Map();
     this.hinges = new Map(scene.hinges.map((hinge) => [hinge.element, hinge]));
-    this.positions = new Map(scene.hinges.map((hinge) => [hinge.element, hinge.start]));
-    for (const body of scene.bodies) this.bodies.set(body.element, this.#body(body, meshes));
+    this.positions = startPositions(scene);
+    for (const body of scene.bodies) this.bodies.set(body.element, this.#body(body, meshes, names));
     const children = new Set();
     for (const hinge of scene.hinges) {
       this.bodies.get(hinge.parent).group.add(this.bodies.get(hinge.child).group);
@@ -110,14 +131,16 @@ class RobotView {
     for (const body of this.bodies.values()) this.#mark(body);
   }
 
-  #body(data, meshes) {
+  #body(data, meshes, names) {
     const body = { data, group: new THREE.Group(), layers: Object.fromEntries(LAYERS.map((layer) => [layer, []])) };
     body.group.matrixAutoUpdate = false;
     for (const shape of data.shapes) {
+      const geometry = shapeGeometry(shape, meshes.get(names[shape.mesh]));
+      if (!geometry) continue; // a mesh that can't be shown
       const [red, green, blue, opacity] = shape.color;
       const color = new THREE.Color(red, green, blue).convertSRGBToLinear();
       const material = new THREE.MeshStandardMaterial({ color, roughness: 0.65, metalness: 0.1, opacity, transparent: opacity < 1, side: THREE.DoubleSide });
-      const mesh = new THREE.Mesh(shapeGeometry(shape, meshes), material);
+      const mesh = new THREE.Mesh(geometry, material);
       mesh.matrixAutoUpdate = false;
       mesh.matrix.fromArray(shape.pose);
       mesh.userData = { element: data.element, color, opacity };
@@ -135,7 +158,7 @@ class RobotView {
   /* Adds frame, centre of mass and inertia box, whose sizes go with the robot's. */
   #mark(body) {
     const { data } = body, length = 0.05 * this.size;
-    const hinge = this.scene.hinges.find((each) => each.child === data.element && each.motion);
+    const hinge = this.scene.hinges.find((each) => each.child === data.element && (each.motion in ONE_WAY || each.motion === "planar"));
     const points = [0, 0, 0, length, 0, 0, 0, 0, 0, 0, length, 0, 0, 0, 0, 0, 0, length];
     const colors = [.9, .1, .1, .9, .1, .1, .1, .65, .1, .1, .65, .1, .15, .3, 1, .15, .3, 1];
     if (hinge) {
@@ -185,17 +208,17 @@ class RobotView {
   }
 
   /* Sets the position of one axis; those that follow it move, too. */
-  move(element, position) {
-    if (!this.hinges.has(element)) return;
-    this.positions.set(element, position);
+  move(name, position) {
+    if (!this.positions.has(name)) return;
+    this.positions.set(name, position);
     this.place();
   }
 
-  /* Sets the positions of many axes; `renamed` has their names in the other version. */
+  /* Sets the positions of many axes; `renamed` has the new names of joints. */
   moveAll(positions, renamed) {
-    for (const element of this.positions.keys()) {
-      const position = positions.get(renamed[element] || element);
-      if (position !== undefined) this.positions.set(element, position);
+    for (const hinge of this.scene.hinges) for (const { name } of waysOf(hinge)) {
+      const position = positions.get(name.replace(hinge.element, renamed[hinge.element] || hinge.element));
+      if (position !== undefined) this.positions.set(name, position);
     }
     this.place();
   }
@@ -204,11 +227,13 @@ class RobotView {
     const turn = new THREE.Matrix4(), axis = new THREE.Vector3();
     for (const hinge of this.scene.hinges) { // leaders come first
       if (hinge.leader) this.positions.set(hinge.element, hinge.multiplier * this.positions.get(hinge.leader) + hinge.offset);
-      const position = this.positions.get(hinge.element), { group } = this.bodies.get(hinge.child);
+      const { group } = this.bodies.get(hinge.child);
       group.matrix.fromArray(hinge.pose);
-      axis.fromArray(hinge.axis);
-      if (hinge.motion === "rotational") group.matrix.multiply(turn.makeRotationAxis(axis, position));
-      if (hinge.motion === "translational") group.matrix.multiply(turn.makeTranslation(...axis.multiplyScalar(position).toArray()));
+      for (const way of waysOf(hinge)) {
+        const position = this.positions.get(way.name);
+        axis.fromArray(way.axis);
+        group.matrix.multiply(way.turns ? turn.makeRotationAxis(axis, position) : turn.makeTranslation(...axis.multiplyScalar(position).toArray()));
+      }
     }
     this.root.updateMatrixWorld(true);
   }

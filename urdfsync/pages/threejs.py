@@ -44,14 +44,9 @@ def load() -> Library:
         text = page.partition(_SCRIPT)[2].partition(_END)[0] + _END
         release = re.search(r'"use strict";const \w+="(\d+)"', text[:2000])
         if release and "@license" in text[:200] and _END in page and not any(part in text for part in _FORBIDDEN):
-            return Library(text.replace("\r", ""), f"three.js r{release[1]}", _licence(text))
+            comment = (line.strip(" *") for line in text.partition("*/")[0].splitlines())
+            licence = [line for line in comment if line.startswith(("Copyright", "SPDX-License-Identifier"))]
+            return Library(text.replace("\r", ""), f"three.js r{release[1]}", "; ".join(licence))
         break
     message, hint = "the installed trimesh has no three.js for the page", "install trimesh again, version 5"
     raise UrdfsyncError.of("no-threejs", message, hint=hint)
-
-
-def _licence(text: str) -> str:
-    """Return the licence as the script names it."""
-    comment = text.partition("*/")[0]
-    lines = (line.strip(" *") for line in comment.splitlines())
-    return "; ".join(line for line in lines if line.startswith(("Copyright", "SPDX-License-Identifier")))

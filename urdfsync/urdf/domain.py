@@ -23,7 +23,7 @@ from urdfsync.domain import (
     Snapshot,
     Target,
 )
-from urdfsync.scene import Meshes, Scene
+from urdfsync.scene import Scene, Triangles
 from urdfsync.urdf import artifacts as package
 from urdfsync.urdf import option_names
 from urdfsync.urdf.benches import bench
@@ -205,7 +205,7 @@ class UrdfDomain(Domain):
 
         return scene(from_snapshot(snapshot), imports, target, options)
 
-    def triangles(self, contents: Mapping[str, bytes]) -> tuple[Meshes, Mapping[str, str]]:
+    def triangles(self, contents: Mapping[str, bytes]) -> tuple[Mapping[str, Triangles], Mapping[str, str]]:
         """Return the triangles of imported meshes, with shared corners."""
         from urdfsync.urdf.meshes.simplify import simplified  # likewise
 

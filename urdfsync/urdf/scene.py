@@ -10,7 +10,7 @@ import msgspec
 import numpy as np
 
 from urdfsync.domain import Import, Target
-from urdfsync.scene import Body, Facts, Hinge, Pose, Scene, Shape
+from urdfsync.scene import Body, Hinge, Pose, Scene, Shape
 from urdfsync.urdf.kinematics import poses
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.meshes import lookup
@@ -35,7 +35,7 @@ def _body(tree: KinematicTree, link: Link, imports: Mapping[str, Import], target
     shown = msgspec.structs.replace(options, collisions=True)
     visuals, collisions = link_shapes(link, imports, target.package, shown)
     shapes = [_shape(data, target) for data in (*visuals, *collisions)]
-    body = Body(f"link {link.name}", tree.link(link.name).component, _link_facts(link, shapes), tuple(shapes))
+    body = Body(f"link {link.name}", tree.link(link.name).component, tuple(_facts(link)), tuple(shapes))
     if link.inertial is None or not link.inertial.mass > 0:
         return body
     axes, box = _principal(link.inertial)
@@ -86,16 +86,16 @@ def _principal(inertial: Inertial) -> tuple[Pose, tuple[float, ...]]:
 
 def _hinge(tree: KinematicTree, joint: Joint, start: float) -> Hinge:
     lower, upper = (limit if math.isfinite(limit) else None for limit in poses.own_range(joint))
-    moves = MOTION_KINDS.get(joint.type, "")
+    moves = MOTION_KINDS.get(joint.type)
     return Hinge(
         element=f"joint {joint.name}",
         component=tree.joint(joint.name).component,
-        facts=_joint_facts(joint),
+        facts=tuple(_facts(joint, joint)),
         parent=f"link {joint.parent}",
         child=f"link {joint.child}",
         pose=_matrix(poses.pose(joint.origin)),
         axis=joint.axis,
-        motion=moves,
+        motion=moves or ("" if joint.type == "fixed" else joint.type),
         start=start,
         lower=lower if moves else None,
         upper=upper if moves else None,
@@ -112,48 +112,25 @@ def _matrix(pose: poses.Pose) -> Pose:
     return (*columns[0], *columns[1], *columns[2], *translation, 1.0)
 
 
-# --- numbers for people -------------------------------------------------------------------------------------------
-
-
-def _link_facts(link: Link, shapes: list[Shape]) -> Facts:
-    facts = []
-    if (inertial := link.inertial) is not None:
-        facts += [("mass", f"{inertial.mass:g} kg"), ("centre of mass", f"{_vector(inertial.origin.xyz)} m")]
-        i = inertial.inertia
-        facts += [("ixx, iyy, izz", f"{_vector((i.ixx, i.iyy, i.izz))} kg·m²")]
-        facts += [("ixy, ixz, iyz", f"{_vector((i.ixy, i.ixz, i.iyz))} kg·m²")]
-    else:
-        facts.append(("mass", "none"))
-    counts = {kind: sum(shape.kind == kind for shape in shapes) for kind in ("visual", "collision")}
-    return [*facts, *((f"{kind}s", str(count)) for kind, count in counts.items())]
-
-
-def _joint_facts(joint: Joint) -> Facts:
-    facts = [("type", f"{joint.type}: {JOINT_KINDS[joint.type].does}"), ("from", joint.parent), ("to", joint.child)]
-    facts += [("origin", f"{_vector(joint.origin.xyz)} m"), ("rotation", f"{_vector(joint.origin.rpy)} rad")]
-    if JOINT_KINDS[joint.type].has_axis:
-        facts.append(("axis", _vector(joint.axis)))
-    if joint.mimic:
-        facts.append(("follows", f"{joint.mimic.multiplier:g} · {joint.mimic.joint} + {joint.mimic.offset:g}"))
-    for part in (joint.limit, joint.dynamics, joint.transmission):
-        facts += _numbers(part, joint) if part is not None else ()
-    return facts
-
-
-def _numbers(values: msgspec.Struct, joint: Joint) -> Iterator[tuple[str, str]]:
-    """Yield the numbers of a part of a joint with their units."""
-    slides = MOTION_KINDS.get(joint.type) == "translational"
+def _facts(values: msgspec.Struct, joint: Joint | None = None, label: str = "") -> Iterator[tuple[str, str]]:
+    """Yield the properties of a link or joint with their units; of several shapes the number."""
     for field in msgspec.structs.fields(values):
-        number = getattr(values, field.name)
-        is_position = field.name in ("lower", "upper")
-        if number is None or (is_position and not JOINT_KINDS[joint.type].has_limits):
+        value, name = getattr(values, field.name), f"{label}{field.name.replace('_', ' ')}"
+        if isinstance(value, msgspec.Struct):
+            yield from _facts(value, joint, f"{name} ")
             continue
-        (unit,) = (each for each in getattr(field.type, "__metadata__", ()) if isinstance(each, Unit))
-        name = unit.sliding if slides and unit.sliding else unit.name
-        degrees = f" ({math.degrees(number):.4g}°)" if name == "rad" and is_position else ""
-        label = f"limit of {field.name}" if field.name in ("effort", "velocity") else field.name.replace("_", " ")
-        yield label, f"{number:g} {name}".rstrip() + degrees
-
-
-def _vector(numbers: tuple[float, ...]) -> str:
-    return f"({', '.join(f'{number:.6g}' for number in numbers)})"
+        is_end = name in ("limit lower", "limit upper")
+        if value is None or value is False or value == () or name == "name":
+            continue
+        if is_end and joint and not JOINT_KINDS[joint.type].has_limits:
+            continue
+        units = [each for each in getattr(field.type, "__metadata__", ()) if isinstance(each, Unit)]
+        slides = joint is not None and MOTION_KINDS.get(joint.type) == "translational"
+        unit = "".join(each.sliding if slides and each.sliding else each.name for each in units)
+        if isinstance(value, tuple):
+            is_vector = isinstance(value[0], float)
+            text = f"({', '.join(f'{number:.6g}' for number in value)})" if is_vector else str(len(value))
+        else:
+            text = f"{value:.6g}" if isinstance(value, float) else str(value)
+        degrees = f" ({math.degrees(value):.4g}°)" if is_end and unit == "rad" else ""
+        yield name, f"{text} {unit}".rstrip() + degrees

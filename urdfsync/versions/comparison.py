@@ -11,7 +11,7 @@ import os
 import tempfile
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import msgspec
 
@@ -42,6 +42,10 @@ _DOMAIN = "urdf"
 """Domain of a source that no robot of the configuration has."""
 
 
+Contents: TypeAlias = tuple[Version, Mapping[str, bytes]]
+"""A version with its imported files by path."""
+
+
 class Comparison(msgspec.Struct, frozen=True):
     """A source as it is now, compared with an older version of it."""
 
@@ -55,8 +59,8 @@ class Comparison(msgspec.Struct, frozen=True):
     """Why there is no older version to compare with; empty if there is one."""
     effects: tuple[Effect, ...] = ()
     """Properties of the model as a whole that the changes concern."""
-    versions: tuple[tuple[Version, Mapping[str, bytes]], ...] = ()
-    """The older version and the new one, each with its imported files by path; none of a last build, or an error."""
+    versions: tuple[Contents, ...] = ()
+    """The older version and the new one; none of a last build, or an error."""
 
     @property
     def diagnostics(self) -> tuple[Diagnostic, ...]:

@@ -36,6 +36,12 @@ class Started(Event, frozen=True):
     """Whether it was read before: then it has changed, or is valid again."""
 
 
+class Viewing(Event, frozen=True):
+    """Pages of the robots are at this address, until the daemon ends; before all other events."""
+
+    address: str
+
+
 class Settling(RobotEvent, frozen=True):
     """A file of the robot changed; the robot is built when nothing changes any more."""
 

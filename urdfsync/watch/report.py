@@ -187,6 +187,9 @@ class Report:
                 if not self._console.quiet:
                     words = f"watching {counted(len(robots), 'robot')} of {shown(file)}"
                     yield self._line(clock, "", f"configuration read again, {words}" if again else words)
+            case events.Viewing(address):
+                if not self._console.quiet:
+                    yield self._line(clock, "", f"to be seen at {address}")
             case events.Built(result):
                 self._finish(result, clock)
                 yield from self._built(event, clock)

@@ -1,0 +1,53 @@
+"use strict";
+/* Follows the daemon that serves the page: after a build it is loaded anew, and camera, axes and switches stay. */
+
+const PLACE = `urdfsync ${location.pathname}`;
+const LIT = 3000; // milliseconds in which what has changed glows
+const kept = JSON.parse(sessionStorage.getItem(PLACE)) || { build: null };
+
+function loadAnew(build) {
+  const { azimuth, elevation, distance, target, box } = stage.orbit || {};
+  const view = stage.orbit && { azimuth, elevation, distance, target: target.toArray(), box: [box.min.toArray(), box.max.toArray()] };
+  const theme_ = document.documentElement.dataset.theme, tab = document.querySelector("[role=tab][aria-selected=true]").id;
+  const { layers, selected, positions } = page;
+  sessionStorage.setItem(PLACE, JSON.stringify({ build, view, layers, selected, positions: [...positions], tab, theme: theme_, scroll: scrollY }));
+  location.reload();
+}
+
+/* Puts back what was kept, as far as it is still there. */
+function restore() {
+  if (kept.build === null) return;
+  setTheme(kept.theme);
+  chooseTab(element(kept.tab));
+  moveAll(new Map(kept.positions.filter(([name]) => page.positions.has(name))));
+  for (const layer of LAYERS) if (page.layers[layer] !== kept.layers[layer]) toggle(layer);
+  select([...data.now.bodies, ...data.now.hinges].some((each) => each.element === kept.selected) ? kept.selected : null);
+  if (kept.view && stage.orbit) {
+    const [least, most] = kept.view.box.map((corner) => new THREE.Vector3().fromArray(corner));
+    stage.orbit.box.union(new THREE.Box3(least, most));
+    Object.assign(stage.orbit, { azimuth: kept.view.azimuth, elevation: kept.view.elevation, distance: kept.view.distance });
+    stage.orbit.target.fromArray(kept.view.target);
+    stage.orbit.update();
+  }
+  scrollTo(0, kept.scroll);
+}
+
+function tell(words) {
+  element("daemon").hidden = !words;
+  element("daemon").textContent = words;
+}
+
+page.ready.then(() => {
+  restore();
+  page.isLit = data.before !== null;
+  paint();
+  setTimeout(() => { page.isLit = false; paint(); }, LIT);
+  const source = new EventSource("events");
+  source.addEventListener("message", (event) => {
+    const [build, problem, others] = JSON.parse(event.data);
+    tell(problem);
+    element("others").replaceChildren(...Object.entries(others).flatMap(([name, href]) => [make("a", { href }, name), " "]));
+    if (build !== data.build && build !== kept.build) loadAnew(build); // once: while the source is broken the page stays
+  });
+  source.addEventListener("error", () => tell("urdfsync watch has ended, or can't be reached: this is its last picture."));
+});

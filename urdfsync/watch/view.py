@@ -1,0 +1,164 @@
+"""The pages of watched robots for browsers on this machine, which follow the builds by server-sent events.
+
+Only the loopback is listened to. Pages of other sites can't ask: their requests have another `Origin`, or another
+`Host` if a name of theirs leads here.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import functools
+import os
+import threading
+from collections.abc import Iterator
+from http import HTTPStatus
+from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from typing import Any
+from urllib.parse import quote, unquote
+
+import msgspec
+
+from urdfsync import config
+from urdfsync.checks.robot import known_check
+from urdfsync.diagnostics import OutputError, UrdfsyncError, internal_error
+from urdfsync.engine.options import no_progress
+from urdfsync.pages.content import gather
+from urdfsync.pages.page import page
+from urdfsync.versions.comparison import Contents
+from urdfsync.watch import events
+from urdfsync.watch.daemon import WatchOptions
+
+_ALIVE = 10.0
+"""Seconds after which something is sent, by which a browser that has gone is noticed."""
+_HEADERS = {"Cache-Control": "no-store", "X-Content-Type-Options": "nosniff", "X-Frame-Options": "DENY"}
+
+
+class _Robot(msgspec.Struct):
+    """One robot. `build` counts builds and checks, `page_build` is the one that the page shows."""
+
+    build: int = 0
+    problem: str = ""
+    """Why the source can't be built as it is."""
+    page: bytes = b""
+    page_build: int = -1
+    shown: tuple[Contents, ...] = ()
+    """The version that the page shows, then the one before."""
+
+
+class View:
+    """The server. The daemon's thread calls `take`; each request has a thread of its own."""
+
+    def __init__(self, options: WatchOptions, port: int) -> None:
+        """Listen on a port; 0 is any that is free. Raises OutputError if it can't be had."""
+        self._file, self.robots = options.file, dict[str, _Robot]()
+        self._options = msgspec.structs.replace(options.build, progress=no_progress)
+        self._news, self._making, self._is_closed = threading.Condition(), threading.Lock(), False
+        try:
+            self._server = ThreadingHTTPServer(("127.0.0.1", port), functools.partial(_Handler, self))
+        except (OSError, OverflowError) as error:
+            message = f"port {port} can't be used for the view: {getattr(error, 'strerror', error)}"
+            raise OutputError.of("port-taken", message, hint="name another one with `--port`") from error
+        self.hosts = tuple(f"{name}:{self._server.server_port}" for name in ("127.0.0.1", "localhost"))
+        threading.Thread(target=self._server.serve_forever, daemon=True).start()
+
+    def close(self) -> None:
+        """End all connections, and the server."""
+        with self._news:
+            self._is_closed = True
+            self._news.notify_all()
+        self._server.shutdown()
+        self._server.server_close()
+
+    def take(self, event: events.Event) -> None:
+        """Take note of an event, and tell the pages."""
+        with self._news:
+            match event:
+                case events.Started(robots=names):
+                    self.robots = {name: self.robots.get(name) or _Robot() for name in names}
+                case events.Built(result) | events.Failed(result):
+                    robot = self.robots[result.robot]
+                    robot.build += not result.failed
+                    robot.problem = "; ".join(map(str, result.diagnostics)) if result.failed else ""
+                case events.CheckDone(name):
+                    self.robots[name].build += 1
+                case events.Waiting(name, reason, diagnostics):
+                    self.robots[name].problem = ": ".join([reason, *map(str, diagnostics)])
+            self._news.notify_all()
+
+    def page(self, name: str) -> bytes:
+        """Return the page of a robot as it is, else the last one; empty if there never was one."""
+        robot = self.robots[name]
+        with self._making:
+            if (build := robot.build) == robot.page_build:
+                return robot.page
+            try:
+                loaded = config.load(self._file)
+                (configured,) = loaded.select([name])
+                content = gather(loaded, configured, None, self._options, config.working_folder(), robot.shown)
+                check = known_check(loaded, configured, config.ros_package_path(os.environ))
+                robot.page, robot.page_build = page(content, check=check, build=build), build
+                if not robot.shown or robot.shown[0][0] != content.version[0]:
+                    robot.shown = (content.version, *robot.shown[:1])
+            except Exception as error:  # noqa: BLE001 - builds go on, and the next one has another page
+                is_known = isinstance(error, UrdfsyncError | OSError)
+                robot.problem = robot.problem or str(error if is_known else internal_error(error))
+        return robot.page
+
+    def messages(self, name: str) -> Iterator[bytes]:
+        """Yield what a page has to know, at once and whenever it changes."""
+        told = b""
+        while not self._is_closed and (state := self._state(name)):
+            yield b"data: %b\n\n" % state if state != told else b":\n\n"
+            told = state
+            with self._news:
+                self._news.wait_for(lambda: self._is_closed or self._state(name) != told, _ALIVE)  # noqa: B023 - called at once
+
+    def _state(self, name: str) -> bytes:
+        robot = self.robots.get(name)
+        others = {other: f"/{quote(other)}/" for other in self.robots if other != name}
+        return msgspec.json.encode([robot.build, robot.problem, others]) if robot else b""
+
+
+class _Handler(BaseHTTPRequestHandler):
+    """Answers one request."""
+
+    def __init__(self, view: View, *connection: Any) -> None:
+        self._view = view
+        super().__init__(*connection)
+
+    def handle(self) -> None:
+        """Answer; browsers may go away at any time."""
+        with contextlib.suppress(ConnectionError):
+            super().handle()
+
+    def do_GET(self) -> None:
+        """Answer a request for a page, or for what it follows."""
+        view, host = self._view, self.headers.get("Host")
+        name, _, rest = self.path.removeprefix("/").partition("/")
+        if host not in view.hosts or self.headers.get("Origin") not in (None, f"http://{host}"):
+            self._answer(HTTPStatus.FORBIDDEN, b"This is for browsers on this machine, and for no other page.")
+        elif self.path == "/" and view.robots:
+            self._answer(HTTPStatus.FOUND, Location=f"/{quote(next(iter(view.robots)))}/")
+        elif (name := unquote(name)) not in view.robots or rest not in ("", "events"):
+            self._answer(HTTPStatus.NOT_FOUND, b"There is no such robot.")
+        elif rest:
+            self._answer(HTTPStatus.OK, kind="text/event-stream")
+            for message in view.messages(name):
+                self.wfile.write(message)
+        elif content := view.page(name):
+            self._answer(HTTPStatus.OK, content, "text/html; charset=utf-8")
+        else:
+            problem = f"{name}: {view.robots[name].problem}".encode("utf-8", "replace")
+            self._answer(HTTPStatus.OK, problem, Refresh="2")
+
+    def _answer(
+        self, status: HTTPStatus, content: bytes = b"", kind: str = "text/plain; charset=utf-8", **more: str
+    ) -> None:
+        self.send_response(status)
+        for key, value in {**_HEADERS, "Content-Type": kind, **more}.items():
+            self.send_header(key, value)
+        self.end_headers()
+        self.wfile.write(content)
+
+    def log_message(self, *_: object) -> None:
+        """Say nothing: the terminal is the daemon's."""
