@@ -315,6 +315,8 @@ class Probe(msgspec.Struct, frozen=True):
     values: tuple[str, ...]
     optional: tuple[str, ...] = ()
     """Variables that are handed back as well, if the package has them."""
+    tolerance: float | None = None
+    """Of the integration; None for the compiler's own."""
 
 
 class Compared(msgspec.Struct, frozen=True):

@@ -248,7 +248,7 @@ class Compilation:
 
 def _task(trial: Trial) -> CompileTask:
     probe = trial.probe
-    run, title = Simulation(probe.stop, probe.step), f"the comparison ({trial.name})"
+    run, title = Simulation(probe.stop, probe.step, tolerance=probe.tolerance), f"the comparison ({trial.name})"
     optional = "|".join(map(re.escape, probe.optional))
     return CompileTask(probe.model, probe.source, (run,), probe.values, optional, title=title)
 

@@ -22,8 +22,8 @@ partial model PartialLoop "What joints that close a loop have in common"
 <code>parameters.origin</code> and <code>parameters.childOrigin</code>.
 </p>
 <p>
-In a model that extends the robot, a loop can be redeclared: by a bushing, that is a spring and a damper, for one that gives way; or by a model
-without force, for one that is cut.
+In a model that extends the robot, a loop can be redeclared, for example by a bushing, that is a spring and a damper. Then the joints whose start is a guess
+need one that is fixed (<code>fixedStart = true</code>), since no constraint closes the loop.
 </p>
 </html>"));
 end PartialLoop;

@@ -25,10 +25,8 @@ are parallel: five equations would hold them twice, and no compiler solves that.
 perpendicular to it. Which of a loop's equations are independent, urdfsync finds out.
 </p>
 <p>
-<strong>States.</strong> A four-bar has three joints in its tree, and one freedom: one joint has the states, position and speed, and the positions of the
-others follow from them. So the start position of that joint is a start position, while those of the others are guesses, from which the compiler goes
-to the closest pose that is closed. Positions at which a loop locks, such as a four-bar with crank and coupler in one line, are no good start for states
-of the rocker: there its position says nothing about where the crank goes.
+<strong>The start.</strong> A four-bar has three joints in its tree, and one freedom. So the start of one joint is a start, that of the others a guess: from there the
+compiler goes to the closest pose that is closed, and to the speeds that keep it closed.
 </p>
 </html>"));
 end Loops;

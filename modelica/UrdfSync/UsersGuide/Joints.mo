@@ -78,8 +78,8 @@ different kinds, and a follower may itself be followed. A joint that follows a f
 <h4>Loops</h4>
 <p>
 A robot with loops is no tree: one joint of each loop is left out of the tree and <a href=\"modelica://UrdfSync.Loops\">closes it</a>. It has no flanges, limits or
-losses; its variables are <code>gap</code>, <code>f</code> and <code>t</code>. The loops leave fewer freedoms than the tree has joints: the positions of joints without
-states follow from those of the others, and their start values are guesses.
+losses; its variables are <code>gap</code>, <code>f</code> and <code>t</code>. The loops leave fewer freedoms than the tree has joints: as many joints begin where their start
+values say, and those of the others are guesses.
 </p>
 <h4>Start values</h4>
 <p>

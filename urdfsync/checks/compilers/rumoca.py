@@ -45,12 +45,6 @@ _STUCK = (
     'choose `friction = "lugre"`, or OpenModelica with `--tool`'
 )
 """In place of what rumoca 0.10.2 says of two such joints."""
-_PROJECTION = "algebraic projection "
-_DEAD_POINT = (
-    "rumoca does not find the positions that follow from the states, as in a loop at a dead point: "
-    "drive another joint (`driven`), begin elsewhere (`start`), or choose OpenModelica with `--tool`"
-)
-"""In place of what rumoca 0.10.2 says there. An equation may leave 1e-10 for it, however large its terms are."""
 _SPAN = re.compile(r" @ Span \{.*?\) \}")
 
 _SHADOW = "variability violation: "
@@ -221,6 +215,4 @@ def _simulate(model: rumoca.Model, run: Simulation, task: CompileTask) -> Simula
 def _words(error: Exception) -> str:
     """Return the compiler's message without places in its own notation."""
     words = _SPAN.sub("", str(error.args[0] if error.args else error))
-    if search := _SEARCH.search(words):
-        return _STUCK.format(search[1])
-    return _DEAD_POINT if words.startswith(_PROJECTION) else words
+    return _STUCK.format(search[1]) if (search := _SEARCH.search(words)) else words

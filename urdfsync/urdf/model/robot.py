@@ -127,6 +127,7 @@ def bench_data(tree: KinematicTree, names: Connectors, options: Options, loops: 
         "free": [
             row["joint"] for row in rows if row["command"] in (None, "effort") and row["name"] not in loops.dependent
         ],
+        "has_loops": bool(tree.loops),
         "inputs": options.inputs,
         "vector": input_vector(names),
         "sensors": sensors,

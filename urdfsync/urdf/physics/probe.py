@@ -134,7 +134,9 @@ def moving_probe(
     declarations.append(f"MovingBase base({tables}, axis = {vector(motion.TURN_AXIS)})")
     source = _text(target, options, "", declarations, connections)
     last = float(max(motion.Instant))
-    return Probe(source, "Probe_.Probe", last, 1.0, tuple(values), tuple(optional))
+    # loops are closed by integration: what it leaves open shows in accelerations, by the square of its rate of decay
+    tolerance = 1e-11 if subject.tree.loops else None
+    return Probe(source, "Probe_.Probe", last, 1.0, tuple(values), tuple(optional), tolerance)
 
 
 def free_probe(

@@ -96,12 +96,10 @@ model FourBar "Robot FourBar"
   replaceable Joints.Crank_pin crank_pin(
     phi_start = startPositions.crank_pin,
     fixedStart = false,
-    stateSelect = StateSelect.avoid,
     checkLimits = checkLimits)
     constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
       phi_start = startPositions.crank_pin,
       fixedStart = false,
-      stateSelect = StateSelect.avoid,
       checkLimits = checkLimits)
     "Continuous joint \"crank_pin\" from link \"crank\" to link \"coupler\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{-8, -10}, {12, 10}})));
@@ -109,12 +107,10 @@ model FourBar "Robot FourBar"
   replaceable Joints.Rocker_pivot rocker_pivot(
     phi_start = startPositions.rocker_pivot,
     fixedStart = false,
-    stateSelect = StateSelect.avoid,
     checkLimits = checkLimits)
     constrainedby UrdfSync.Interfaces.PartialRevoluteJoint(
       phi_start = startPositions.rocker_pivot,
       fixedStart = false,
-      stateSelect = StateSelect.avoid,
       checkLimits = checkLimits)
     "Continuous joint \"rocker_pivot\" from link \"frame\" to link \"rocker\""
     annotation (choicesAllMatching=true, Placement(transformation(extent={{-56, -88}, {-36, -68}})));

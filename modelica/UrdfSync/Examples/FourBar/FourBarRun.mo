@@ -34,7 +34,7 @@ equation
     annotation (Line(points={{-30, 180}, {-30, 175}, {20, 175}}, color={0, 0, 0}));
 
   annotation (
-    experiment(StopTime=10, Interval=0.02, Tolerance=1e-6),
+    experiment(StopTime=10, Interval=0.02, Tolerance=1e-8),
     Icon(coordinateSystem(preserveAspectRatio=true, extent={{-100, -100}, {100, 170}}), graphics={
       Rectangle(extent={{-100, 100}, {100, 170}}, lineColor={110, 110, 110}, fillColor={255, 255, 255}, fillPattern=FillPattern.Solid),
       Text(extent={{-94, 146}, {94, 164}}, textColor={64, 64, 64}, textString="crank_pivot")}),

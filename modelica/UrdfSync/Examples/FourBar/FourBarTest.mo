@@ -26,7 +26,7 @@ equation
     annotation (Line(points={{-30, 180}, {-30, 175}, {20, 175}}, color={0, 0, 0}));
 
   annotation (
-    experiment(StopTime=10, Interval=0.02, Tolerance=1e-6),
+    experiment(StopTime=10, Interval=0.02, Tolerance=1e-8),
     Diagram(coordinateSystem(preserveAspectRatio=true, extent={{-120, -280}, {340, 225}})),
     Documentation(info="<html>
 <p>
