@@ -71,10 +71,11 @@ def test_a_revision_that_gives_the_same_texts_is_no_change(
 
 def test_a_file_with_a_loop_is_compared(arm: Path, execute: Execute) -> None:
     new = arm / "new.urdf"
-    new.write_text(new.read_text().replace("</robot>", '<loop_joint name="bar"/></robot>'))
+    loop = '<loop_joint name="bar" type="prismatic"><link1 link="a"/><link2 link="b"/></loop_joint>'
+    new.write_text(new.read_text().replace("</robot>", f"{loop}</robot>"))
     printed = execute("diff", "new.urdf", "--against", "arm.urdf", code=1)
     assert "54 → 60" in printed.out
-    assert "warning: <loop_joint> bar closes a loop of links, and is left out of the model" in printed.words
+    assert "warning: loop bar has type='prismatic', by which no loop can be closed" in printed.words
 
 
 def refused(execute: Execute, *arguments: str) -> str:

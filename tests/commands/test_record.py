@@ -34,10 +34,11 @@ def test_a_record_on_its_own_names_the_libraries_that_it_uses(execute: Execute) 
 
 
 def test_what_a_model_leaves_out_is_told(execute: Execute) -> None:
-    Path("arm.urdf").write_text('<robot name="arm"><link name="world"/><loop_joint name="bar"/></robot>')
+    loop = '<loop_joint name="bar" type="prismatic"><link1 link="world"/><link2 link="world"/></loop_joint>'
+    Path("arm.urdf").write_text(f'<robot name="arm"><link name="world"/>{loop}</robot>')
     said = execute("record", "arm.urdf")
     assert 'name = "arm"' in said.out
-    assert "warning: <loop_joint> bar closes a loop of links, and is left out of the model" in said.words
+    assert "warning: loop bar has type='prismatic', by which no loop can be closed" in said.words
 
 
 def test_a_terminal_shows_the_same_text(execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:

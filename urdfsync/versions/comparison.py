@@ -237,7 +237,7 @@ def _in_revision(revision: Revision, robot: RobotConfig, config: Config | None) 
         if config is None or not source_files.is_xacro(robot.source, content):
             domain = registry.domain(robot.domain)
             beside = domain.beside(robot.source)
-            other = revision.read(beside) if beside and revision.holds(beside) else b""
+            other = revision.contents([beside]).get(beside, b"") if beside else b""
             return source_files.joined(domain, content, label, other, beside)
     path = Store(config.root).expansion(robot.name)
     if (recorded := expansion.loads(revision.read(path))) is None:
