@@ -71,6 +71,31 @@ class Hinge(msgspec.Struct, frozen=True):
     """The element that it follows; empty if it moves by itself."""
     multiplier: float = 1.0
     offset: float = 0.0
+    is_dependent: bool = False
+    """Whether loops move it."""
+
+
+class End(msgspec.Struct, frozen=True):
+    """A frame on a body."""
+
+    body: str
+    pose: Pose
+
+
+class Loop(msgspec.Struct, frozen=True):
+    """A connection of two bodies that hinges connect already, by equations for the place and axes of its second end.
+
+    These are resolved in the first end.
+    """
+
+    element: str
+    component: str
+    facts: Facts
+    ends: tuple[End, End]
+    translations: tuple[tuple[float, ...], ...]
+    """Directions along which both ends are at one place."""
+    rotations: tuple[tuple[tuple[float, ...], tuple[float, ...]], ...]
+    """A direction of the first end and one of the second, which are at right angles."""
 
 
 class Scene(msgspec.Struct, frozen=True):
@@ -81,6 +106,7 @@ class Scene(msgspec.Struct, frozen=True):
     hinges: tuple[Hinge, ...]
     missing: tuple[str, ...] = ()
     """Shapes that can't be shown, with reasons, in words."""
+    loops: tuple[Loop, ...] = ()
 
 
 class Triangles(msgspec.Struct, frozen=True):

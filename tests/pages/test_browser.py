@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import shutil
 from collections.abc import Callable
 from pathlib import Path
 from xml.sax.saxutils import quoteattr
@@ -10,6 +11,7 @@ from xml.sax.saxutils import quoteattr
 import numpy as np
 import pytest
 from support.browser import NEEDS_CHROMIUM, Page
+from support.corpus import REPOSITORY
 
 from urdfsync import cli, config
 from urdfsync.checks.results import CheckResult, Curve, ToolResult
@@ -21,6 +23,18 @@ from urdfsync.pages.page import page as page_of
 from urdfsync.simulation.results import JointResult, PassedLimit, Range, SimulateResult
 
 pytestmark = [NEEDS_CHROMIUM, pytest.mark.slow]
+FOUR_BAR = REPOSITORY / "modelica/UrdfSync/Resources/robots/four_bar"
+CLOSED = """
+[robots.bar]
+source = "four_bar.urdf"
+package = "Bar"
+start = {{ crank_pivot = 1.2, crank_pin = -0.9, rocker_pivot = 1.2 }}
+[[robots.bar.loops]]
+name = "rocker_pin"
+kind = "ball"
+frames = [{{ link = "coupler", xyz = [{length}, 0, -0.025] }}, {{ link = "rocker", xyz = [0.4, 0, 0] }}]
+"""
+MOVED = "(move('joint crank_pivot', {}), Object.fromEntries(page.positions))"
 Report = Callable[..., Path]
 READY = "page.ready.then(() => true)"
 PAINTED = "page.now.bodies.get({!r}).layers.visual[0].material.{}.getHex()"
@@ -37,6 +51,29 @@ def replace(file: Path, old: str, new: str) -> None:
     text = file.read_text("utf-8")
     assert old in text
     file.write_text(text.replace(old, new, 1), "utf-8")
+
+
+def test_a_four_bar_stays_closed_under_its_slider_and_stops_where_it_would_open(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, report: Report, chromium: Page
+) -> None:
+    """The rocker's end is where circles about its pivot and about the crank's end meet."""
+    shutil.copytree(FOUR_BAR, tmp_path, dirs_exist_ok=True)
+    monkeypatch.chdir(tmp_path)
+    Path("urdfsync.toml").write_text(CLOSED.format(length=0.6), "utf-8")
+    page = opened(chromium, report())
+    assert page.run("[...document.querySelectorAll('#axes input[type=range]')].length") == 1
+    for angle in (2.0, -1.5, 3.1):
+        rocker = page.run(MOVED.format(angle))["joint rocker_pivot"]
+        x, y = 0.2 * math.cos(angle) - 0.5, 0.2 * math.sin(angle)
+        distance = math.hypot(x, y)
+        expected = math.atan2(y, x) - math.acos((distance**2 + 0.4**2 - 0.6**2) / (2 * 0.4 * distance))
+        assert math.remainder(rocker - expected, math.tau) == pytest.approx(0, abs=1e-8)
+    page.run("select('loop rocker_pin')")
+    assert "ball" in page.run("element('details').textContent")
+    Path("urdfsync.toml").write_text(CLOSED.format(length=0.25), "utf-8")  # the crank locks at 2.29 rad
+    page = opened(chromium, report())
+    assert 2.2 < page.run(MOVED.format(3.0))["joint crank_pivot"] < 2.3
+    assert page.run("gapsOf(page.now).every((gap) => Math.abs(gap) < 1e-9)")
 
 
 def test_sliders_move_the_arm_as_pinocchio_does(arm: Path, report: Report, chromium: Page) -> None:

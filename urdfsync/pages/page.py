@@ -32,7 +32,7 @@ from urdfsync.scene import Triangles
 from urdfsync.simulation.files import check_file, not_writable
 from urdfsync.simulation.results import SimulateResult
 
-SCRIPTS = ("robot.js", "orbit.js", "panels.js", "motion.js", "page.js")
+SCRIPTS = ("robot.js", "loops.js", "orbit.js", "panels.js", "motion.js", "page.js")
 """Our own scripts, in the order in which they run: each may use what those before it declare."""
 FOLLOWER = "follow.js"
 """The last one, if a daemon serves the page."""

@@ -31,8 +31,9 @@ function mark(statuses, element) {
 
 /* Fills the panel of axes. `move` is called with an element and a position. Returns what shows all positions. */
 function fillAxes(panel, data, move, select) {
-  const free = data.now.hinges.filter((hinge) => hinge.motion && !hinge.leader);
-  const followers = data.now.hinges.filter((hinge) => hinge.motion && hinge.leader);
+  const follows = (hinge) => hinge.leader ? `follows ${nameOf(hinge.leader)}` : hinge.is_dependent ? "follows through loops" : "";
+  const free = data.now.hinges.filter((hinge) => hinge.motion && !follows(hinge));
+  const followers = data.now.hinges.filter((hinge) => hinge.motion && follows(hinge));
   if (free.length === 0) panel.append(make("p", { class: "quiet" }, "This robot has no axis that moves by itself."));
   const shown = new Map();
   const order = new Map(data.now.bodies.map((body, place) => [body.element, place]));
@@ -42,9 +43,9 @@ function fillAxes(panel, data, move, select) {
     const label = make("button", { type: "button", class: "name" }, [`${SYMBOLS[hinge.motion]} ${name}`, ...mark(data.statuses, hinge.element)],
       { click: () => select(hinge.element) });
     const unit = make("span", { class: "unit" }, turns ? "rad" : "m");
-    if (hinge.leader) {
+    if (follows(hinge)) {
       const value = make("output", {}, "");
-      panel.append(make("div", { class: "axis", "data-axis": hinge.element }, make("div", { class: "top" }, [label, make("span", { class: "quiet" }, `follows ${nameOf(hinge.leader)}`), value, unit])));
+      panel.append(make("div", { class: "axis", "data-axis": hinge.element }, make("div", { class: "top" }, [label, make("span", { class: "quiet" }, follows(hinge)), value, unit])));
       shown.set(way.name, (position) => { value.textContent = position.toFixed(4); });
       continue;
     }
@@ -109,10 +110,15 @@ function fillTree(panel, data, select) {
   };
 }
 
+/* Returns the two bodies of a hinge or a loop. */
+function endsOf(item) {
+  return item.ends ? item.ends.map((end) => end.body) : [item.parent, item.child];
+}
+
 /* Shows the numbers, neighbours, changes and files of an element; of none without one. */
 function fillDetails(panel, data, element, select) {
-  const { bodies, hinges } = data.now, old = data.before || { bodies: [], hinges: [] };
-  const find = (scene) => [...scene.bodies, ...scene.hinges].find((each) => each.element === element);
+  const { bodies, hinges, loops } = data.now, old = data.before || { bodies: [], hinges: [], loops: [] };
+  const find = (scene) => [...scene.bodies, ...scene.hinges, ...scene.loops].find((each) => each.element === element);
   const item = element && (find(data.now) || find(old));
   if (!item) {
     panel.replaceChildren(make("p", { class: "quiet" }, "Click on a link, here, in the tree or in the diagram."));
@@ -124,8 +130,8 @@ function fillDetails(panel, data, element, select) {
   if (changes.length) parts.push(make("ul", {}, changes.map((words) => make("li", { class: "changed" }, words))));
   const facts = item.facts.flatMap(([label, value]) => [make("dt", {}, label), make("dd", {}, value)]);
   const around = item.shapes
-    ? hinges.filter((hinge) => hinge.parent === element || hinge.child === element).map((hinge) => hinge.element)
-    : [item.parent, item.child].filter((name) => bodies.some((body) => body.element === name));
+    ? [...hinges, ...loops].filter((each) => endsOf(each).includes(element)).map((each) => each.element)
+    : endsOf(item).filter((name) => bodies.some((body) => body.element === name));
   parts.push(make("dl", {}, facts));
   if (around.length) parts.push(make("p", {}, [make("span", { class: "quiet" }, "beside it: "), ...around.flatMap((name, place) => [place ? ", " : "", link(name)])]));
   const files = data.files[element] || [];
@@ -150,7 +156,7 @@ function drawDiagram(place, data, select) {
   fit(isNarrow());
   addEventListener("beforeprint", () => fit(true));
   addEventListener("afterprint", () => fit(isNarrow()));
-  const icons = new Map(), components = new Map([...data.now.bodies, ...data.now.hinges].map((each) => [each.component, each.element]));
+  const icons = new Map(), components = new Map([...data.now.bodies, ...data.now.hinges, ...data.now.loops].map((each) => [each.component, each.element]));
   for (const title of svg.querySelectorAll("g > title")) {
     const element = components.get(title.textContent);
     if (!element) continue;

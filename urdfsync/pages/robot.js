@@ -166,8 +166,9 @@ class RobotView {
       points.push(...end.map((part) => -part), ...end);
       colors.push(.95, .55, 0, .95, .55, 0);
     }
-    for (const { parent, pose } of this.scene.hinges) { // bones, to the frames of the next bodies
-      if (parent !== data.element) continue;
+    const ends = [...this.scene.hinges.map(({ parent, pose }) => ({ body: parent, pose })), ...this.scene.loops.flatMap((loop) => loop.ends)];
+    for (const { body: owner, pose } of ends) { // bones, to the frames of the next bodies and of loops
+      if (owner !== data.element) continue;
       points.push(0, 0, 0, ...pose.slice(12, 15));
       colors.push(.5, .5, .55, .5, .5, .55);
     }
@@ -210,7 +211,8 @@ class RobotView {
   /* Sets the position of one axis; those that follow it move, too. */
   move(name, position) {
     if (!this.positions.has(name)) return;
-    this.positions.set(name, position);
+    if (this.scene.loops.length) moveClosed(this, name, position);
+    else this.positions.set(name, position);
     this.place();
   }
 

@@ -9,14 +9,17 @@ from typing import Any
 import msgspec
 import numpy as np
 
+from urdfsync import scene as scenes
 from urdfsync.domain import Import, Target
-from urdfsync.scene import Body, Hinge, Pose, Scene, Shape
+from urdfsync.scene import Body, End, Hinge, Pose, Scene, Shape
 from urdfsync.urdf.kinematics import poses
+from urdfsync.urdf.kinematics.loops import Closure
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.meshes import lookup
+from urdfsync.urdf.model.loop import loop_data
 from urdfsync.urdf.model.shapes import link_shapes
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS, Inertial, Joint, Link, Mesh, Robot, Unit
+from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS, Inertial, Joint, Link, Loop, Mesh, Robot, Unit
 
 _NO_BOX = 1e-12
 """Square of an edge in m² below which there is none; rounding of thin bodies gives it either sign."""
@@ -24,11 +27,28 @@ _NO_BOX = 1e-12
 
 def scene(robot: Robot, imports: Mapping[str, Import], target: Target, options: Options) -> Scene:
     """Return the picture of a robot. Shapes whose mesh is not imported are named as missing."""
-    tree = KinematicTree.of(robot, (target.name,))
+    data = loop_data(KinematicTree.of(robot, (target.name,)), options)
+    tree = data.tree
     starts = poses.start_positions(tree)
     bodies = tuple(_body(tree, link, imports, target, options) for link in tree.links)
-    hinges = tuple(_hinge(tree, joint, starts[joint.name]) for joint in tree.leaders_first())
-    return Scene(bodies, hinges, tuple(_missing(tree, imports)))
+    hinges = tuple(
+        _hinge(tree, joint, starts[joint.name], joint.name in data.dependent) for joint in tree.leaders_first()
+    )
+    loops = tuple(_loop(tree, loop, data.closures[loop.name]) for loop in tree.loops)
+    return Scene(bodies, hinges, tuple(_missing(tree, imports)), loops)
+
+
+def _loop(tree: KinematicTree, loop: Loop, closure: Closure) -> scenes.Loop:
+    ends = (loop.parent, loop.origin), (loop.child, loop.child_origin)
+    parent, child = (End(f"link {link}", _matrix(poses.pose(origin))) for link, origin in ends)
+    return scenes.Loop(
+        element=f"loop {loop.name}",
+        component=tree.loop(loop.name).component,
+        facts=tuple(_facts(loop)),
+        ends=(parent, child),
+        translations=closure.translations,
+        rotations=closure.rotations,
+    )
 
 
 def _body(tree: KinematicTree, link: Link, imports: Mapping[str, Import], target: Target, options: Options) -> Body:
@@ -84,7 +104,7 @@ def _principal(inertial: Inertial) -> tuple[Pose, tuple[float, ...]]:
     return _matrix(turned), tuple(np.sqrt(np.maximum(squares, 0.0)).tolist()) if is_body else ()
 
 
-def _hinge(tree: KinematicTree, joint: Joint, start: float) -> Hinge:
+def _hinge(tree: KinematicTree, joint: Joint, start: float, is_dependent: bool) -> Hinge:
     lower, upper = (limit if math.isfinite(limit) else None for limit in poses.own_range(joint))
     moves = MOTION_KINDS.get(joint.type)
     return Hinge(
@@ -102,6 +122,7 @@ def _hinge(tree: KinematicTree, joint: Joint, start: float) -> Hinge:
         leader=f"joint {joint.mimic.joint}" if joint.mimic else "",
         multiplier=joint.mimic.multiplier if joint.mimic else 1.0,
         offset=joint.mimic.offset if joint.mimic else 0.0,
+        is_dependent=is_dependent,
     )
 
 

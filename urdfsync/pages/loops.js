@@ -1,0 +1,59 @@
+"use strict";
+/* Loops: the joints that follow others through loops keep these closed, by Newton's method. */
+
+const CLOSED = 1e-9, SHIFT = 1e-6; // gaps in m, and the change of a position that tells derivatives
+const FARTHEST = 0.05; // one step of an axis, in rad or m, so that the robot stays assembled as it is
+
+/* Returns what the equations of all loops leave. */
+function gapsOf(view) {
+  view.place();
+  const vector = (parts) => new THREE.Vector3().fromArray(parts);
+  return view.scene.loops.flatMap((loop) => {
+    const [parent, child] = loop.ends.map(({ body, pose }) => new THREE.Matrix4().fromArray(view.pose(body)).multiply(new THREE.Matrix4().fromArray(pose)));
+    const relative = parent.invert().multiply(child), place = new THREE.Vector3().setFromMatrixPosition(relative);
+    return [
+      ...loop.translations.map((along) => place.dot(vector(along))),
+      ...loop.rotations.map(([u, v]) => vector(v).transformDirection(relative).dot(vector(u))),
+    ];
+  });
+}
+
+/* Returns x of A·x = b by Gauss's elimination; the rows of A have b behind them. Its parts are not finite if A is singular. */
+function solved(rows) {
+  rows.forEach((_, k) => {
+    const largest = rows.reduce((best, row, at) => at > k && Math.abs(row[k]) > Math.abs(rows[best][k]) ? at : best, k);
+    [rows[k], rows[largest]] = [rows[largest], rows[k]];
+    rows = rows.map((row, at) => at === k ? row : row.map((value, column) => value - row[k] / rows[k][k] * rows[k][column]));
+  });
+  return rows.map((row, k) => row.at(-1) / row[k]);
+}
+
+/* Moves dependent joints until all loops are closed; returns whether they are. */
+function close(view) {
+  const names = view.scene.hinges.filter((hinge) => hinge.is_dependent && !hinge.leader).map((hinge) => hinge.element);
+  const shift = (name, way) => view.positions.set(name, view.positions.get(name) + way);
+  for (let round = 0; round < 20; round++) {
+    const gaps = gapsOf(view);
+    if (gaps.every((gap) => Math.abs(gap) < CLOSED)) return true;
+    const columns = names.map((name) => {
+      shift(name, SHIFT);
+      const moved = gapsOf(view);
+      shift(name, -SHIFT);
+      return moved.map((gap, k) => (gap - gaps[k]) / SHIFT);
+    });
+    const steps = solved(gaps.map((gap, k) => [...columns.map((column) => column[k]), gap]));
+    if (!steps.every((step) => Math.abs(step) < 1)) return false;
+    steps.forEach((step, k) => shift(names[k], -step));
+  }
+  return false;
+}
+
+/* Moves an axis as far as all loops stay closed on the way. */
+function moveClosed(view, name, position) {
+  const start = view.positions.get(name), count = Math.ceil(Math.abs(position - start) / FARTHEST) || 1;
+  for (let step = 1; step <= count; step++) {
+    const before = new Map(view.positions);
+    view.positions.set(name, start + (position - start) * step / count);
+    if (!close(view)) return void (view.positions = before);
+  }
+}
