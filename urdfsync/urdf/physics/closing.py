@@ -22,7 +22,8 @@ Array = NDArray[np.float64]
 _STEPS = 8
 """Steps of the way from the start to a pose, so that it is that of the same assembly."""
 _ITERATIONS = 30
-_CLOSED = 1e-12
+_CLOSED, _FARTHEST = 1e-12, 1.0
+"""Largest step, in rad and m, after which Newton's method has converged, and the smallest with which it diverges."""
 _NEAR_DEAD_POINT = 0.25
 """Part of the least singular value at the start below which a compiler may find another assembly."""
 
@@ -92,11 +93,11 @@ class Closing:
             for _ in range(_ITERATIONS):
                 gaps, jacobian, _ = self._equations(known + self._others @ others)
                 step = np.linalg.lstsq(jacobian @ self._others, gaps)[0]
-                others = others - step
-                if np.abs(step).max(initial=0.0) < _CLOSED:
+                others, largest = others - step, np.abs(step).max(initial=0.0)
+                if not _CLOSED < largest < _FARTHEST:
                     break
             least = np.linalg.svd(jacobian @ self._others, compute_uv=False).min(initial=np.inf)
-            if np.abs(step).max(initial=0.0) > _CLOSED or np.abs(gaps).max() > _CLOSED or least < self._least:
+            if not (largest <= _CLOSED and np.abs(gaps).max() <= _CLOSED and least >= self._least):
                 raise OpenLoopError
         return np.asarray(positions + self._others @ others)
 

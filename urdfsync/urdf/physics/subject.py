@@ -23,7 +23,7 @@ from urdfsync.urdf.physics.motion import COMPARED, LOADS, Course, Instant
 from urdfsync.urdf.physics.reference import Configuration, Reference, read
 from urdfsync.urdf.robot import Joint
 
-_SHARES = tuple(0.5**k for k in range(8))
+_SHARES = tuple(0.25**k for k in range(8))
 
 
 class Subject:
