@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from support.loops import FOUR_BAR
 from support.robots import tree
 
 from urdfsync.domain import Target
@@ -112,3 +113,13 @@ def test_components_are_those_of_the_diagram() -> None:
     names = tree(Joint("arm", "fixed", "arm", "Arm"))
     shown = picture(*names.links, joints=names.joints)
     assert [body.component for body in shown.bodies] == [names.link(link.name).component for link in names.links]
+
+
+def test_a_loop_has_its_ends_and_equations_and_its_robot_starts_closed() -> None:
+    shown = scene(FOUR_BAR, {}, Target("Bot", "Bot"), Options())
+    assert [hinge.element for hinge in shown.hinges if hinge.is_dependent] == ["joint crank_pin", "joint rocker_pivot"]
+    assert [hinge.start for hinge in shown.hinges] != [joint.start for joint in FOUR_BAR.joints]
+    (loop,) = shown.loops
+    assert [(end.body, end.pose[12]) for end in loop.ends] == [("link coupler", 0.6), ("link rocker", 0.4)]
+    assert (len(loop.translations), len(loop.rotations)) == (2, 0)
+    assert ("kind", "revolute") in loop.facts
