@@ -104,9 +104,9 @@ def test_axes_have_limits_starts_and_leaders_which_come_first() -> None:
     assert (follower.leader, follower.multiplier, follower.offset) == ("joint b", 2.0, 0.1)
     assert (follower.lower, follower.upper) == (0.5, 1.0)
     assert follower.start == pytest.approx(2.0 * by_name["joint b"].start + 0.1)
-    assert by_name["joint c"].motion == ""
-    assert ("limit of effort", "2 N·m") in follower.facts
-    assert ("upper", "1 rad (57.3°)") in follower.facts
+    assert by_name["joint c"].motion == "floating"
+    assert ("limit effort", "2 N·m") in follower.facts
+    assert ("limit upper", "1 rad (57.3°)") in follower.facts
 
 
 def test_components_are_those_of_the_diagram() -> None:
