@@ -58,7 +58,10 @@ def compare(library: Path, folder: Path, cases: Sequence[Case], own: Path = URDF
     for file in (file for package in folders for file in package.rglob("*.mo")):
         file.write_text(flagged(file.read_text("utf-8")), "utf-8")
     probes = [trial.probe for case in cases for trial in case.experiment.trials]
-    tasks = [Task(p.source, p.model, [Run(p.stop, p.step)], p.values, "|".join(p.optional)) for p in probes]
+    tasks = [
+        Task(p.source, p.model, [Run(p.stop, p.step, tolerance=p.tolerance)], p.values, "|".join(p.optional))
+        for p in probes
+    ]
     runs, results = iter(simulate(library, folders, tasks, own) if tasks else ()), []
     for case in cases:
         motions = {}

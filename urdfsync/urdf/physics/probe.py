@@ -21,7 +21,7 @@ from urdfsync.urdf.physics.subject import Subject
 from urdfsync.urdf.robot import MOTION_KINDS, MOTIONS, Joint, Origin
 
 _FAR_GROUND = -1e9  # m: the ground is that far down, and nothing touches
-_PARTS = (Path(__file__).parent / "parts.mo").read_text("utf-8")
+_JUMPS, _WAY, _PARTS = ((Path(__file__).parent / f"{name}.mo").read_text("utf-8") for name in ("jumps", "way", "parts"))
 
 FORCE = tuple(f"base.frame_b.f[{i}]" for i in (1, 2, 3))
 TORQUE = tuple(f"base.frame_b.t[{i}]" for i in (1, 2, 3))
@@ -132,7 +132,7 @@ def moving_probe(
     ways = zip(("x", "y", "z", "turn"), subject.base, strict=True)
     tables = ", ".join(f"{name} = {table(course)}" for name, course in ways)
     declarations.append(f"MovingBase base({tables}, axis = {vector(motion.TURN_AXIS)})")
-    source = _text(target, options, "", declarations, connections)
+    source = _text(target, options, "", declarations, connections, bool(subject.tree.loops))
     last = float(max(motion.Instant))
     # loops are closed by integration: what it leaves open shows in accelerations, by the square of its rate of decay
     tolerance = 1e-11 if subject.tree.loops else None
@@ -173,7 +173,7 @@ def free_probe(
     for k, (joint, effort) in enumerate(zip(axes, efforts, strict=True), 1):
         declarations.append(f"{MOTION_KINDS[joint.type].capitalize()}Push push{k}(effort = {effort!r})")
         connections.append(f"push{k}.flange, {names.flanges[joint.name]}")
-    source = _text(subject.target, options, bench, declarations, connections)
+    source = _text(subject.target, options, bench, declarations, connections, bool(subject.tree.loops))
     return Probe(source, "Probe_.Probe", 1e-6, 1e-6, tuple(values))
 
 
@@ -205,14 +205,24 @@ def _place(link: str, origin: Origin) -> str:
     return f"{frame}.r_0 + Modelica.Mechanics.MultiBody.Frames.resolve1({frame}.R, {vector(origin.xyz)})"
 
 
-def _text(target: Target, options: Options, bench: str, declarations: Iterable[str], connections: Iterable[str]) -> str:
-    """Return the package `Probe_`, whose model `Probe` may extend a bench."""
+def _text(
+    target: Target,
+    options: Options,
+    bench: str,
+    declarations: Iterable[str],
+    connections: Iterable[str],
+    has_loops: bool,
+) -> str:
+    """Return the package `Probe_`, whose model `Probe` may extend a bench.
+
+    Joints in loops follow by integration, which jumps of others would stop.
+    """
     libraries = [name for name, _ in options.uses]
     imports = dict.fromkeys([*libraries, target.package.partition(".")[0]])  # rumoca loads no others
     lines = [
         "package Probe_",
         *(f"  import {library};" for library in imports),
-        _PARTS,
+        (_WAY if has_loops else _JUMPS) + _PARTS,
         "  model Probe",
         *([f"    extends {bench};"] if bench else []),
         *(f"    {declaration};" for declaration in declarations),
