@@ -21,6 +21,7 @@ UNRELATED = {
     "edit-left",
     "old-name-left",
     "exec",
+    "no-browser",
     "written-in-part",
     "no-attribute",
     "no-conflict",

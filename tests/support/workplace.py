@@ -100,6 +100,7 @@ class Workplace:
         with (
             mock.patch.dict(os.environ, home),
             mock.patch.object(tempfile, "tempdir", str(self._temporary)),
+            mock.patch.object(sys, "dont_write_bytecode", new=True),  # else Python writes that of what it loads
             contextlib.chdir(self.project),
         ):
             yield
