@@ -29,6 +29,7 @@ TURTLEBOT = "histories/ROBOTIS-GIT+turtlebot3__turtlebot3_description_urdf_turtl
 SO101 = "histories/TheRobotStudio+SO-ARM100__Simulation_SO101_so101"
 STOMPY = "histories/kscalelabs+sim__sim_stompy_legs_robot"
 FAULTY = {
+    "robots/drake/atlas/urdf/robotiq.urdf": {"loop-open"},
     "robots/random/spot_ros/spot_description/urdf/spot_arm.urdf": {"unknown-parent"},
     f"{TURTLEBOT}_waffle_pi.urdf/003.urdf": {"unknown-child"},
     f"{SO101}_new_calib.urdf/000.urdf": {"duplicate-link", "cycle", "two-parents"},

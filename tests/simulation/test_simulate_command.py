@@ -63,8 +63,8 @@ def test_a_page_has_the_motion(compiler: Compiler, execute: Execute) -> None:
     (data,) = re.findall('<script type="application/json" id="data">(.*?)</script>', page)
     motion = json.loads(data)["motion"]
     assert [joint["element"] for joint in motion["joints"]] == ["joint shoulder", "joint elbow"]
-    assert motion["times"] == list(compiler.values["time"])
-    assert motion["joints"][0]["passed"] == ["position"]
+    assert motion["series"]["time"] == list(compiler.values["time"])
+    assert [limit["quantity"] for limit in motion["joints"][0]["passed"]] == ["position"]
     assert "position passes its limit, 2 rad" in page
 
 
