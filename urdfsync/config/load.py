@@ -219,11 +219,10 @@ class _Reader:
         if keys is None:
             return None
         for key, value in table.values.items():
+            path = ("robots", name) if key in own else ("defaults",)
             if isinstance(value, dict):
-                path = ("robots", name) if key in own else ("defaults",)
                 lines |= {f"{key}.{entry}": self._line(*path, key, entry) for entry in value}
             elif isinstance(value, list):
-                path = ("robots", name) if key in own else ("defaults",)
                 items = [f"{key}.{item.get('name')}" for item in value if isinstance(item, dict)]
                 item_lines = self._item_lines.get((*path, key), [lines[key]] * len(items))
                 lines |= dict(zip(items, item_lines, strict=False))

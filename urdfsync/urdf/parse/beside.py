@@ -88,8 +88,9 @@ def split_joints(
     """Return links and joints with a chain in place of each joint that turns about several axes, or about none."""
     axes = {element.get("joint", ""): element for element in root.findall(AXES)}
     reader.used.update(axes.values())
+    known = {joint.name for joint in joints}
     for name, element in axes.items():
-        if name not in {joint.name for joint in joints}:
+        if name not in known:
             reader.add(element, "unknown-reference", f"there is no joint {name!r} to turn about other axes")
     added, result = list[Link](), list[Joint]()
     for joint in joints:
