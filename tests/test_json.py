@@ -35,6 +35,7 @@ from urdfsync.watch import events
 from urdfsync.watch.report import event_values, show_json
 
 PAGE = (Path(__file__).parents[1] / "docs" / "json.md").read_text(encoding="utf-8")
+CONFLICTS = (Path(__file__).parents[1] / "docs" / "conflicts.md").read_text(encoding="utf-8")
 SECTIONS = {text.partition("\n")[0]: text for text in PAGE.split("\n## ")[1:]}
 (BUILD,) = [json.loads(text) for text in re.findall(r"```json\n(.*?)```", PAGE, re.DOTALL)]
 (SESSION,) = (
@@ -335,8 +336,9 @@ def test_values_that_are_one_of_a_few_are_all_named(execute: Execute) -> None:
     few = (*Kind, *Role, *FileStatus, *ChangeKind, *ChangeClass, *CheckStatus, *Quantity, *Part)
     schemas = execute("schema", "build").out + execute("schema", "check").out
     assert all(f'"{word}"' in schemas for word in few)
-    in_page = (*Checked, *(reason.word for reason in Reason))
-    assert {f"`{word}`" for word in in_page} <= set(re.findall(r"`[\w -]+`", PAGE))
+    assert {f"`{word}`" for word in Checked} <= set(re.findall(r"`[\w -]+`", PAGE))
+    reasons = re.findall(r"^\|.*\|([^|]*)\|$", CONFLICTS.partition("| `reason` |")[2], re.MULTILINE)
+    assert {f"`{reason.word}`" for reason in Reason} == set(re.findall(r"`[\w-]+`", "".join(reasons)))
     assert f"`version` is {JSON_VERSION}" in PAGE
 
 
