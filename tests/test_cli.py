@@ -172,7 +172,7 @@ def test_what_was_meant_is_said(execute: Execute) -> None:
 
 
 def test_library(execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
-    told = execute("library", "--json").json
+    (told,) = execute("library", "--json").json["results"]
     assert (Path(told["folder"]) / "UrdfSync").is_dir()
     assert execute("library").out == f"{told['line']}\n"
     screen = Terminal()

@@ -81,6 +81,6 @@ def assert_installed_wheel_builds_a_robot(wheel: Path, tmp_path: Path) -> None:
     assert "files written" in urdfsync("build")
     assert "in step" in urdfsync("build", "--check")
     assert "MODELICAPATH=" in urdfsync("library")
-    library = Path(json.loads(urdfsync("library", "--json"))["folder"])
+    library = Path(json.loads(urdfsync("library", "--json"))["results"][0]["folder"])
     assert (library / "UrdfSync" / "package.mo").is_file()
     assert environment in library.parents

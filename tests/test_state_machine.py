@@ -441,7 +441,7 @@ class Walk(RuleBasedStateMachine):
         before = {path.as_posix(): path.read_bytes() for path in PACKAGE.rglob("*.mo")}
         printed = self.execute(*command.split(), "--json", code=None)
         assert printed.code in (0, 3) or SOURCE.name in printed.words, printed
-        (robot,) = printed.json["robots"]
+        (robot,) = printed.json["results"]
         writes = [action for action in robot["actions"] if action["action"] == "write" and not action["held"]]
         self.expected.move({inside(one["origin"]): inside(one["path"]) for one in writes if one["origin"]})
         now = replay.contents(PACKAGE)
@@ -460,7 +460,7 @@ class Walk(RuleBasedStateMachine):
         before = self.everything()
         documents = [self.execute(*words.split(), code=None) for words in ("status --json", "build --check --json")]
         assert self.everything() == before
-        (status,), (check,) = (printed.json["robots"] for printed in documents)
+        (status,), (check,) = (printed.json["results"] for printed in documents)
         assert status["in_step"] == check["in_step"]
         assert status["failed"] == check["failed"]
         codes = [printed.code for printed in documents]

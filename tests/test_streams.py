@@ -86,4 +86,4 @@ def test_characters_that_an_encoding_lacks_are_escaped(folder: Path, encoding: s
     assert done.returncode == 2
     assert "\\u8155.urdf does not exist" in done.stdout
     done = shell(folder, "urdfsync build --json", PYTHONIOENCODING=encoding)
-    assert "腕.urdf does not exist" in json.loads(done.stdout)["robots"][0]["diagnostics"][0]["message"]
+    assert "腕.urdf does not exist" in json.loads(done.stdout)["results"][0]["diagnostics"][0]["message"]

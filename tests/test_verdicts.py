@@ -63,7 +63,7 @@ def verdict(repository: Repository, capsys: pytest.CaptureFixture[str]) -> Calla
         for command in (["status", "--json"], ["build", "--check", "--json"]):
             capsys.readouterr()
             codes.append(cli.main(command))
-            robots = json.loads(capsys.readouterr().out)["robots"]
+            robots = json.loads(capsys.readouterr().out)["results"]
             said.append(all(robot["in_step"] for robot in robots))
         assert said[0] == said[1]
         hook = cli.main(["hook", "check"])

@@ -374,7 +374,7 @@ def test_for_programs(repo: Repository, capsys: Capture) -> None:
     assert (document["command"], document["exit"], found["code"]) == ("hook", 1, "out-of-step")
     assert found["message"] == "robot `ladder`: out of step: 1 file to write"
     assert found["hint"] == "`urdfsync hook build`"
-    assert [robot["name"] for robot in document["robots"]] == ["ladder"]
+    assert [robot["robot"] for robot in document["results"]] == ["ladder"]
     repo.git("reset", "-q", "--hard")
     assert json.loads("\n".join(said(capsys, "check", "--json", code=0)))["diagnostics"] == []
 

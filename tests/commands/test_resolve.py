@@ -210,7 +210,7 @@ def several(clean: Path) -> Path:
 
 def conflicts(execute: Execute) -> list[str]:
     """The conflicts that a dry build finds."""
-    robots = execute("build", "--dry-run", "--json", code=None).json["robots"]
+    robots = execute("build", "--dry-run", "--json", code=None).json["results"]
     return [found["path"].removeprefix(f"{LADDER}/") for robot in robots for found in robot["conflicts"]]
 
 

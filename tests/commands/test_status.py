@@ -93,7 +93,7 @@ def test_a_broken_source_does_not_hide_the_others(built: Path, execute: Execute)
     assert found.lines == ["ladder: in step, 14 files"]
     assert "the source no.json does not exist" in found.errors[0]
     assert found.errors[1] == "other: 1 error, nothing was changed"
-    assert [robot["failed"] for robot in execute("status", "--json", code=2).json["robots"]] == [False, True]
+    assert [robot["failed"] for robot in execute("status", "--json", code=2).json["results"]] == [False, True]
     assert execute("status", "ladder").lines == ["ladder: in step, 14 files"]
 
 
@@ -108,7 +108,7 @@ def test_what_is_left_of_a_robot_that_is_no_longer_configured(built: Path, execu
 def test_without_its_state_a_package_is_out_of_step(built: Path, execute: Execute) -> None:
     for file in (built / ".urdfsync/robots").iterdir():
         file.unlink()
-    (robot,) = execute("status", "--json", code=1).json["robots"]
+    (robot,) = execute("status", "--json", code=1).json["results"]
     assert (robot["built"], robot["in_step"]) == (True, False)
     assert execute("status", code=1).lines == [
         "ladder: out of step: 12 already equal to the generated text",

@@ -99,7 +99,7 @@ MISTAKES = {
     "sorce = 'x'": "unknown key `sorce` in robot `arm`; did you mean `source`? [unknown-key]",
     "grund = true": "unknown key `grund` in robot `arm`; did you mean `ground`? [unknown-key]",
     "create_parents = 'yes'": '`create_parents` must be true or false, not "yes" [wrong-value]',
-    "package_paths = ['a', 1]": '`package_paths` must be a list of strings, not ["a", 1] [wrong-value]',
+    "package_paths = ['a', 1]": '`package_paths` must be a list of paths, not ["a", 1] [wrong-value]',
     "on_build = true": '`on_build` must be "nothing" or "check", not true [wrong-value]',
     "arguments = { a = [1] }": (
         '`arguments` must be a table of strings, numbers, true and false, not {"a": [1]} [wrong-value]'
@@ -112,7 +112,7 @@ MISTAKES = {
         "robot `arm`: `command` writes a source that xacro does not expand; take one out [wrong-value]"
     ),
     "renamed = { a = 1 }": '`renamed` must be a table of strings, not {"a": 1} [wrong-value]',
-    'output = ""': '`output` is empty; give a path; "." is the folder of the configuration [wrong-value]',
+    'output = ""': '`output` must be a path, not "" [wrong-value]',
     "ground = 1": "`ground` must be true or false, not 1 [wrong-value]",
     "x = ": "invalid value; put strings into quotes [toml-syntax]",
     'class = "2nd"': "`class`: '2nd' is no Modelica identifier; use letters, digits and `_`, a letter first "

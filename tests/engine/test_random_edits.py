@@ -327,7 +327,7 @@ def errors(edit: Edit, execute: Execute) -> list[str]:
     said = []
     for command in (["status", "--json"], ["build", "--check", "--json"]):
         printed = execute(*command, code=None)
-        (robot,) = printed.json["robots"]
+        (robot,) = printed.json["results"]
         found = [one for one in robot["diagnostics"] if one["severity"] == "error"]
         assert {one["file"] for one in found} <= {f"modelica/Arm/{edit.path}"}, edit
         assert (printed.code == 0) is robot["in_step"] is (not found), edit

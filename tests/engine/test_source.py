@@ -142,7 +142,7 @@ def test_each_file_is_an_input(built: Path, execute: Execute, name: str, text: s
     (built / "urdf" / name).write_text(text)
     with unchanged(built):
         assert execute("status", code=1).lines == [f"arm: {CHANGED}", f"  urdf/{name}"]
-        assert execute("status", "--json", code=1).json["robots"][0]["not_expanded"] == [f"urdf/{name}"]
+        assert execute("status", "--json", code=1).json["results"][0]["not_expanded"] == [f"urdf/{name}"]
         execute("build", "--check", code=1)
         execute("diff", code=1)
         assert execute("status", code=1).lines[0] == f"arm: {CHANGED}"
@@ -158,7 +158,7 @@ def test_what_a_macro_says_twice_is_listed_once(project: Path, execute: Execute)
         "parts/beam.xacro": xacros.BEAM.replace("<child", "<spring name='coil'/>\n      <spring/><child"),
     }
     xacros.write(project, files)
-    (note,) = execute("build", "--json").json["robots"][0]["diagnostics"]
+    (note,) = execute("build", "--json").json["results"][0]["diagnostics"]
     assert note["message"] == "not modelled: 4 <spring>"
     file = str(Path("urdf/parts/beam.xacro"))
     assert note["details"] == [

@@ -27,7 +27,7 @@ def document(capsys: pytest.CaptureFixture[str], *arguments: str) -> dict[str, o
     """What a comparison says of its robot."""
     capsys.readouterr()
     cli.main(["diff", "r.urdf", "--json", *arguments])
-    (robot,) = json.loads(capsys.readouterr().out)["robots"]
+    (robot,) = json.loads(capsys.readouterr().out)["results"]
     files = sorted((a["path"], a["reason"]) for a in robot["actions"] if a["reason"] in BUILDS)
     return {**{key: robot[key] for key in ("class", "changes", "effects", "in_step")}, "files": files}
 

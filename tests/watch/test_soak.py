@@ -209,7 +209,7 @@ def _compare(project: Path, fresh: Path, tags: set[str]) -> Iterator[str]:
     yield from (f"lost: {tag}" for tag in sorted(tags - set(TAG.findall(everything))))
     shutil.copytree(project, fresh, ignore=shutil.ignore_patterns("modelica", ".urdfsync"))
     _urdfsync(fresh, "build", "-q")
-    for robot in document["robots"]:
+    for robot in document["results"]:
         edited = (_is_edited(project / (one["origin"] or one["path"])) for one in robot["conflicts"])
         yield from (f"not resolved: {one['path']}" for one, is_edited in zip(robot["conflicts"], edited, strict=True)
                     if not is_edited)  # fmt: skip

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Collection, Iterator, Sequence
-from typing import Literal, TypedDict, cast
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from typing import Literal
 
 import msgspec
 
@@ -14,8 +14,9 @@ from urdfsync.checks.results import (
     TOLERANCE,
     CheckResult,
     CheckStatus,
+    CompiledModel,
     EditEffect,
-    ToolResult,
+    TrialTime,
     agrees,
     listed,
     relative,
@@ -24,6 +25,7 @@ from urdfsync.checks.results import (
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Deviation, Part, Quantity
 from urdfsync.output.console import StyledLine, line
+from urdfsync.output.documents import KEYS, fill
 from urdfsync.output.markdown import Mark, Section, Table
 from urdfsync.output.phrases import counted
 
@@ -196,8 +198,8 @@ def to_section(result: CheckResult, strict: bool) -> Section:
     return Section(result.robot, summary(result, strict), mark, points, [table], result.diagnostics, finding)
 
 
-class DeviationDocument(TypedDict):
-    """How far one quantity of one element is from the reference; None for what is no number."""
+class DeviationDocument(msgspec.Struct):
+    """How far one quantity of one element is from the reference; JSON has None for what is no number."""
 
     quantity: Quantity
     element: str
@@ -208,57 +210,39 @@ class DeviationDocument(TypedDict):
     part: Part
     detail: str
     relative: float | None
-    reason: str
+
+    def __post_init__(self) -> None:
+        """Leave out infinite numbers, and those that the simulation did not give."""
+        for name in ("difference", "value", "size", "relative"):
+            if not math.isfinite(getattr(self, name)):
+                setattr(self, name, None)
 
 
-class PartDocument(TypedDict):
-    """The verdict on a part of the model."""
-
-    verdict: Literal["right", "differ"]
-    worst: DeviationDocument
-    part: Part
-
-
-class CompiledDocument(TypedDict):
-    """A model that compiles."""
-
-    model: str
-    unknowns: int | None
-    yours: bool
-
-
-class EditDocument(TypedDict):
+class EditDocument(msgspec.Struct):
     """What edited files do to the robot."""
 
     files: Sequence[str]
-    deviations: list[DeviationDocument]
+    deviations: Sequence[DeviationDocument]
     owners: Sequence[str]
 
 
-class TrialDocument(TypedDict):
-    """The time that a simulation took."""
-
-    trial: str
-    seconds: float
-
-
-class ToolDocument(TypedDict):
+class ToolDocument(msgspec.Struct, rename={"effects": "edits"}):
     """The answers of one compiler."""
 
     tool: str
-    compiled: list[CompiledDocument]
+    compiled: Sequence[CompiledModel]
     failing: Sequence[str]
-    deviations: list[DeviationDocument] | None
-    edits: list[EditDocument]
+    deviations: Sequence[DeviationDocument] | None
+    effects: Sequence[EditDocument]
     seconds: float
-    times: list[TrialDocument]
+    times: Sequence[TrialTime]
     megabytes: float
 
 
-class CheckDocument(TypedDict):
+class CheckDocument(msgspec.Struct, rename=KEYS | {"freedoms": "degrees_of_freedom"}):
     """The check of one robot."""
 
-    name: str
+    robot: str
     package: str
     failed: bool
     built: bool
@@ -272,75 +256,30 @@ class CheckDocument(TypedDict):
     gaps: Sequence[str]
     standing: CheckStatus
     summary: str
-    degrees_of_freedom: int | None
+    freedoms: int | None
     tolerance: float
-    parts: list[PartDocument]
+    parts: Mapping[Part, Literal["right", "differ"]]
+    worst: Sequence[DeviationDocument]
     agrees: bool | None
-    tools: list[ToolDocument]
-    between: list[DeviationDocument] | None
-    between_edited: list[DeviationDocument]
+    tools: Sequence[ToolDocument]
+    between: Sequence[DeviationDocument] | None
+    between_edited: Sequence[DeviationDocument]
     diagnostics: Sequence[Diagnostic]
 
 
-def to_json(result: CheckResult, strict: bool) -> CheckDocument:
-    """Return what was checked of a robot as plain data; with `strict`, what an edit does is a difference as well."""
-    return {
-        "name": result.robot,
-        "package": result.package,
-        "failed": result.failed,
-        "built": result.built,
-        "in_step": result.in_step,
-        "conflicting": result.conflicting,
-        "reference": result.reference,
-        "seconds": result.seconds,
-        "megabytes": result.megabytes,
-        "notes": result.notes,
-        "unchecked": result.unchecked,
-        "gaps": result.gaps,
-        "standing": result.status(strict),
-        "summary": summary(result, strict),
-        "degrees_of_freedom": result.freedoms,
-        "tolerance": TOLERANCE,
-        "parts": [
-            {"verdict": "right" if agrees(each) else "differ", "worst": _values(each), "part": part}
-            for part, each in worst(result.deviations).items()
-        ],
-        "agrees": None if all(tool.deviations is None for tool in result.tools) else not result.differs,
-        "tools": list(map(_tool_values, result.tools)),
-        "between": None if result.between is None else list(map(_values, result.between)),
-        "between_edited": list(map(_values, result.between_edited)),
-        "diagnostics": result.diagnostics,
-    }
-
-
-def _tool_values(tool: ToolResult) -> ToolDocument:
-    """Return the answers of one compiler as plain data."""
-    return {
-        "tool": tool.tool,
-        "compiled": [
-            {"model": model.model, "unknowns": model.unknowns or None, "yours": model.is_users}
-            for model in tool.compiled
-        ],
-        "failing": tool.failing,
-        "deviations": None if tool.deviations is None else list(map(_values, tool.deviations)),
-        "edits": [
-            {"files": effect.files, "deviations": list(map(_values, effect.deviations)), "owners": effect.owners}
-            for effect in tool.effects
-        ],
-        "seconds": tool.seconds,
-        "times": [{"trial": trial.name, "seconds": trial.seconds} for trial in tool.times],
-        "megabytes": tool.megabytes,
-    }
-
-
-def _values(deviation: Deviation) -> DeviationDocument:
-    """Return a deviation as plain data; JSON has no infinite numbers."""
-    values = {**msgspec.structs.asdict(deviation), "relative": deviation.relative}
-    del values["is_iterated"]
-    for name, value in values.items():
-        values[name] = None if isinstance(value, float) and not math.isfinite(value) else value
-    reason = "" if values["difference"] is not None else "the simulation gave no number"
-    return cast("DeviationDocument", {**values, "reason": reason})
+def to_document(result: CheckResult, strict: bool) -> CheckDocument:
+    """Return what was checked as a part of a document; with `strict`, what an edit does is a difference as well."""
+    greatest = worst(result.deviations)
+    return fill(
+        CheckDocument,
+        result,
+        standing=result.status(strict),
+        summary=summary(result, strict),
+        tolerance=TOLERANCE,
+        parts={part: "right" if agrees(each) else "differ" for part, each in greatest.items()},
+        worst=list(greatest.values()),
+        agrees=None if all(tool.deviations is None for tool in result.tools) else not result.differs,
+    )
 
 
 def summary(result: CheckResult, strict: bool) -> str:

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from urdfsync.api import check
 from urdfsync.checks.compilers import COMPILERS
-from urdfsync.checks.report import closing_lines, robot_lines, to_json, to_section
+from urdfsync.checks.report import closing_lines, robot_lines, to_document, to_section
 from urdfsync.checks.results import CheckOptions, CheckResult, CheckStatus, exit_code
 from urdfsync.checks.tools import BOTH
 from urdfsync.commands import arguments
@@ -63,7 +63,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
 def show_result(console: Console, result: CheckResult, *, strict: bool) -> None:
     """Show the result of one robot."""
     if console.is_document:
-        console.add(result, partial(to_json, strict=strict), partial(to_section, strict=strict))
+        console.add(result, partial(to_document, strict=strict), partial(to_section, strict=strict))
     elif not console.quiet or result.status(strict) is not CheckStatus.RIGHT:
         marks = has_marks(sys.stdout)
         console.print(robot_lines(result, strict=strict, verbose=console.verbose, marks=marks))

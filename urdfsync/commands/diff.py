@@ -10,7 +10,7 @@ from urdfsync.engine.findings import CONNECTORS
 from urdfsync.output.console import Console
 from urdfsync.output.repeated import show_findings
 from urdfsync.versions.comparison import Comparison, exit_code
-from urdfsync.versions.report import robot_lines, to_json, to_section
+from urdfsync.versions.report import robot_lines, to_document, to_section
 
 
 def add(commands: arguments.Commands) -> None:
@@ -45,7 +45,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
 
     def show(compared: Comparison) -> None:
         if console.is_document:
-            console.add(compared, to_json, to_section)
+            console.add(compared, to_document, to_section)
             return
         told = [diagnostic for diagnostic in compared.result.diagnostics if diagnostic.code != CONNECTORS]
         show_findings(console, compared.result, told)

@@ -8,14 +8,14 @@ from urdfsync.api import edits
 from urdfsync.engine.edits import RobotEdits
 from urdfsync.engine.result import Exit
 from urdfsync.output.console import Console
-from urdfsync.output.edits import robot_lines, to_json, to_section
+from urdfsync.output.edits import robot_lines, to_document, to_section
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
     """Show the edits in the files that the paths mean, or in all."""
 
     def show(edited: RobotEdits) -> None:
-        console.add(edited, to_json, to_section)
+        console.add(edited, to_document, to_section)
         console.findings(edited.diagnostics)
         console.tell(robot_lines(edited, verbose=console.verbose))
 

@@ -17,7 +17,7 @@ from urdfsync.output.console import Console
 from urdfsync.simulation.export import TOLERANCE, Exported, export, is_exported
 from urdfsync.simulation.files import check_file, input_files, not_writable, write_file
 from urdfsync.simulation.fmu import KINDS, WrittenFmu, find_faults, try_out
-from urdfsync.simulation.report import fmu_lines, fmu_to_json
+from urdfsync.simulation.report import fmu_lines, fmu_to_document
 from urdfsync.simulation.results import STOP, SimulateOptions
 
 _VERSIONS = {"2": "2.0", "3": "3.0"}
@@ -78,7 +78,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     write_file(file, exported.content)
     warnings = robot.without_ignored(find_faults(trial, file)) if trial else ()
     written = WrittenFmu(robot.name, exported, kind, file, trial, warnings)
-    console.add_robot(fmu_to_json(written))
+    console.add_result(fmu_to_document(written))
     console.tell(fmu_lines(written))
     console.findings(written.diagnostics)
     return console.end(Exit.OUT_OF_STEP if warnings else Exit.IN_STEP)

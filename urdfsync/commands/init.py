@@ -47,7 +47,7 @@ _LONGEST = 80
 """A longer stem is cut: robots and packages become names of files."""
 
 
-class Guess(msgspec.Struct, frozen=True):
+class Guess(msgspec.Struct, frozen=True, rename={"name": "robot"}):
     """The proposed table of one robot."""
 
     name: str
@@ -232,5 +232,6 @@ def show_guesses(console: Console, file: Path, done: str, guesses: Sequence[Gues
             assignment = f"    {option.option} = {json.dumps(option.value)}"
             lines.append(line((assignment, ""), (f"  guessed: {option.reason}", "dim")))
     console.tell([*lines, line(("Look it over, then run `urdfsync build`.", ""))])
-    values = {"config": str(file), "robots": msgspec.to_builtins(guesses)}
-    return console.end(Exit.IN_STEP, values=values)
+    for guess in guesses:
+        console.add_result(guess)
+    return console.end(Exit.IN_STEP)

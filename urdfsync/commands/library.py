@@ -7,10 +7,19 @@ import os
 import shlex
 import sys
 
+import msgspec
+
 from urdfsync import config
 from urdfsync.commands import arguments
 from urdfsync.engine.result import Exit
 from urdfsync.output.console import Console, line
+
+
+class LibraryDocument(msgspec.Struct):
+    """Where the library is, and a line for the shell that puts it on MODELICAPATH."""
+
+    folder: str
+    line: str
 
 
 def add(commands: arguments.Commands) -> None:
@@ -36,4 +45,5 @@ def run(_args: argparse.Namespace, console: Console) -> int:
         console.print([line((folder, "")), line((command, ""))])
     elif not console.is_document:
         sys.stdout.write(f"{command}\n")  # as it is: a shell reads it
-    return console.end(Exit.IN_STEP, values={"folder": folder, "line": command})
+    console.add_result(LibraryDocument(folder, command))
+    return console.end(Exit.IN_STEP)

@@ -6,6 +6,8 @@ import argparse
 import sys
 from pathlib import Path
 
+import msgspec
+
 from urdfsync.api import record
 from urdfsync.commands import arguments
 from urdfsync.dependencies import read_unrecorded
@@ -14,7 +16,18 @@ from urdfsync.engine.result import Exit
 from urdfsync.files import normalised, shown
 from urdfsync.modelica.names import is_class_name
 from urdfsync.output.console import Console, line
+from urdfsync.output.documents import fill
 from urdfsync.simulation.files import check_file, write_file
+
+
+class RecordDocument(msgspec.Struct, rename={"class_": "class"}):
+    """A record: its text, or the file that has it, and whether that did not have it already."""
+
+    class_: str
+    within: str
+    text: str | None
+    file: Path | None
+    written: bool
 
 
 def add(commands: arguments.Commands) -> None:
@@ -50,16 +63,17 @@ def run(args: argparse.Namespace, console: Console) -> int:
     name = args.class_ or (file.stem if file is not None and is_class_name(file.stem) else "")
     written = record(named[0], class_=name, within=args.within, domain=args.domain, arguments=given)
     console.warnings(written.diagnostics)
-    values = {"class": written.class_, "within": written.within}
     if file is not None:
         is_written = _write(written.text, named[0], file, force=args.force)
         console.tell([line((f"{file} {'written' if is_written else 'unchanged'}: record {written.class_}", ""))])
-        return console.end(Exit.IN_STEP, values=values | {"file": str(file), "written": is_written})
+        console.add_result(fill(RecordDocument, written, text=None, file=file, written=is_written))
+        return console.end(Exit.IN_STEP)
+    console.add_result(fill(RecordDocument, written, file=None, written=False))
     if not console.is_document:
         if hasattr(sys.stdout, "reconfigure") and not sys.stdout.isatty():
             sys.stdout.reconfigure(encoding="utf-8", newline="\n")  # a file is what Modelica tools read
         sys.stdout.write(written.text)
-    return console.end(Exit.IN_STEP, values=values | {"text": written.text})
+    return console.end(Exit.IN_STEP)
 
 
 def _write(text: str, source: Path, file: Path, *, force: bool) -> bool:

@@ -6,7 +6,9 @@ import argparse
 import os
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any, TypedDict
+from typing import Any
+
+import msgspec
 
 from urdfsync import config
 from urdfsync.commands import arguments
@@ -17,10 +19,10 @@ from urdfsync.output.console import Console, line
 from urdfsync.simulation.files import input_files, not_writable, write_file
 
 
-class PageDocument(TypedDict):
+class PageDocument(msgspec.Struct):
     """A page that was written."""
 
-    name: str
+    robot: str
     file: str
     bytes: int
     summary: str
@@ -61,8 +63,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     text = page(content, check=known_check(configuration, robot, config.ros_package_path(os.environ)))
     write_file(file, text)
     section, place = content.section, shown(file)
-    document: PageDocument = {"name": robot.name, "file": place, "bytes": len(text), "summary": section.summary}
-    console.add_robot(document)
+    console.add_result(PageDocument(robot.name, place, len(text), section.summary))
     console.tell([line((robot.name, "bold"), (f": {section.summary}", "")), line((f"  page: {place}", ""))])
     return console.end(Exit.IN_STEP)
 

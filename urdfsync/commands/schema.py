@@ -3,37 +3,41 @@
 from __future__ import annotations
 
 import argparse
-import importlib
+import datetime
 import json
 import sys
-from collections.abc import Mapping
-from typing import Any
+from typing import Any, Literal
 
 import msgspec
 
+from urdfsync.checks.report import CheckDocument
 from urdfsync.commands import arguments
+from urdfsync.commands.init import Guess
+from urdfsync.commands.library import LibraryDocument
+from urdfsync.commands.record import RecordDocument
+from urdfsync.commands.report import PageDocument
 from urdfsync.config import schema
-from urdfsync.diagnostics import Diagnostic
-from urdfsync.engine.result import Exit, Result
-from urdfsync.output.console import JSON_VERSION, Console
+from urdfsync.engine.result import Exit
+from urdfsync.output.console import Console
+from urdfsync.output.documents import Document
+from urdfsync.output.edits import EditsDocument
 from urdfsync.output.results import RobotDocument
+from urdfsync.simulation.report import FmuDocument, SimulationDocument
+from urdfsync.versions.report import ComparisonDocument
 
-_ROBOTS = {
-    **dict.fromkeys(("build", "status", "resolve", "remove", "adopt", "hook"), "output.results:RobotDocument"),
-    "diff": "versions.report:ComparisonDocument output.edits:EditsDocument",
-    "report": "commands.report:PageDocument",
-    "check": "checks.report:CheckDocument",
-    "simulate": "simulation.report:SimulationDocument",
-    "fmu": "simulation.report:FmuDocument",
-    **dict.fromkeys(("init", "add"), "commands.init:Guess"),
+_RESULTS: dict[str, tuple[Any, ...]] = {
+    **dict.fromkeys(("build", "status", "resolve", "remove", "adopt", "hook"), (RobotDocument,)),
+    **dict.fromkeys(("init", "add"), (Guess,)),
+    "diff": (ComparisonDocument, EditsDocument),
+    "report": (PageDocument,),
+    "check": (CheckDocument,),
+    "simulate": (SimulationDocument,),
+    "fmu": (FmuDocument,),
+    "record": (RecordDocument,),
+    "library": (LibraryDocument,),
+    **dict.fromkeys(("merge-driver", "watch"), (None,)),
 }
-"""By commands, the types of robots in their documents: they take long to load."""
-_VALUES: Mapping[str, Mapping[str, Any]] = {
-    **{name: {"config": str} for name in ("init", "add")},
-    "record": {"class": str, "within": str, "file": str, "written": bool, "text": str},
-    "library": {"folder": str, "line": str},
-}
-"""Likewise, the types of other values; a document of a command that failed has none."""
+"""The results in the documents of commands; `watch` writes a document only if it ends with an error."""
 
 
 def add(commands: arguments.Commands) -> None:
@@ -47,7 +51,7 @@ def add(commands: arguments.Commands) -> None:
         "check that.",
         epilog="examples: urdfsync schema > .urdfsync/schema.json\n          urdfsync schema build",
     )
-    names = ("config", *sorted({*_ROBOTS, *_VALUES, "merge-driver", "watch"}))
+    names = ("config", *sorted(_RESULTS))
     parser.add_argument("name", choices=names, nargs="?", default="config", metavar="NAME", help=", ".join(names))
 
 
@@ -58,46 +62,24 @@ def run(args: argparse.Namespace, _console: Console) -> int:
     return Exit.IN_STEP
 
 
-def document_schema(command: str) -> dict[str, Any]:
+def document_schema(name: str) -> dict[str, Any]:
     """Return the schema of a command's document, of `watch` that of each line."""
-    parts: dict[str, Any] = {}
-
-    def schema_of(kind: Any) -> dict[str, Any]:
-        (described,), more = msgspec.json.schema_components(
-            [kind], ref_template="#/$defs/{name}", schema_hook=lambda _: {"type": "string"}
-        )
-        parts.update(more)
-        return described
-
-    places = (place.split(":") for place in _ROBOTS.get(command, "").split())
-    robots = [schema_of(getattr(importlib.import_module(f"urdfsync.{module}"), name)) for module, name in places]
-    properties = {
-        "version": {"const": JSON_VERSION},
-        "command": {"enum": [command, ""]},
-        "exit": {"type": "integer"},
-        "robots": {"type": "array", "items": {"anyOf": robots} if robots else False},
-        "diagnostics": {"type": "array", "items": schema_of(Diagnostic)},
-        **{name: schema_of(kind) for name, kind in _VALUES.get(command, {}).items()},
-    }
-    document = {"type": "object", "properties": properties, "required": ["version", "command", "exit", "diagnostics"]}
-    lines = [document]
-    for event in _events() if command == "watch" else ():
-        own = {
-            "version": properties["version"],
-            "event": {"const": event.__struct_config__.tag},
-            "time": {"type": "string", "format": "date-time"},
-        }
-        for field in msgspec.structs.fields(event):
-            own[field.name] = schema_of(RobotDocument if field.type is Result else field.type)
-        if own.pop("result", None):
-            own = {"robot": {"type": "string"}, **parts["RobotDocument"]["properties"], **own}
-        lines.append({"type": "object", "properties": own, "required": [*own]})
-    top = {"anyOf": lines} if len(lines) > 1 else document
-    return {"$schema": "https://json-schema.org/draft/2020-12/schema", "title": command, **top, "$defs": parts}
+    kinds: list[Any] = [Document[kind] for kind in _RESULTS[name]]  # type: ignore[valid-type]
+    kinds += _event_types() if name == "watch" else []
+    schemas, parts = msgspec.json.schema_components(
+        kinds, schema_hook=lambda _: {"type": "string"}, ref_template="#/$defs/{name}"
+    )
+    return {"$schema": schema.DRAFT, "title": name, "anyOf": [*schemas], "$defs": parts}
 
 
-def _events() -> list[type[msgspec.Struct]]:
-    """Return the events of `watch`."""
+def _event_types() -> list[type[msgspec.Struct]]:
+    """Return the events of `watch` as it writes them."""
     from urdfsync.watch.events import Event, RobotEvent  # the other commands do without
 
-    return [*(kind for kind in Event.__subclasses__() if kind is not RobotEvent), *RobotEvent.__subclasses__()]
+    types = []
+    for kind in (*Event.__subclasses__(), *RobotEvent.__subclasses__()):
+        fields = {field.name: field.type for field in msgspec.structs.fields(kind)}
+        head = [("version", Literal[3]), ("event", Literal[kind.__struct_config__.tag]), ("time", datetime.datetime)]
+        bases = (RobotDocument,) if fields.pop("result", None) else ()
+        types.append(msgspec.defstruct(kind.__name__, [*head, *fields.items()], bases=bases, kw_only=True))
+    return types

@@ -12,7 +12,7 @@ from urdfsync.commands.report import prepare_report
 from urdfsync.diagnostics import Severity
 from urdfsync.engine.result import Exit
 from urdfsync.output.console import Console
-from urdfsync.simulation.report import result_lines, to_json
+from urdfsync.simulation.report import result_lines, to_document
 from urdfsync.simulation.results import STEPS, STOP, TOLERANCE, SimulateOptions
 
 FILES = ("csv", "parquet", "plot")
@@ -64,7 +64,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     if write_report:
         files["report"] = args.report
         write_report(simulation=result)
-    console.add_robot(to_json(result, files))
+    console.add_result(to_document(result, files))
     console.tell(result_lines(result, files))
     console.findings(result.diagnostics)
     stopped = any(finding.severity is Severity.ERROR for finding in result.diagnostics)

@@ -10,7 +10,7 @@ from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Result, exit_code
 from urdfsync.output.console import Console
 from urdfsync.output.repeated import show_findings
-from urdfsync.output.results import result_values
+from urdfsync.output.results import robot_document
 from urdfsync.output.status import lines
 
 
@@ -32,7 +32,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
 
     def show(result: Result) -> None:
         if console.is_document:
-            console.add_robot(result_values(result))
+            console.add_result(robot_document(result))
             return
         show_findings(console, result, result.diagnostics)
         console.stop_progress()

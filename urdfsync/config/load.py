@@ -37,7 +37,7 @@ from urdfsync.spelling import nearest
 
 _WORDS = {
     str: "a string",
-    Path: "a string",
+    Path: "a path",
     int: "an integer",
     float: "a number",
     bool: "true or false",
@@ -107,7 +107,8 @@ def in_words(kind: Any) -> str:
         words = in_words(arguments[1]) if is_choice else kinds.get(arguments[1], "strings, numbers, true and false")
         return f"a table of {words}"
     if origin in (tuple, list, frozenset):
-        return f"a list of {'strings' if arguments[0] in (str, Path) else in_words(arguments[0])}"
+        kinds = {str: "strings", Path: "paths"}
+        return f"a list of {kinds.get(arguments[0]) or in_words(arguments[0])}"
     return _WORDS.get(kind, f"of the type {kind}")
 
 
@@ -265,11 +266,7 @@ class _Reader:
         for field in _fields(struct):
             key = field.encode_name
             try:
-                if table.values.get(key) == "" and field.type in (Path, Path | None):
-                    # nobody means the folder of the configuration by that
-                    hint = 'give a path; "." is the folder of the configuration'
-                    self._report("wrong-value", table.lines[key], f"`{key}` is empty", hint)
-                elif key in table.values:
+                if key in table.values:
                     values[field.name] = msgspec.convert(table.values[key], field.type, dec_hook=self._path)
                 elif field.required:
                     message, hint = f"{table.name} has no `{key}`", f"add a line `{key} = …`"
@@ -286,7 +283,7 @@ class _Reader:
 
     def _path(self, kind: type, value: Any) -> Path:
         """Return a path in the file as an absolute one; msgspec asks for each, and reports the TypeError."""
-        if kind is not Path or not isinstance(value, str):
+        if kind is not Path or not isinstance(value, str) or not value:  # "." is the folder of the configuration
             raise TypeError
         return self._absolute(Path(value))
 

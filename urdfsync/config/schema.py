@@ -7,8 +7,7 @@ that get one name, an output in `.urdfsync`. `load` reports these.
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
-from pathlib import Path
+from collections.abc import Mapping
 from typing import Any
 
 import msgspec
@@ -16,47 +15,54 @@ import msgspec
 from urdfsync import registry
 from urdfsync.config.names import CLASS_PATTERN, LAST_PATTERN, PACKAGE_PATTERN, ROBOT_PATTERN
 from urdfsync.config.paths import explained
-from urdfsync.config.settings import DEFAULT_DOMAIN, OWN_KEYS, CheckConfig, Keys
+from urdfsync.config.settings import DEFAULT_OUTPUT, OWN_KEYS, CheckConfig, Keys
 from urdfsync.diagnostics import IGNORABLE
 
+DRAFT = "https://json-schema.org/draft/2020-12/schema"
 SCHEMA_FILE = "schema.json"
 """Its name in the state folder."""
 _NO_CONTROL = "^[^\\u0000-\\u001f\\u007f]*$"
+_PATH = {"type": "string", "minLength": 1}
 _GIVEN = {"type": "array", "minItems": 1}
 
 
 def config_schema() -> dict[str, Any]:
     """Return the schema of a configuration, with the options of all domains that are installed."""
-    domains = registry.names()
-    meanings = _meanings()
-    options = {name: registry.domain(name).options for name in domains}
-    parts: dict[str, Any] = {}
-    keys = {
-        name: {**_properties(Keys, meanings, parts), **_properties(options[name], meanings, parts)} for name in domains
-    }
-    codes = IGNORABLE.union(*(registry.domain(name).warnings for name in domains))
-    for name, properties in keys.items():
-        properties["domain"]["enum"] = [name]
-        properties["ignore"]["items"] = {"enum": sorted(codes)}
-        properties["package"]["pattern"] = PACKAGE_PATTERN
-        properties["class"]["pattern"] = f"^$|{CLASS_PATTERN}"
-    inherited = {key: value for properties in keys.values() for key, value in properties.items() if key not in OWN_KEYS}
-    inherited |= {"domain": inherited["domain"] | {"enum": domains}}
-    robot: dict[str, Any] = {"properties": {"domain": {"enum": domains}}}
-    if len(domains) == 1:  # without conditions editors say what is wrong, and where
-        robot = {"$ref": f"#/$defs/{domains[0]}"}
+    domains = {name: registry.domain(name) for name in registry.names()}
+    kinds = Keys, CheckConfig, *(domain.options for domain in domains.values())
+    places, parts = msgspec.json.schema_components(
+        kinds, schema_hook=lambda _: dict(_PATH), ref_template="#/$defs/{name}"
+    )
+    keys, check, *options = (parts.pop(place["$ref"].rpartition("/")[2])["properties"] for place in places)
+    keys["domain"]["enum"] = [*domains]
+    keys["ignore"]["items"] = {"enum": sorted(IGNORABLE.union(*(domain.warnings for domain in domains.values())))}
+    keys["package"]["pattern"], keys["class"]["pattern"] = PACKAGE_PATTERN, f"^$|{CLASS_PATTERN}"
+    keys["output"]["default"] = DEFAULT_OUTPUT
+    meanings = {key: cells[1] for key, cells in explained("configuration.md") if len(cells) == 2}
+    for properties in (keys, check, *options):
+        for key, described in properties.items():
+            described["description"] = meanings.get(key, "")
+    robots = {}
+    for name, own in zip(domains, options, strict=True):
+        robots[name] = _robot({**keys, "domain": keys["domain"] | {"enum": [name]}, **own})
+    inherited = {key: described for own in (keys, *options) for key, described in own.items() if key not in OWN_KEYS}
+    tables = [{"$ref": f"#/$defs/{name}"} for name in domains]
     schema = {
-        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "$schema": DRAFT,
         "title": "urdfsync.toml",
         "type": "object",
         "properties": {
             "defaults": _closed(inherited),
-            "check": _closed(_properties(CheckConfig, meanings, parts)),
-            "robots": {"type": "object", "propertyNames": {"pattern": ROBOT_PATTERN}, "additionalProperties": robot},
+            "check": _closed(check),
+            "robots": {
+                "type": "object",
+                "propertyNames": {"pattern": ROBOT_PATTERN},
+                # of one table editors say what is wrong, and where; of several, that none fits
+                "additionalProperties": tables[0] if len(tables) == 1 else {"anyOf": tables},
+            },
         },
         "additionalProperties": False,
-        **({"allOf": [_by_default(domain, domains) for domain in domains]} if len(domains) > 1 else {}),
-        "$defs": {**{name: _robot(properties) for name, properties in keys.items()}, **parts},
+        "$defs": {**robots, **parts},
     }
     _refuse_control_characters(schema)
     return schema
@@ -65,29 +71,6 @@ def config_schema() -> dict[str, Any]:
 def text() -> str:
     """Return the schema as the text of its file."""
     return json.dumps(config_schema(), indent=2) + "\n"
-
-
-def _properties(
-    struct: type[msgspec.Struct], meanings: Mapping[str, str], definitions: dict[str, Any]
-) -> dict[str, Any]:
-    """Return the keys of a table by the types by which they are read, one by one, as `load` does.
-
-    Types of tables within them are added to `definitions`.
-    """
-    properties = {}
-    for field in msgspec.structs.fields(struct):
-        (schema,), tables = msgspec.json.schema_components(
-            [field.type], schema_hook=lambda _: {"type": "string"}, ref_template="#/$defs/{name}"
-        )
-        definitions.update(tables)
-        if field.type in (Path, Path | None):
-            schema = {"type": "string", "minLength": 1}
-        if field.encode_name in meanings:
-            schema["description"] = meanings[field.encode_name]
-        if field.default not in (msgspec.NODEFAULT, None):
-            schema["default"] = msgspec.to_builtins(field.default, enc_hook=str)
-        properties[field.encode_name] = schema
-    return properties
 
 
 def _closed(properties: Mapping[str, Any]) -> dict[str, Any]:
@@ -109,20 +92,6 @@ def _robot(properties: Mapping[str, Any]) -> dict[str, Any]:
     }
 
 
-def _by_default(default: str, domains: Sequence[str]) -> dict[str, Any]:
-    """Return what the robots are if `[defaults]` has this domain; of one domain there is no such case."""
-    robots = [{"if": _has_domain(name, name == default), "then": {"$ref": f"#/$defs/{name}"}} for name in domains]
-    tables = {"properties": {"defaults": _has_domain(default, default == DEFAULT_DOMAIN)}}
-    return {
-        "if": tables if default == DEFAULT_DOMAIN else tables | {"required": ["defaults"]},
-        "then": {"properties": {"robots": {"additionalProperties": {"allOf": robots}}}},
-    }
-
-
-def _has_domain(name: str, may_be_left_out: bool) -> dict[str, Any]:
-    return {"properties": {"domain": {"const": name}}} | ({} if may_be_left_out else {"required": ["domain"]})
-
-
 def _refuse_control_characters(schema: Any) -> None:
     """Let no string and no key in a schema have control characters."""
     for part in schema.values() if isinstance(schema, dict) else schema if isinstance(schema, list) else ():
@@ -131,8 +100,3 @@ def _refuse_control_characters(schema: Any) -> None:
         schema.setdefault("pattern", _NO_CONTROL)
     elif isinstance(schema, dict) and isinstance(schema.get("additionalProperties"), dict):
         schema.setdefault("propertyNames", {"pattern": _NO_CONTROL})
-
-
-def _meanings() -> dict[str, str]:
-    """Return what the keys mean, as docs/configuration.md says it."""
-    return {key: cells[1] for key, cells in explained("configuration.md") if len(cells) == 2}

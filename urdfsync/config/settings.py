@@ -17,6 +17,7 @@ from urdfsync.spelling import nearest
 
 FILE_NAME = "urdfsync.toml"
 DEFAULT_DOMAIN = "urdf"
+DEFAULT_OUTPUT = "modelica"
 STATE_FOLDER = ".urdfsync"
 """Holds the recorded state; beside the configuration."""
 OWN_KEYS = ("source", "arguments", "command", "command_inputs", "package", "class", "renamed")
@@ -27,7 +28,7 @@ class SharedKeys(msgspec.Struct, frozen=True, kw_only=True):
     """The keys of a robot's table that mean what they say; paths in them are absolute."""
 
     source: Path
-    output: Path = Path("modelica")
+    output: Path = msgspec.field(default_factory=lambda: Path(DEFAULT_OUTPUT))
     domain: str = DEFAULT_DOMAIN
     command: tuple[str, ...] = ()
     """The command that writes the source; empty for none."""

@@ -13,13 +13,14 @@ import os
 import sys
 import time
 from collections import Counter
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import IO, TYPE_CHECKING, Any, Literal, TypeVar
 
 import msgspec
 
 from urdfsync import streams
 from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.output.documents import Document
 
 if TYPE_CHECKING:
     import rich.console
@@ -29,8 +30,6 @@ if TYPE_CHECKING:
     from urdfsync.output.markdown import Section
 
 R = TypeVar("R")
-JSON_VERSION = 3
-"""Version of the JSON documents and events; raised when a key changes its meaning or goes away."""
 FEW = 5
 """So many warnings of one code are shown; of more, only the first ones and their number."""
 BAR_AFTER = 0.5
@@ -162,7 +161,7 @@ class Console:
         """`config` is the configuration as the user named it, for commands that are proposed."""
         self._command, self.config = command, config
         self.format, self.quiet, self.verbose = format, quiet, verbose
-        self._robots: list[Mapping[str, Any]] = []
+        self._results: list[msgspec.Struct] = []
         self._sections: list[Section] = []
         self._warnings: Sequence[Diagnostic] = ()
         self._begin = time.monotonic()
@@ -193,32 +192,29 @@ class Console:
         self._warnings = diagnostics
         self.findings(diagnostics)
 
-    def add_robot(self, values: Mapping[str, Any]) -> None:
-        """Add a robot to the JSON document; those of a command that fails later are in its document, too."""
+    def add_result(self, result: msgspec.Struct) -> None:
+        """Add a result to the JSON document; those of a command that fails later are in its document, too."""
         self.stop_progress()
-        self._robots.append(values)
+        self._results.append(result)
 
-    def add(self, result: R, to_json: Callable[[R], Mapping[str, Any]], to_section: Callable[[R], Section]) -> None:
-        """Add a robot to the document of whichever format, likewise."""
+    def add(self, result: R, to_document: Callable[[R], msgspec.Struct], to_section: Callable[[R], Section]) -> None:
+        """Add the result of a robot to the document of whichever format, likewise."""
         if self.format is Format.JSON:
-            self.add_robot(to_json(result))
+            self.add_result(to_document(result))
         elif self.is_document:
             self.stop_progress()
             self._sections.append(to_section(result))
 
-    def end(self, code: int, diagnostics: Sequence[Diagnostic] = (), values: Mapping[str, Any] | None = None) -> int:
-        """End a command: show what stopped it, or write its document (docs/json.md). Returns the exit code.
-
-        That in JSON has these values, else the robots.
-        """
+    def end(self, code: int, diagnostics: Sequence[Diagnostic] = ()) -> int:
+        """End a command: show what stopped it, or write its document. Returns the exit code."""
         self.stop_progress()
         if not self.is_document:
             self.findings(diagnostics)
             return code
-        sys.stdout.write(self._document(code, (*self._warnings, *diagnostics), values))
+        sys.stdout.write(self._document(code, (*self._warnings, *diagnostics)))
         return code
 
-    def _document(self, code: int, diagnostics: Sequence[Diagnostic], values: Mapping[str, Any] | None) -> str:
+    def _document(self, code: int, diagnostics: Sequence[Diagnostic]) -> str:
         """Return the document that takes the place of lines; `diagnostics` belong to no robot."""
         if self.format is Format.MARKDOWN:
             from urdfsync.output.markdown import comment  # most commands write none
@@ -228,15 +224,9 @@ class Console:
             from urdfsync.output.sarif import log
 
             return log(self._sections, diagnostics, code)
-        document = {
-            "version": JSON_VERSION,
-            "command": self._command,
-            "exit": int(code),
-            **({"robots": self._robots} if values is None else values),
-            "diagnostics": diagnostics,
-        }
+        document = Document(command=self._command, exit=int(code), results=self._results, diagnostics=diagnostics)
         indent = None if self._command == "watch" else 2  # its output is one object per line
-        return json.dumps(msgspec.to_builtins(document), indent=indent) + "\n"
+        return json.dumps(msgspec.to_builtins(document, enc_hook=str), indent=indent) + "\n"
 
     def progress(self, what: str, done: int, total: int) -> None:
         """Show a step of the work, once the work takes long enough for anybody to wonder."""

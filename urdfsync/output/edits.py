@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import TypedDict
+
+import msgspec
 
 from urdfsync.engine.edits import EditedFile, RobotEdits
 from urdfsync.files import shown
 from urdfsync.merge.edits import Edit, find_edits, in_words
 from urdfsync.output.conflicts import difference_lines
 from urdfsync.output.console import StyledLine, first_lines, line
+from urdfsync.output.documents import fill
 from urdfsync.output.markdown import Mark, Section, Table
 from urdfsync.output.phrases import counted
 
@@ -28,25 +30,25 @@ def robot_lines(edited: RobotEdits, *, verbose: bool = False) -> Iterator[Styled
         yield from edit_lines(file, edited.root, verbose)
 
 
-class FileDocument(TypedDict):
+class FileDocument(msgspec.Struct):
     """A file that the user edited; `edits` is None if they can't be told by element."""
 
     path: str
     owner: str
-    edits: list[Edit] | None
+    edits: Sequence[Edit] | None
 
 
-class EditsDocument(TypedDict):
+class EditsDocument(msgspec.Struct):
     """What the user edited in a package."""
 
-    name: str
+    robot: str
     failed: bool
-    files: list[FileDocument]
+    files: Sequence[FileDocument]
 
 
-def to_json(edited: RobotEdits) -> EditsDocument:
-    """Return the edits of a robot as plain data."""
-    return {"name": edited.robot, "failed": edited.failed, "files": list(map(_values, edited.files))}
+def to_document(edited: RobotEdits) -> EditsDocument:
+    """Return the edits of a robot as a part of a document."""
+    return fill(EditsDocument, edited, files=list(map(_document, edited.files)))
 
 
 def to_section(edited: RobotEdits) -> Section:
@@ -62,11 +64,10 @@ def _summary(edited: RobotEdits) -> str:
     return f"{counted(len(edited.files), 'file')} edited" if edited.files else "nothing is edited"
 
 
-def _values(file: EditedFile) -> FileDocument:
-    """Return an edited file as plain data."""
+def _document(file: EditedFile) -> FileDocument:
     edits = None if file.base is None else find_edits(file.base, file.mine)
     told = None if edits is None else [edit for edit in edits if edit.element != "comments"]
-    return {"path": file.path, "owner": file.owner, "edits": told}
+    return fill(FileDocument, file, edits=told)
 
 
 def edit_lines(file: EditedFile, root: Path, verbose: bool, most: int = _EDITS) -> Iterator[StyledLine]:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Container, Iterator, Sequence
-from typing import TYPE_CHECKING, Any, TypedDict, cast
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import msgspec
 
@@ -13,8 +14,9 @@ from urdfsync.domain import ChangeClass, ChangeKind, Role
 from urdfsync.engine.actions import Action, FileStatus, Kind, Reason
 from urdfsync.engine.result import Checked, Result
 from urdfsync.files import shown
-from urdfsync.output.conflicts import conflict_lines, describe, find_conflicts, saved_texts, shown_path
+from urdfsync.output.conflicts import DisputedFile, conflict_lines, describe, find_conflicts, saved_texts, shown_path
 from urdfsync.output.console import Console, StyledLine, first_lines, has_marks, line
+from urdfsync.output.documents import KEYS, fill
 from urdfsync.output.phrases import change_lines, counted, reason, summary
 from urdfsync.output.repeated import show_findings
 from urdfsync.output.sections import build_section
@@ -23,13 +25,13 @@ if TYPE_CHECKING:
     from urdfsync.changes import Changes
 
 
-class ActionDocument(TypedDict):
+class ActionDocument(msgspec.Struct, rename={"kind": "action"}):
     """What happens to a file."""
 
     path: str
     origin: str | None
     status: FileStatus | None
-    action: Kind
+    kind: Kind
     reason: str
     held: bool
     owner: str
@@ -37,7 +39,7 @@ class ActionDocument(TypedDict):
     text: str
 
 
-class ConflictDocument(TypedDict):
+class ConflictDocument(msgspec.Struct):
     """A file in conflict."""
 
     path: str
@@ -49,40 +51,38 @@ class ConflictDocument(TypedDict):
     merge: str | None
 
 
-Classified = TypedDict("Classified", {"class": ChangeClass})
-"""How far a change reaches, or all of them."""
-
-
-class ChangeDocument(Classified):
+class ChangeDocument(msgspec.Struct, rename=KEYS):
     """A change of the model."""
 
-    path: list[str]
+    path: Sequence[str]
     kind: ChangeKind
+    change_class: ChangeClass
     old: Any
     new: Any
     unit: str
     noise: bool
 
 
-class RobotDocument(Classified):
-    """The result of a build of one robot."""
+class RobotDocument(msgspec.Struct, rename=KEYS):
+    """The result of a build of one robot; paths are relative to the configuration's folder."""
 
-    name: str
+    robot: str
     package: str
-    folder: str
+    folder: Path
     failed: bool
     locked: bool
-    built: bool
+    is_built: bool
     in_step: bool
-    broken: bool
+    is_broken: bool
     writes: bool
     summary: str
-    drawing: str | None
+    drawing: Path | None
     checked: Checked | None
-    not_expanded: Sequence[str]
-    changes: list[ChangeDocument]
-    actions: list[ActionDocument]
-    conflicts: list[ConflictDocument]
+    stale: Sequence[str]
+    change_class: ChangeClass
+    changes: Sequence[ChangeDocument]
+    actions: Sequence[ActionDocument]
+    conflicts: Sequence[ConflictDocument]
     diagnostics: Sequence[Diagnostic]
 
 
@@ -127,7 +127,7 @@ def change_line(text: str) -> StyledLine:
 def show_result(console: Console, result: Result, *, explain: bool = False, named: Container[str] = ()) -> None:
     """Show what was done with one robot; `named` files are listed."""
     if console.is_document:
-        console.add(result, result_values, build_section)
+        console.add(result, robot_document, build_section)
         return
     show_findings(console, result, result.diagnostics)
     if console.quiet and not (result.conflicts or result.is_broken):
@@ -177,56 +177,27 @@ def result_lines(
         yield line((f"  diagram: {shown(result.drawing)}", ""))
 
 
-def result_values(result: Result) -> RobotDocument:
-    """Return a result as plain data, the same in all documents; paths are relative to the configuration's folder."""
+def robot_document(result: Result) -> RobotDocument:
+    """Return a result as a part of a document."""
     changes = result.changes
-    return {
-        "name": result.robot,
-        "package": result.package,
-        "folder": str(result.folder),
-        "failed": result.failed,
-        "locked": result.locked,
-        "built": result.is_built,
-        "in_step": result.in_step,
-        "broken": result.is_broken,
-        "writes": result.writes,
-        "summary": summary(result),
-        "drawing": str(result.drawing) if result.drawing else None,
-        "checked": result.checked,
-        "not_expanded": result.stale,
-        "class": changes.change_class if changes else ChangeClass.NONE,
-        "changes": [
-            cast("ChangeDocument", {**msgspec.to_builtins(change), "noise": change.noise})
-            for change in (changes.changes if changes else ())
-        ],
-        "actions": [_action_values(action, changes) for action in result.actions],
-        "conflicts": [
-            {
-                "path": target.action.path,
-                "origin": target.action.origin,
-                "merges": target.merges,
-                "reason": describe(target),
-                "base": saved.get("base"),
-                "generated": saved.get("generated"),
-                "merge": saved.get("merge"),
-            }
-            for target in find_conflicts([result])
-            for saved in (saved_texts(target),)
-        ],
-        "diagnostics": result.diagnostics,
-    }
+    return fill(
+        RobotDocument,
+        result,
+        summary=summary(result),
+        change_class=changes.change_class if changes else ChangeClass.NONE,
+        changes=changes.changes if changes else (),
+        actions=[_action_document(action, changes) for action in result.actions],
+        conflicts=list(map(_conflict_document, find_conflicts([result]))),
+    )
 
 
-def _action_values(action: Action, changes: Changes | None) -> ActionDocument:
-    """Return what happens to a file as plain data; `changes` tell why, if it is because of them."""
-    return {
-        "path": action.path,
-        "origin": action.origin,
-        "status": action.reason.status,
-        "action": action.kind,
-        "reason": action.reason.word,
-        "held": action.held,
-        "owner": action.owner,
-        "role": action.role,
-        "text": reason(action, changes),
-    }
+def _action_document(action: Action, changes: Changes | None) -> ActionDocument:
+    """Return what happens to a file; `changes` tell why, if it is because of them."""
+    why = {"reason": action.reason.word, "text": reason(action, changes)}
+    return fill(ActionDocument, action, status=action.reason.status, **why)
+
+
+def _conflict_document(target: DisputedFile) -> ConflictDocument:
+    texts = dict.fromkeys(("base", "generated", "merge")) | saved_texts(target)
+    action = target.action
+    return fill(ConflictDocument, target, path=action.path, origin=action.origin, reason=describe(target), **texts)

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TypedDict
+
+import msgspec
 
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.output.console import StyledLine, findings, html, line
+from urdfsync.output.documents import KEYS, fill
 from urdfsync.simulation.fmu import AGREEMENT, KINDS, Trial, WrittenFmu
 from urdfsync.simulation.results import JointResult, LoopResult, Range, SimulateResult
 
@@ -76,32 +78,32 @@ def _digits(number: float) -> str:
     return f"{0 if abs(number) < _NOTHING else number:.3g}"
 
 
-class SimulationDocument(TypedDict):
+class SimulationDocument(msgspec.Struct, rename=KEYS):
     """A simulation without its series."""
 
-    name: str
+    robot: str
     model: str
     stop: float
     step: float
     tolerance: float
     points: int
     seconds: float
-    known: bool
+    is_known: bool
     joints: Sequence[JointResult]
     loops: Sequence[LoopResult]
-    files: dict[str, str]
+    files: Mapping[str, Path]
     diagnostics: Sequence[Diagnostic]
 
 
-class FmuDocument(TypedDict):
+class FmuDocument(msgspec.Struct, rename=KEYS | {"file": "fmu"}):
     """An FMU that was written."""
 
-    name: str
+    robot: str
     model: str
-    fmu: str
+    file: Path
     tool: str
     fmi: str
-    kinds: list[str]
+    kinds: Sequence[str]
     tolerance: float
     bytes: int
     seconds: float
@@ -109,22 +111,9 @@ class FmuDocument(TypedDict):
     diagnostics: Sequence[Diagnostic]
 
 
-def to_json(result: SimulateResult, files: Mapping[str, Path]) -> SimulationDocument:
-    """Return a simulation as plain data, without its series."""
-    return {
-        "name": result.robot,
-        "model": result.model,
-        "stop": result.stop,
-        "step": result.step,
-        "tolerance": result.tolerance,
-        "points": len(result.series["time"]),
-        "seconds": result.seconds,
-        "known": result.is_known,
-        "joints": result.joints,
-        "loops": result.loops,
-        "files": {name: str(file) for name, file in files.items()},
-        "diagnostics": result.diagnostics,
-    }
+def to_document(result: SimulateResult, files: Mapping[str, Path]) -> SimulationDocument:
+    """Return a simulation as a part of a document."""
+    return fill(SimulationDocument, result, points=len(result.series["time"]), files=files)
 
 
 def fmu_lines(written: WrittenFmu) -> Iterator[StyledLine]:
@@ -145,19 +134,9 @@ def fmu_lines(written: WrittenFmu) -> Iterator[StyledLine]:
     yield line(("  fmu: ", ""), (str(written.file), "bold"))
 
 
-def fmu_to_json(written: WrittenFmu) -> FmuDocument:
-    """Return an FMU as plain data."""
-    exported = written.exported
-    return {
-        "name": written.robot,
-        "model": exported.model,
-        "fmu": str(written.file),
-        "tool": exported.tool,
-        "fmi": written.kind.version,
-        "kinds": [short for short in KINDS if short in written.kind.kind],
-        "tolerance": exported.tolerance,
-        "bytes": len(exported.content),
-        "seconds": exported.seconds,
-        "trial": written.trial,
-        "diagnostics": written.diagnostics,
-    }
+def fmu_to_document(written: WrittenFmu) -> FmuDocument:
+    """Return an FMU as a part of a document."""
+    exported = {name: getattr(written.exported, name) for name in ("model", "tool", "tolerance", "seconds")}
+    kinds = [short for short in KINDS if short in written.kind.kind]
+    size = len(written.exported.content)
+    return fill(FmuDocument, written, fmi=written.kind.version, kinds=kinds, bytes=size, **exported)

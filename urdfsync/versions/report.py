@@ -11,11 +11,12 @@ from urdfsync.engine.actions import USERS, Kind, Reason
 from urdfsync.engine.findings import CONNECTORS
 from urdfsync.output.conflicts import settle_hint, shown_path
 from urdfsync.output.console import StyledLine, first_lines, line
+from urdfsync.output.documents import fill
 from urdfsync.output.markdown import Mark, Section, Table
 from urdfsync.output.outline import effect_rows
 from urdfsync.output.phrases import change_counts, change_lines, counted, error_count, generator_change
 from urdfsync.output.phrases import summary as build_summary
-from urdfsync.output.results import RobotDocument, action_word, change_line, file_line, headline, result_values
+from urdfsync.output.results import RobotDocument, action_word, change_line, file_line, headline, robot_document
 from urdfsync.output.sections import build_section, change_parts
 from urdfsync.versions.comparison import Comparison
 
@@ -40,16 +41,10 @@ def robot_lines(compared: Comparison, *, verbose: bool = False) -> Iterator[Styl
     yield from _lines(compared, verbose)
 
 
-def to_json(compared: Comparison) -> ComparisonDocument:
-    """Return what changed in a source as plain data."""
-    return {
-        **result_values(compared.result),
-        "source": compared.source,
-        "against": compared.against,
-        "summary": _summary(compared),
-        "in_step": compared.in_step,
-        "effects": compared.effects,
-    }
+def to_document(compared: Comparison) -> ComparisonDocument:
+    """Return what changed in a source as a part of a document."""
+    own = {name: getattr(compared, name) for name in ("source", "against", "in_step", "effects")}
+    return fill(ComparisonDocument, robot_document(compared.result), summary=_summary(compared), **own)
 
 
 def to_section(compared: Comparison) -> Section:

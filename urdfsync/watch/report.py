@@ -22,7 +22,6 @@ from urdfsync.engine.result import Checked, Result
 from urdfsync.files import shown
 from urdfsync.output.conflicts import conflict_lines
 from urdfsync.output.console import (
-    JSON_VERSION,
     Console,
     StyledLine,
     findings,
@@ -31,8 +30,9 @@ from urdfsync.output.console import (
     rich_console,
     write_lines,
 )
+from urdfsync.output.documents import JSON_VERSION
 from urdfsync.output.phrases import action_counts, change_counts, change_lines, check_result, counted, summary
-from urdfsync.output.results import result_lines, result_values
+from urdfsync.output.results import result_lines, robot_document
 from urdfsync.watch import events
 from urdfsync.watch.terminal import StatusArea
 
@@ -109,20 +109,17 @@ def now() -> datetime.datetime:
 
 
 def event_values(event: events.Event, time: datetime.datetime) -> dict[str, Any]:
-    """Return an event as JSON values: its fields under their names, a result as `result_values` has it.
+    """Return an event as JSON values: its fields under their names, and those of a result among them.
 
     Of a result's files those are left out that are just unchanged.
     """
-    tag = event.__struct_config__.tag
-    values: dict[str, Any] = {"version": JSON_VERSION, "event": tag, "time": time.isoformat()}
-    for name, value in msgspec.structs.asdict(event).items():
-        if isinstance(value, Result):
-            inside = result_values(value)
-            inside["actions"] = [action for action in inside["actions"] if action["reason"] != Reason.UNCHANGED.word]
-            values |= {"robot": inside["name"], **inside}
-        else:
-            values[name] = value
-    plain: dict[str, Any] = msgspec.to_builtins(values, enc_hook=str)
+    head = {"version": JSON_VERSION, "event": event.__struct_config__.tag, "time": time.isoformat()}
+    fields = msgspec.structs.asdict(event)
+    if isinstance(event, events.Built | events.Failed):
+        document = robot_document(fields.pop("result"))
+        document.actions = [action for action in document.actions if action.reason != Reason.UNCHANGED.word]
+        head |= msgspec.to_builtins(document, enc_hook=str)
+    plain: dict[str, Any] = head | msgspec.to_builtins(fields, enc_hook=str)
     return plain
 
 
