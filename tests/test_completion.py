@@ -13,24 +13,31 @@ import time
 from pathlib import Path
 
 import pytest
-from support.networks import LADDER, configure, edit
+from support.networks import configure
 
 from urdfsync import cli, completion
 
 TABLE = Path(completion.__file__).parent / "shells/options.tsv"
 
 
+VALUES = {"OLD=NEW": "{}=", "NAME=VALUE": "robot.{}.parameters.", "PATTERN": "robot.{}."}
+"""What `completion` makes of the values of options, with a joint in the place of `{}`."""
+FILES = ("FILE", "PATH", "SOURCE", "CONFIG", "BASE", "MINE", "OTHER")
+
+
 def option_table() -> str:
-    """The rows of all commands and options: command, option, kind of its value, meaning."""
+    """The rows of all commands and options: command, option, its values, meaning."""
     commands = next(action for action in cli._parser([])._actions if isinstance(action, argparse._SubParsersAction))
     rows = [("", choice.dest, "", choice.help or "") for choice in commands._choices_actions]
     for name, parser in commands.choices.items():
         formatter = parser._get_formatter()
         for action in parser._actions:
-            kind = "" if action.nargs == 0 else "|".join(map(str, action.choices or ())) or str(action.metavar or "")
+            values = "" if action.nargs == 0 else "|".join(map(str, action.choices or ())) or str(action.metavar or "")
+            values = "FILE" if values.startswith(FILES) else VALUES.get(values, values)
             texts = formatter._expand_help(action).split() if action.help else []
             options = [option for option in action.option_strings if option.startswith("--")] or [""]
-            rows += [(name, option, kind, " ".join(texts if option else [])[:70]) for option in options]
+            values = "ROBOT|FILE" if (name, options) == ("diff", [""]) else values
+            rows += [(name, option, values, " ".join(texts if option else [])[:70]) for option in options]
     return "".join("\t".join(row) + "\n" for row in rows)
 
 
@@ -45,15 +52,14 @@ def test_the_table_has_all_commands_and_options() -> None:
 
 
 @pytest.fixture
-def edited(project: Path) -> Path:
-    """A built project of two robots with one edited file."""
+def built(project: Path) -> Path:
+    """A built project of two robots."""
     configure('[robots.filter]\nsource = "ladder.json"\npackage = "Filter"\ndomain = "rcnetwork"\n')
     cli.main(["build"])
-    edit(f"{LADDER}/Ladder.mo", "end Ladder;\n", "end Ladder;\n// mine\n")
     return project
 
 
-def test_what_a_line_may_become(edited: Path) -> None:
+def test_what_a_line_may_become(built: Path) -> None:
     assert names("bui") == ["build"]
     assert names("build", "") == ["ladder", "filter"]
     assert names("build", "ladder", "") == ["filter"]
@@ -61,8 +67,8 @@ def test_what_a_line_may_become(edited: Path) -> None:
     assert names("check", "--tool", "") == ["rumoca", "omc", "both"]
     assert names("check", "--tool=o") == ["--tool=omc"]
     assert names("build", "--robot", "f") == ["filter"]
-    assert names("resolve", "") == names("diff", "--edits", "mod") == [f"{LADDER}/Ladder.mo"]
-    assert names("resolve", "nowhere") == names("init", "") == names("build", "--config", "") == [":files"]
+    assert names("resolve", "") == names("diff", "mod") == names("init", "") == [":files"]
+    assert names("build", "--config", "") == names("record", "--output=") == [":files"]
     assert names("hook", "ch") == ["check"]
     assert names("nothing", "") == names("build", "--wait", "") == names("library", "x") == []
 
@@ -106,14 +112,14 @@ def test_nothing_is_said_of_a_configuration_that_is_wrong(folder: Path, content:
         assert (done.stdout.replace(":files\n", ""), done.stderr) == ("", "")
 
 
-def test_it_loads_no_more_than_the_up_to_date_check(edited: Path) -> None:
+def test_it_loads_no_more_than_the_up_to_date_check(built: Path) -> None:
     code = (
         "import sys; sys.argv = ['urdfsync', 'completion', 'bash', '--', 'build', '']\n"
         "from urdfsync.__main__ import main; main(); print(*sys.modules, file=sys.stderr)"
     )
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
     done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=True)
-    assert done.stdout.splitlines() == ["ladder\trobot", "filter\trobot"]
+    assert done.stdout.splitlines() == ["ladder", "filter"]
     loaded = set(done.stderr.split())
     assert {name for name in loaded if name.startswith("urdfsync.")} <= {
         f"urdfsync.{name}" for name in ("__main__", "uptodate", "dependencies", "streams", "completion")
@@ -128,13 +134,13 @@ LINES = {
     "urdfsync build --dry\tlad\t": "<build> <--dry-run> <ladder>",
     "urdfsync check --tool=o\t": "<check> <--tool=omc>",
     "urdfsync resolve --rename-uses=nothing lad\t": "<resolve> <--rename-uses=nothing> <ladder.json>",
-    "urdfsync diff --edits mod\t": f"<diff> <--edits> <{LADDER}/Ladder.mo>",
+    "urdfsync diff --edits mod\t": "<diff> <--edits> <modelica/>",
     "urdfsync init lad\t": "<init> <ladder.json>",
 }
 
 
 @pytest.fixture
-def command(edited: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def command(built: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A folder first on the PATH with a command `urdfsync` that completes, and else shows its arguments."""
     shown = tmp_path / "bin/urdfsync"
     shown.parent.mkdir()
@@ -207,7 +213,7 @@ def test_fish(command: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     lines = ["urdfsync bui", "urdfsync build f", "urdfsync diff --edits mod", "urdfsync init ladder.j"]
     done = subprocess.run([shell("fish"), "-c", script, *lines], capture_output=True, text=True, check=True)
     answers = [text.split("\t")[0].strip() for text in done.stdout.split("\n\n")]
-    assert answers[:4] == ["build", "filter", f"{LADDER}/Ladder.mo", "ladder.json"]
+    assert answers[:4] == ["build", "filter", "modelica/", "ladder.json"]
 
 
 if __name__ == "__main__":

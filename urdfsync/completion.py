@@ -14,10 +14,6 @@ import sys
 from urdfsync import uptodate
 from urdfsync.dependencies import read_unrecorded
 
-TYPE_CHECKING = False  # that of `typing` takes 2 ms
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
-
 SHELLS = ("bash", "zsh", "fish")
 FILES = [(":files", "")]
 """An answer that leaves it to the shell to complete a file."""
@@ -35,55 +31,37 @@ def answer(arguments: list[str]) -> bool:
     if len(arguments) == 1:
         sys.stdout.write(_read(f"completion.{arguments[0]}"))
     else:
-        sys.stdout.writelines(f"{name}\t{words}".rstrip() + "\n" for name, words in complete(arguments[2:]))
+        sys.stdout.writelines(f"{name}\t{meaning}".rstrip() + "\n" for name, meaning in complete(arguments[2:]))
     return True
 
 
 def complete(words: list[str]) -> list[tuple[str, str]]:
     """Return what the last word may become, each with its meaning."""
-    words = words or [""]
+    *before, current = words or [""]
     table = [line.split("\t") for line in _read("options.tsv").splitlines()]
-    rows = [row for row in table if row[0] == (words[0] if words[1:] else "")]
-    *before, current = words
-    if not before:
-        return _matching(current, [(row[1], row[3]) for row in rows])
-    kinds, begin = {row[1]: row[2] for row in rows if row[1]}, ""
+    rows = [row for row in table if row[0] == (before[0] if before else "")]  # those of a command, or all commands
+    values = {name: values for _, name, values, _ in rows if name}
+    option, begin = before[-1] if before else "", ""
     if current.startswith("--") and "=" in current:
         option, _, current = current.partition("=")
-        before, begin = [*before, option], f"{option}="
-    kind = kinds.get(before[-1], "")
-    if kind or begin:
-        found = _values(kind, current, words)
-        return found if found is FILES else [(begin + name, text) for name, text in found]
-    if current.startswith("-"):
-        return _matching(current, [(row[1], row[3]) for row in rows if row[1].startswith("-") and row[1] not in before])
-    found = []
-    for kind in (row[2] for row in rows if not row[1]):
-        if "--edits" in before and kind == "SOURCE":
-            kind = "PATH"
-        if (more := _values(f"{kind} of a command", current, words)) is FILES:
-            return found or FILES
-        found += more
-    return found
+        begin = f"{option}="
+    kinds = values.get(option, "").split("|") if begin or values.get(option) else []
+    if not kinds and (not before or current.startswith("-")):
+        names = {name: meaning for _, name, _, meaning in rows if name and name not in before}
+    else:
+        kinds = kinds or "|".join(values for _, name, values, _ in rows if not name).split("|")
+        names = {name: "" for kind in kinds for name in _names(kind, words) if name not in before[1:]}
+    fitting = [(begin + name, meaning) for name, meaning in names.items() if name.startswith(current)]
+    return FILES if "FILE" in kinds and not fitting else fitting
 
 
-def _values(kind: str, begun: str, words: list[str]) -> list[tuple[str, str]]:
-    """Return the values of an option, or of an argument `of a command`, that go on as begun."""
-    kind, _, is_argument = kind.partition(" ")
-    if kind == "ROBOT" or (kind == "SOURCE" and words[0] == "diff"):
-        found = _matching(begun, [(name, "robot") for name in _robots(words) if name not in words[1:-1]])
-        return found or (FILES if kind == "SOURCE" else [])
-    if kind == "PATH" and is_argument:
-        return _matching(begun, [(path, "edited") for path in _edited(words, begun)]) or FILES
-    if form := {"OLD=NEW": "{}=", "NAME=VALUE": "robot.{}.parameters.", "PATTERN": "robot.{}."}.get(kind):
-        return _matching(begun, [(form.format(name), "joint") for name in _joints(words)])
-    if "|" in kind:
-        return _matching(begun, [(name, "") for name in kind.split("|")])
-    return FILES if kind.startswith(("FILE", "PATH", "SOURCE", "CONFIG")) else []
-
-
-def _matching(begun: str, pairs: Iterable[tuple[str, str]]) -> list[tuple[str, str]]:
-    return [pair for pair in dict(pairs).items() if pair[0].startswith(begun)]
+def _names(kind: str, words: list[str]) -> list[str]:
+    """Return the values of a kind: robots, texts with a joint in them, one choice; of others nothing is known."""
+    if kind == "ROBOT":
+        return _robots(words)
+    if "{}" in kind:
+        return [kind.format(joint) for joint in _joints(words)]
+    return [kind] if kind and not kind.isupper() else []
 
 
 def _robots(words: list[str]) -> list[str]:
@@ -98,51 +76,17 @@ def _robots(words: list[str]) -> list[str]:
         return []
 
 
-def _facts(words: list[str]) -> Iterator[tuple[str, str, str]]:
-    """Yield the lines of recorded states: the folder of the configuration, the first word, and the rest.
-
-    They are those of the robots on the line, if there are any.
-    """
-    root = os.path.dirname(uptodate.find_config(words) or "")
-    try:
-        states = sorted(os.listdir(os.path.join(root, _STATE))) if root else []
-        named = [name for name in states if name.removesuffix(".state") in words]
-        for name in named or [name for name in states if name.endswith(".state")]:
-            for line in read_unrecorded(os.path.join(root, _STATE, name)).decode().splitlines():
-                word, _, rest = line.partition(" ")
-                yield root, word, rest
-    except (OSError, ValueError):
-        return
-
-
 def _joints(words: list[str]) -> list[str]:
-    """Return the joints that were built last, as far as their names are those of components, too."""
-    begin = '["joints","'
-    names = [rest[len(begin) :].partition('"')[0] for _, word, rest in _facts(words) if rest.startswith(begin) and word]
+    """Return the joints that were built last, of the robots on the line or of all, if their names are components'."""
+    folder = os.path.join(os.path.dirname(uptodate.find_config(words) or ""), _STATE)
+    try:
+        states = sorted(os.listdir(folder))
+        states = [name for name in states if name.removesuffix(".state") in words] or states
+        text = "".join(read_unrecorded(os.path.join(folder, name)).decode() for name in states)
+    except (OSError, ValueError):
+        return []
+    names = (line.partition('"')[0] for line in text.split('["joints","')[1:])
     return [name for name in names if name.isidentifier() and name.isascii()]
-
-
-def _edited(words: list[str], begun: str) -> list[str]:
-    """Return the files of packages that are not as they were written last, as seen from the working folder."""
-    import hashlib
-
-    folder, hashes = "", dict[str, set[str]]()
-    for root, word, rest in _facts(words):
-        if word == "folder":
-            folder = os.path.relpath(os.path.join(root, rest.strip('"')))
-        elif word == "file":
-            sha256, _, path = rest.partition("  ")
-            hashes.setdefault(os.path.join(folder, path), set()).add(sha256)
-    edited = []
-    for path, known in hashes.items():
-        if path.startswith(begun) and path.endswith(".mo") and path.isprintable():
-            try:
-                content = read_unrecorded(path).replace(b"\r\n", b"\n").replace(b"\r", b"\n")
-            except OSError:
-                continue
-            if hashlib.sha256(content).hexdigest() not in known:
-                edited.append(path)
-    return edited
 
 
 def _read(name: str) -> str:

@@ -16,7 +16,7 @@ def add(commands: arguments.Commands) -> None:
         commands,
         "completion",
         help="print the script that completes commands in a shell",
-        description="Print the script that completes commands, options, robots, joints and edited files in a shell.",
+        description="Print the script that completes commands, options, robots and joints in a shell.",
         epilog='examples: eval "$(urdfsync completion bash)"   # in ~/.bashrc; zsh in ~/.zshrc, below compinit\n'
         "          urdfsync completion fish | source   # in ~/.config/fish/config.fish",
     )

@@ -8,7 +8,6 @@ _urdfsync() {
   COMPREPLY=("${COMPREPLY[@]%%$'\t'*}")
   case "${COMPREPLY[0]}" in
     :files) COMPREPLY=(); compopt -o default 2>/dev/null ;;
-    */*) compopt -o filenames 2>/dev/null ;;
     *[=.]) compopt -o nospace 2>/dev/null ;;
   esac
   COMPREPLY=("${COMPREPLY[@]#"${word%"${word##*=}"}"}") # for bash, a word begins after `=`
