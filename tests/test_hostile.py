@@ -1,7 +1,8 @@
 """A repository of a stranger's: no command runs code of it, writes outside of it, hangs, or ends in a traceback.
 
-Each attack of `support.hostile` meets every command in this process. Modules of the working folder meet the programs,
-as does a clone with all attacks at once. Audit events of Python tell what happens, and a comparison of all folders.
+Each attack of `support.hostile` meets every command in this process; in CI all meet a build, and one of three the other
+commands. Modules of the working folder meet the programs, as does a clone with all attacks at once. Audit events of
+Python tell what happens, and a comparison of all folders.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ import sys
 import time
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 import pytest
 from support import hostile
@@ -75,15 +77,17 @@ def _attack(
         assert [path for path in changed if not path.startswith(allowed)] == [], command
 
 
-IN_PROCESS = [
-    pytest.param(name, marks=pytest.mark.slow if any(word in name for word in LARGE) else ())
-    for name in hostile.ATTACKS
-    if name not in ("modules", "a domain of the repository")
-]
-"""Modules of the working folder can only meet programs."""
+ATTACKS = [name for name in hostile.ATTACKS if name not in ("modules", "a domain of the repository")]
+"""In this process: modules of the working folder can only meet programs."""
 
 
-@pytest.mark.parametrize("name", IN_PROCESS)
+def _marked(mark: pytest.MarkDecorator, every: int) -> list[Any]:
+    """The attacks as parameters; one of so many stays without a mark, if it is none of the large ones."""
+    is_marked = [number % every or any(word in name for word in LARGE) for number, name in enumerate(ATTACKS)]
+    return [pytest.param(name, marks=[mark] if long else []) for name, long in zip(ATTACKS, is_marked, strict=True)]
+
+
+@pytest.mark.parametrize("name", _marked(pytest.mark.slow, 1))
 def test_an_attack_meets_a_build(tmp_path: Path, stale: Path, name: str) -> None:
     work = Workplace(tmp_path)
     _attack(work, stale, name, READING[:1], READ, afresh=False)
@@ -91,7 +95,7 @@ def test_an_attack_meets_a_build(tmp_path: Path, stale: Path, name: str) -> None
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", IN_PROCESS)
+@pytest.mark.parametrize("name", _marked(pytest.mark.large, 3))
 def test_an_attack_meets_every_other_command(tmp_path: Path, stale: Path, name: str) -> None:
     work = Workplace(tmp_path)
     _attack(work, stale, name, READING[1:], READ, afresh=False)

@@ -182,7 +182,7 @@ def test_without_a_fault_all_is_right(modelica_library: Path, tmp_path: Path) ->
     assert {each.part for each in (*arm, *cart)} == {*Part} - {Part.LOOPS}
 
 
-@pytest.mark.parametrize("fault_name", sampled(PACKAGE, 7))
+@pytest.mark.parametrize("fault_name", sampled(PACKAGE, 9))
 def test_a_fault_in_a_package_is_seen(fault_name: str, modelica_library: Path, tmp_path: Path) -> None:
     fault = PACKAGE[fault_name]
     name, options = ("Cart", {"base": "floating"}) if fault.part is Part.CONTACTS else ("Arm", {})
@@ -191,7 +191,7 @@ def test_a_fault_in_a_package_is_seen(fault_name: str, modelica_library: Path, t
     assert is_seen(fault, found)
 
 
-@pytest.mark.parametrize("name", sampled((*LIBRARY, *FLOATING), 7))
+@pytest.mark.parametrize("name", sampled((*LIBRARY, *FLOATING), 9))
 def test_a_fault_in_the_library_is_seen(name: str, modelica_library: Path, tmp_path: Path) -> None:
     base = "floating" if name in FLOATING else "fixed"
     fault, own = {**LIBRARY, **FLOATING}[name], tmp_path / "own" / "UrdfSync"
@@ -232,7 +232,10 @@ COMMAND: Mapping[str, tuple[str, str, str, str]] = {
 """A text of a file that is replaced by another, and what the check says then."""
 
 
-def test_the_command_sees_faults_although_all_was_right_before(modelica_library: Path, tmp_path: Path) -> None:
+@pytest.mark.parametrize("names", sampled([("library", "user's edit"), ("template", "reader")], 2), ids=" and ".join)
+def test_the_command_sees_faults_although_all_was_right_before(
+    names: Sequence[str], modelica_library: Path, tmp_path: Path
+) -> None:
     for part in ("urdfsync", "templates", "modelica"):
         ignored = shutil.ignore_patterns("__pycache__", "Images", "robots")
         shutil.copytree(REPOSITORY / part, tmp_path / "copy" / part, ignore=ignored)
@@ -252,7 +255,7 @@ def test_the_command_sees_faults_although_all_was_right_before(modelica_library:
     for _ in range(2):  # the second time by what is remembered
         checked = urdfsync("check", "--physics", "--strict")
         assert checked.returncode == 0, checked.stdout + checked.stderr
-    for file, old, new, words in COMMAND.values():
+    for file, old, new, words in map(COMMAND.__getitem__, names):
         text = (tmp_path / file).read_text("utf-8")
         assert old in text, file
         (tmp_path / file).write_text(text.replace(old, new), "utf-8")

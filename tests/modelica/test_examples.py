@@ -19,9 +19,8 @@ ANGLES = ["shoulder.revolute.phi", "shoulder.revolute.w", "elbow.revolute.phi", 
 SWING = "robot.boom_swing.revolute.phi"
 
 
-@pytest.mark.parametrize(
-    ("name", "base"), [("wheeled_robot", "floating"), pytest.param("six_axis_arm", "fixed", marks=LONG)]
-)
+@LONG
+@pytest.mark.parametrize(("name", "base"), [("wheeled_robot", "floating"), ("six_axis_arm", "fixed")])
 def test_generated_examples_move_as_pinocchio_says(
     name: str, base: str, modelica_library: Path, tmp_path: Path
 ) -> None:

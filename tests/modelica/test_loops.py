@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from msgspec.structs import replace
+from support.cases import sampled
 from support.loops import FOUR_BAR, ROBOTS
 from support.modelica import DRIVES, GRAVITY, Run, bench, compile_task, simulate
 from support.packages import generate_robot
@@ -35,7 +36,7 @@ def energies(robot: Robot) -> Iterator[str]:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("tool", ["rumoca", OPENMODELICA])
-@pytest.mark.parametrize("name", ROBOTS)
+@pytest.mark.parametrize("name", sampled(ROBOTS, 3))
 def test_a_loop_stays_closed_and_keeps_its_energy(name: str, tool: str, tmp_path: Path, modelica_library: Path) -> None:
     """In Test, and in free fall."""
     robot, (loop,) = ROBOTS[name], ROBOTS[name].loops

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import pytest
 from support import fake_omc
+from support.cases import sampled
 from support.corpus import REPOSITORY
 from support.simulation import ARM
 from support.trajectories import write_trajectory
@@ -68,7 +69,7 @@ def ask(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Ask:
 COMMANDS = ("check --tool omc --trust", "simulate --tool omc --trust")
 
 
-@pytest.mark.parametrize("command", COMMANDS)
+@pytest.mark.parametrize("command", sampled(COMMANDS, 2))
 def test_one_line_of_what_a_result_rests_on_makes_it_anew(command: str, ask: Ask, tmp_path: Path) -> None:
     """Also of urdfsync, its library and its templates: whoever develops them does not change the version."""
     assert ask(command) > 0
