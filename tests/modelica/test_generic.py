@@ -93,9 +93,8 @@ FREE = (("gripper", "GenericRobot", True), ("gripper", "ArticulatedRobot", True)
 def test_poses_and_efforts_of_prescribed_motion_agree_with_pinocchio(modelica_library: Path, tmp_path: Path) -> None:
     """Base and axes move; efforts of all axes, what acts on the base, mass and centre are compared."""
     cases = [in_form("gripper", "ArticulatedRobot")]
-    others = {"Loose": (GOLDEN / "twig.urdf", "floating"), "Geared": (GEARED.encode(), "fixed")}
-    for name, (source, base) in others.items():
-        cases.append(physics.prepare(source, name, approach=("record",), base=base))
+    cases.append(physics.prepare(GOLDEN / "twig.urdf", "Loose", approach=("record",), base="floating"))
+    cases.append(physics.prepare(GEARED.encode(), "Geared", approach=("record",)))
     assert [physics.fault(found) for found in physics.compare(modelica_library, tmp_path, cases)] == [None] * len(cases)
 
 
