@@ -89,8 +89,8 @@ def test_the_action_reports_what_changed_and_that_the_package_is_out_of_step(arm
     assert code == Exit.OUT_OF_STEP
     summary = Path("runner/summary").read_text(encoding="utf-8")
     assert summary == Path(outputs["comment"]).read_text(encoding="utf-8")
-    assert summary.startswith("### ⚠️ arm: 1 file to write")
-    assert "since HEAD\\~1" in summary
+    assert summary.startswith("<h3>⚠️ arm: 1 file to write")
+    assert "since HEAD~1" in summary
     log = json.loads(Path(outputs["sarif"]).read_text())
     validate(log, "sarif")
     assert "out-of-step" in {result["ruleId"] for result in log["runs"][0]["results"]}

@@ -1,4 +1,4 @@
-"""Texts that are alike: names that the user may have meant, and how far two texts are the same."""
+"""Texts: names that the user may have meant, how far two texts are the same, and how they show as they are."""
 
 from __future__ import annotations
 
@@ -16,3 +16,10 @@ def nearest(name: str, candidates: Iterable[str], likeness: float = 0.6) -> str:
 def same_count(old: Sequence[str], new: Sequence[str]) -> int:
     """Return how many characters, or lines, at the beginning are the same."""
     return next((index for index, pair in enumerate(zip_longest(old, new)) if pair[0] != pair[1]), len(old))
+
+
+def visible(text: str) -> str:
+    """Return the text with everything escaped that a terminal would obey instead of showing it."""
+    if text.isprintable():
+        return text
+    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)

@@ -50,6 +50,10 @@ def markdown(execute: Execute, *arguments: str, code: int = Exit.OUT_OF_STEP) ->
     return printed.out
 
 
+def row(*cells: str) -> str:
+    return f"<tr>{''.join(f'<td>{cell}</td>' for cell in cells)}</tr>"
+
+
 def results(execute: Execute, *arguments: str, code: int = Exit.OUT_OF_STEP) -> dict[str, Any]:
     """The results of a valid SARIF log, by their codes."""
     document = execute(*arguments, "--format", "sarif", code=code).json
@@ -65,27 +69,28 @@ def place(result: Any) -> tuple[str, int]:
 def test_a_check_says_what_a_build_would_do_structure_first(arm: Path, execute: Execute) -> None:
     with unchanged(arm, but=".urdfsync/stamp-build"):
         text = markdown(execute, "build", "--check")
-    head, advice, points, rest = text.split("\n\n", 3)
-    assert head.startswith("### ⚠️ arm: 9 files to write")
-    assert advice == "Run <code>urdfsync build</code>, and commit what it writes."
-    assert "- link grip&#124;: added" in points
-    assert "| link tip | inertial / mass | 2 → 3 kg | \\+50 % |" in rest
-    assert f"| {RECORD} | update | joint elbow |" in rest
+    head, advice, rest = text.split("\n", 2)
+    assert head.startswith("<h3>⚠️ arm: 9 files to write")
+    assert advice == "<p>Run <code>urdfsync build</code>, and commit what it writes.</p>"
+    structure, tables = rest.split("</ul>")
+    assert "<li>link grip|: added</li>" in structure
+    assert row("link tip", "inertial / mass", "2 → 3 kg", "+50 %") in tables
+    assert row(RECORD, "update", "joint elbow") in tables
 
 
 def test_a_difference_of_versions_has_its_effects_and_no_verdict(arm: Path, execute: Execute) -> None:
     Path("old.urdf").write_text(URDF)
     text = markdown(execute, "diff", "--against", "old.urdf")
-    assert text.startswith("### arm: ")
+    assert text.startswith("<h3>arm: ")
     assert "since old.urdf" in text
-    assert "| robot mass | 2 → 3 kg | \\+50 % |" in text
+    assert row("robot mass", "2 → 3 kg", "+50 %") in text
     assert results(execute, "diff", "--against", "old.urdf") == {}
 
 
 def test_edits_have_their_elements(arm: Path, execute: Execute) -> None:
     edit(RECORD, "54", "55")
     text = markdown(execute, "diff", "--edits", code=Exit.IN_STEP)
-    assert f"| {RECORD} | extends <code>UrdfSync.Records.RevoluteJoint</code> | limits.effort 54 → 55 |" in text
+    assert row(RECORD, "extends <code>UrdfSync.Records.RevoluteJoint</code>", "limits.effort 54 → 55") in text
 
 
 def test_a_conflict_stands_at_the_first_edited_line(arm: Path, execute: Execute) -> None:
@@ -101,12 +106,13 @@ def test_a_conflict_stands_at_the_first_edited_line(arm: Path, execute: Execute)
 def test_what_is_wrong_with_a_source_stands_at_its_line(arm: Path, execute: Execute) -> None:
     edit("arm.urdf", 'type="fixed"', 'type="bent"')
     assert place(results(execute, "build", "--check", code=Exit.ERROR)["unknown-joint-type"]) == ("arm.urdf", 8)
-    assert "### ❌ arm: 1 error" in markdown(execute, "build", "--check", code=Exit.ERROR)
+    assert "<h3>❌ arm: 1 error" in markdown(execute, "build", "--check", code=Exit.ERROR)
 
 
 def test_a_built_package_is_fine_in_one_line(arm: Path, execute: Execute) -> None:
     execute("build", "-q")
-    assert re.fullmatch(r"- ✅ arm: in step, \d+ files\n", markdown(execute, "build", "--check", code=Exit.IN_STEP))
+    text = markdown(execute, "build", "--check", code=Exit.IN_STEP)
+    assert re.fullmatch(r"<ul>\n<li>✅ arm: in step, \d+ files</li>\n</ul>\n", text)
     assert results(execute, "build", "--check", code=Exit.IN_STEP) == {}
 
 
@@ -120,8 +126,8 @@ def test_a_check_says_how_far_the_package_agrees(arm: Path, execute: Execute, mo
 
     monkeypatch.setattr("urdfsync.checks.run.check_robots", check)
     text = markdown(execute, "check")
-    assert "- joint elbow: torque differs from Pinocchio 3.4 by 1 N·m" in text
-    assert "differ (joint elbow), to 1.0e-01 | joint elbow, effort |" in text
+    assert "<li>joint elbow: torque differs from Pinocchio 3.4 by 1 N·m" in text
+    assert row("rigid bodies", "differ (joint elbow), to 1.0e-01", "joint elbow, effort") in text
     found = results(execute, "check")
     assert place(found["differs"]) == ("modelica/Arm/package.mo", 1)
     assert "torque differs from Pinocchio" in found["differs"]["message"]["text"]

@@ -12,8 +12,8 @@ import pytest
 from support.schemas import validate
 
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.output.markdown import Mark, Section
 from urdfsync.output.sarif import log, read_meanings
+from urdfsync.output.sections import Mark, Section
 
 CYCLE = Diagnostic(Severity.ERROR, "cycle", "link a|b is below itself", "cad/my arm.urdf", 7, 3, hint="correct it")
 STRAY = Diagnostic(Severity.WARNING, "stray-template", "no template", "arm.mo")

@@ -26,8 +26,8 @@ from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Deviation, Part, Quantity
 from urdfsync.output.console import StyledLine, line
 from urdfsync.output.documents import KEYS, fill
-from urdfsync.output.markdown import Mark, Section, Table
 from urdfsync.output.phrases import counted
+from urdfsync.output.sections import Mark, Section, Table
 
 _STYLES = {
     "right": ("✓", "green"),

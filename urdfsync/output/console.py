@@ -21,13 +21,14 @@ import msgspec
 from urdfsync import streams
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.output.documents import Document
+from urdfsync.spelling import visible
 
 if TYPE_CHECKING:
     import rich.console
     from rich.progress import Progress, TaskID
     from rich.text import Text
 
-    from urdfsync.output.markdown import Section
+    from urdfsync.output.sections import Section
 
 R = TypeVar("R")
 FEW = 5
@@ -77,13 +78,6 @@ def first_lines(lines: Sequence[StyledLine], most: int, noun: str, *, verbose: b
     if verbose or rest < 2:
         return lines
     return [*lines[: most - 1], line((f"  … and {rest} more {noun}s; --verbose shows them", "dim"))]
-
-
-def visible(text: str) -> str:
-    """Return the text with everything escaped that a terminal would obey instead of showing it."""
-    if text.isprintable():
-        return text
-    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
 
 
 def findings(diagnostics: Sequence[Diagnostic], *, quiet: bool = False, verbose: bool = False) -> list[StyledLine]:

@@ -14,8 +14,8 @@ from urdfsync.merge.edits import Edit, find_edits, in_words
 from urdfsync.output.conflicts import difference_lines
 from urdfsync.output.console import StyledLine, first_lines, line
 from urdfsync.output.documents import fill
-from urdfsync.output.markdown import Mark, Section, Table
 from urdfsync.output.phrases import counted
+from urdfsync.output.sections import Mark, Section, Table
 
 _EDITS = 20
 """So many edits of a file are listed at most, without --verbose."""

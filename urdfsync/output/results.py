@@ -14,12 +14,12 @@ from urdfsync.domain import ChangeClass, ChangeKind, Role
 from urdfsync.engine.actions import Action, FileStatus, Kind, Reason
 from urdfsync.engine.result import Checked, Result
 from urdfsync.files import shown
+from urdfsync.output.build_section import build_section
 from urdfsync.output.conflicts import DisputedFile, conflict_lines, describe, find_conflicts, saved_texts, shown_path
 from urdfsync.output.console import Console, StyledLine, first_lines, has_marks, line
 from urdfsync.output.documents import KEYS, fill
 from urdfsync.output.phrases import change_lines, counted, reason, summary
 from urdfsync.output.repeated import show_findings
-from urdfsync.output.sections import build_section
 
 if TYPE_CHECKING:
     from urdfsync.changes import Changes

@@ -16,7 +16,7 @@ from urllib.parse import quote
 from urdfsync import __version__, config
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.engine.result import Exit
-from urdfsync.output.markdown import Section
+from urdfsync.output.sections import Section
 
 _SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
 

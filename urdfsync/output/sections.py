@@ -1,95 +1,66 @@
-"""The result of a build as a section of a comment: what `output/markdown` and `output/sarif` write."""
+"""What a command found out about one robot, as values: `markdown` and `sarif` write them, `pages` shows them."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import enum
+from collections.abc import Sequence
 
 import msgspec
 
-from urdfsync.changes import Changes
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.domain import ChangeClass
-from urdfsync.engine.actions import Actions, Kind, Reason
-from urdfsync.engine.result import Checked, Result
-from urdfsync.files import shown
-from urdfsync.output.conflicts import DisputedFile, describe, find_conflicts, settle_hint, shown_path
-from urdfsync.output.markdown import Mark, Section, Table
-from urdfsync.output.outline import outline
-from urdfsync.output.phrases import change_counts, generator_change, reason, summary
-from urdfsync.spelling import same_count
-
-_BUILD = "run `urdfsync build`, and commit what it writes"
-_SETTLE = "run `urdfsync build` for both sides, and settle the conflicts with `urdfsync resolve`"
-_FIT = "correct the files that do not fit"
-_SILENT = (Reason.UNCHANGED, Reason.KEEP, Reason.FORGET, Reason.CONFLICT, Reason.UNOWNED)
-"""Reasons of actions that no table has; conflicts are findings."""
 
 
-def build_section(result: Result) -> Section:
-    """Return what was done with one robot, or would be."""
-    changes = result.effective_changes
-    points, tables = change_parts(changes)
-    return Section(
-        result.robot,
-        summary(result),
-        mark_of(result),
-        points,
-        (*tables, file_table(result)),
-        (*result.diagnostics, *_conflicts(result)),
-        None if result.failed else out_of_step(result),
-    )
+class Mark(enum.StrEnum):
+    """The verdict on a robot, as a sign before its name; the worst first."""
+
+    WRONG = "❌ "
+    OPEN = "⚠️ "
+    NONE = ""
+    """No verdict: two versions differ, as they may."""
+    FINE = "✅ "
 
 
-def mark_of(result: Result) -> Mark:
-    """Return the verdict on a package as a sign."""
-    if result.failed or result.is_broken or result.checked is Checked.WRONG:
-        return Mark.WRONG
-    return Mark.FINE if result.in_step else Mark.OPEN
+_SEVERITIES = {Severity.ERROR: Mark.WRONG, Severity.WARNING: Mark.OPEN, Severity.NOTE: "ℹ️ "}
 
 
-def out_of_step(result: Result) -> Diagnostic | None:
-    """Return the finding that a package is out of step, at its first file; None if it is in step."""
-    if result.in_step:
-        return None
-    hint = _SETTLE if result.conflicts else _BUILD if not result.are_files_in_step else _FIT
-    message = f"the package {result.package} is out of step: {summary(result)}"
-    return Diagnostic(Severity.WARNING, "out-of-step", message, shown(result.folder / "package.mo"), hint=hint)
+class Table(msgspec.Struct, frozen=True):
+    """Rows of texts, which are escaped when they are written."""
+
+    title: str
+    columns: tuple[str, ...]
+    """Heads; of a column whose cells are all empty, nothing is written."""
+    rows: Sequence[Sequence[str]]
 
 
-def _conflicts(result: Result) -> Iterable[Diagnostic]:
-    """Yield each file that conflicts as a finding."""
-    for target in find_conflicts([result]):
-        message = f"{reason(target.action, result.changes, brief=True)}: {describe(target)}"
-        settle = settle_hint(msgspec.structs.replace(result, actions=Actions([target.action]))).strip()
-        yield Diagnostic(Severity.ERROR, "conflict", message, target.shown, _edited_line(target), hint=settle)
+class Section(msgspec.Struct, frozen=True):
+    """All that a comment says of one robot."""
+
+    robot: str
+    summary: str
+    mark: Mark
+    points: Sequence[str] = ()
+    """Sentences before the tables, the structure first."""
+    tables: Sequence[Table] = ()
+    findings: Sequence[Diagnostic] = ()
+    verdict: Diagnostic | None = None
+    """The finding that the package as a whole is not as it should be; its `hint` says what to do."""
+
+    @property
+    def has_details(self) -> bool:
+        """Whether there is more to say than one line."""
+        return bool(self.points or any(table.rows for table in self.tables) or self.findings or self.verdict)
 
 
-def _edited_line(target: DisputedFile) -> int:
-    """Return the first line that the user edited; 0 if that is not known."""
-    if target.texts is None or target.texts.base is None:
-        return 0
-    base, mine = target.texts.base.splitlines(), target.texts.mine.splitlines()
-    return min(same_count(base, mine) + 1, len(mine))
-
-
-def change_parts(changes: Changes | None) -> tuple[list[str], list[Table]]:
-    """Return changes of a model: those of its structure as lines, all others as a table."""
-    if changes is None:
-        return [], []
-    structure = tuple(each for each in changes.changes if each.change_class is ChangeClass.STRUCTURAL)
-    others = tuple(each for each in changes.changes if each.change_class is not ChangeClass.STRUCTURAL)
-    points = [generator_change(changes)] if changes.generator else []
-    points += [change_counts(changes)] if len(changes.changes) > 1 else []
-    points += [f"{title}: {row}" for title, rows in outline(Changes(structure)).items() for row in rows]
-    rows = [(title, *row) for title, rows in outline(Changes(others)).items() for row in rows]
-    return points, [Table("Changes", ("Element", "Property", "Change", "By"), rows)]
-
-
-def file_table(result: Result) -> Table:
-    """Return what happens to the files of a package, without those that stay."""
-    actions = [action for action in result.actions if action.reason not in _SILENT]
-    actions.sort(key=lambda action: (action.kind is Kind.LEAVE, action.path.rpartition("/")))
-    words = ["waiting" if action.held else action.reason.word for action in actions]
-    reasons = [reason(action, result.effective_changes, brief=True) for action in actions]
-    paths = [shown_path(result, action.path) for action in actions]
-    return Table("Files", ("File", "", "Why"), list(zip(paths, words, reasons, strict=True)))
+def findings_table(findings: Sequence[Diagnostic]) -> Table:
+    """Return findings as a table, the worst first."""
+    order = list(Severity)
+    rows = [
+        (
+            f"{_SEVERITIES[finding.severity]}{finding.severity}",
+            ":".join([finding.file, *(str(number) for number in (finding.line,) if number)]),
+            finding.sentence,
+            finding.code,
+        )
+        for finding in sorted(findings, key=lambda finding: order.index(finding.severity))
+    ]
+    return Table("Findings", ("", "Place", "Finding", "Code"), rows)

@@ -21,8 +21,8 @@ from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.renames import find_renames
 from urdfsync.files import digest, shown
 from urdfsync.output.conflicts import DisputedFile, find_conflicts
-from urdfsync.output.markdown import Section
 from urdfsync.output.outline import outline
+from urdfsync.output.sections import Section
 from urdfsync.scene import Scene, Triangles
 from urdfsync.versions.comparison import Contents, compare_sources
 from urdfsync.versions.report import to_section

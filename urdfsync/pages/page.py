@@ -14,7 +14,6 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-import jinja2
 import markupsafe
 import msgspec
 
@@ -24,8 +23,9 @@ from urdfsync.checks.results import CheckResult, relative, tolerance
 from urdfsync.domain import Deviation
 from urdfsync.output.conflicts import describe, difference_lines, settle_hint
 from urdfsync.output.edits import to_section as edits_section
-from urdfsync.output.markdown import findings_table
+from urdfsync.output.markdown import html_environment, words
 from urdfsync.output.phrases import reason
+from urdfsync.output.sections import findings_table
 from urdfsync.pages import threejs
 from urdfsync.pages.content import Content
 from urdfsync.scene import Triangles
@@ -38,7 +38,6 @@ FOLLOWER = "follow.js"
 """The last one, if a daemon serves the page."""
 _FOLDER = Path(__file__).parent
 _STYLE = re.compile("<style>(.*?)</style>", re.DOTALL)
-_CODE = re.compile("`([^`]+)`")
 _MOST_INSTANTS = 1000
 """Instants of a simulation that the page has."""
 _LEAST = 1e-17
@@ -68,14 +67,8 @@ def page(
     scripts = [library.text, *((_FOLDER / name).read_text("utf-8") for name in names)]
     style = (_FOLDER / "page.css").read_text("utf-8")
     styles = [style, *_STYLE.findall(content.diagram)]
-    environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(_FOLDER),
-        undefined=jinja2.StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-        autoescape=True,
-    )
-    environment.filters |= {"words": _words, "findings": findings_table}
+    environment = html_environment(_FOLDER)
+    environment.filters |= {"words": words, "findings": findings_table}
     environment.globals |= {"difference_lines": _difference, "settle_hint": settle_hint}
     data = {name: getattr(content, name) for name in _DATA} | {
         "robot": content.robot.name,
@@ -174,14 +167,6 @@ def _compared(result: CheckResult) -> list[tuple[Deviation, float, float]]:
 
 
 # --- texts ----------------------------------------------------------------------------------------------------------
-
-
-def _words(text: str) -> markupsafe.Markup:
-    """Return text with what stands between ` as code."""
-    return markupsafe.Markup("").join(
-        markupsafe.Markup("<code>{}</code>").format(piece) if number % 2 else piece
-        for number, piece in enumerate(_CODE.split(text))
-    )
 
 
 def _difference(old: str, new: str, old_name: str, new_name: str) -> list[str]:

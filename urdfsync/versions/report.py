@@ -9,15 +9,15 @@ import msgspec
 from urdfsync.domain import Effect
 from urdfsync.engine.actions import USERS, Kind, Reason
 from urdfsync.engine.findings import CONNECTORS
+from urdfsync.output.build_section import build_section, change_parts
 from urdfsync.output.conflicts import settle_hint, shown_path
 from urdfsync.output.console import StyledLine, first_lines, line
 from urdfsync.output.documents import fill
-from urdfsync.output.markdown import Mark, Section, Table
 from urdfsync.output.outline import effect_rows
 from urdfsync.output.phrases import change_counts, change_lines, counted, error_count, generator_change
 from urdfsync.output.phrases import summary as build_summary
 from urdfsync.output.results import RobotDocument, action_word, change_line, file_line, headline, robot_document
-from urdfsync.output.sections import build_section, change_parts
+from urdfsync.output.sections import Mark, Section, Table
 from urdfsync.versions.comparison import Comparison
 
 _CHANGES, _FILES, _EFFECTS = 60, 12, 8
