@@ -25,7 +25,7 @@ from urdfsync.engine.build import build as build_robots
 from urdfsync.engine.options import BuildOptions, Progress, no_progress
 from urdfsync.engine.result import Result
 from urdfsync.files import shown
-from urdfsync.modelica.names import class_name, is_class_name, is_identifier, is_package_name
+from urdfsync.modelica.names import class_name, is_class_name
 from urdfsync.output.console import Console, StyledLine, findings, html, line
 from urdfsync.output.results import build_lines
 
@@ -282,6 +282,6 @@ def _target(name: str, within: str, source: Path) -> Target:
     if name and not is_class_name(name):
         hint = "choose one that begins with a capital and is not reserved by Modelica or urdfsync"
         raise ConfigError.of("modelica-name", f"{name!r} can't be a class", hint=hint)
-    if within and not all(is_identifier(part) and is_package_name(part) for part in within.split(".")):
+    if within and not configuration.is_package(within):
         raise ConfigError.of("modelica-name", f"{within!r} can't be a package", hint="name one like Plant.Robots")
     return Target(within, name or class_name(source.name.partition(".")[0]) + "Parameters")

@@ -43,18 +43,19 @@ class Change(msgspec.Struct, frozen=True):
     old: Any
     new: Any
     unit: str = ""
+    noise: bool = False
+    """Whether only the rounding of a number may have changed. It is applied like any other change."""
+
+    def __post_init__(self) -> None:
+        """Find out whether it is noise, which follows from the values."""
+        if is_number(self.old) and is_number(self.new):
+            is_noise = abs(self.new - self.old) <= NOISE * max(abs(self.old), abs(self.new))
+            msgspec.structs.force_setattr(self, "noise", is_noise)
 
     @property
     def element(self) -> str:
         """Element of the change, for example `joint elbow`."""
         return self.path[0]
-
-    @property
-    def noise(self) -> bool:
-        """Whether only the rounding of a number may have changed. It is applied like any other change."""
-        if not (is_number(self.old) and is_number(self.new)):
-            return False
-        return bool(abs(self.new - self.old) <= NOISE * max(abs(self.old), abs(self.new)))
 
     def __str__(self) -> str:
         """Return the path as people read it: `joint elbow / origin / xyz[2]`."""

@@ -115,8 +115,8 @@ MISTAKES = {
     'output = ""': '`output` must be a path, not "" [wrong-value]',
     "ground = 1": "`ground` must be true or false, not 1 [wrong-value]",
     "x = ": "invalid value; put strings into quotes [toml-syntax]",
-    'class = "2nd"': "`class`: '2nd' is no Modelica identifier; use letters, digits and `_`, a letter first "
-    "[modelica-name]",
+    'class = "2nd"': "'2nd' can't be the class of a robot model; set `class` to a name that begins with a capital and "
+    "is not reserved by Modelica or urdfsync [modelica-name]",
 }
 """By a line of a robot's table."""
 DEEP = " tables and lists are nested more than 50 deep [toml-syntax]"
@@ -133,8 +133,8 @@ OTHER_MISTAKES = {
     "[robots]\narm = 3": "2 `robots.arm` must be a table [wrong-value]",
     "[robots\n": "1:8 expected ']' at the end of a table declaration [toml-syntax]",
     "# \u2028 \x85\n" + robot("grund = true"): "6 unknown key `grund` in robot `arm`; did you mean `ground`?",
-    robot(package="Plant.end"): "3 `package`: `end` is a keyword of Modelica; choose another name, for example "
-    "`EndRobot` [modelica-name]",
+    robot(package="Plant.end"): "3 'Plant.end' can't be a package; use letters, digits and `_`, and no name that "
+    "Modelica, Windows or urdfsync reserves, as in Plant.Arm [modelica-name]",
     robot(
         'ignore = ["unresolve"]'
     ): "5 no warning or note has the code `unresolve`; did you mean `unresolved`? [unknown-code]",
@@ -185,10 +185,7 @@ def test_mistakes_are_one_line_each(text: str, message: str) -> None:
 )  # fmt: skip
 def test_packages_that_would_hide_what_models_refer_to(package: str) -> None:
     (message,) = failures(robot('class = "Robot1"', package=package))
-    assert message.startswith("urdfsync.toml:3: error: `package`: `")
-    assert "is reserved by Modelica, Windows or urdfsync; choose another name, for example `" in message
-    proposed = message.rpartition("example `")[2].partition("`")[0]
-    assert parse(robot(package=proposed)).robots
+    assert message.startswith(f"urdfsync.toml:3: error: {package!r} can't be a package; use letters, digits and `_`")
 
 
 @pytest.mark.parametrize("package", ["UrdfSync.Examples.Arm", "Plant.Sum.Arm", "Plant.Links.Arm", "Plant.World"])
@@ -199,7 +196,7 @@ def test_packages_that_hide_nothing(package: str) -> None:
 @pytest.mark.parametrize("name", ["Package", "Aux", "Complex", "Joints", "Visualization2", "robot", "Links"])
 def test_classes_that_clash_with_files_or_other_classes_are_told_at_their_line(name: str) -> None:
     (message,) = failures(robot(f'class = "{name}"'))
-    assert message.startswith(f"urdfsync.toml:5: error: `{name}` can't be the class of a robot model; set `class`")
+    assert message.startswith(f"urdfsync.toml:5: error: {name!r} can't be the class of a robot model; set `class`")
 
 
 @pytest.mark.parametrize("output", [".urdfsync", "x/../.urdfsync/deep", ".URDFSYNC", (ROOT / ".urdfsync").as_posix()])
@@ -235,7 +232,9 @@ def test_lists_and_words_of_such_an_option() -> None:
 
 @pytest.mark.parametrize("package", ["", ".", "Arm.", ".Arm", "Arm.end", "A b", "Gelenk_ä", "../evil", 'a\\"b', "1A"])
 def test_packages_that_are_no_names_of_classes(package: str) -> None:
-    assert all(message.startswith("urdfsync.toml:3: error: `package`") for message in failures(robot(package=package)))
+    (message,) = failures(robot(package=package))
+    assert message.startswith("urdfsync.toml:3: error: ")
+    assert "can't be a package" in message
 
 
 @pytest.mark.parametrize("name", ["a/b", "..", ".hidden", "con", "NUL.x", "a:b", "a b", "ä", "x" * 101, "a."])

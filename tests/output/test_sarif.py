@@ -64,7 +64,7 @@ def test_rules_explain_the_codes_as_the_page_does(folder: Path) -> None:
     run = run_of(CYCLE, STRAY, Diagnostic(Severity.ERROR, "new-code", "x", "y"))
     rules = run["tool"]["driver"]["rules"]
     assert [rule["id"] for rule in rules] == ["cycle", "new-code", "stray-template"]
-    assert [rules[result["ruleIndex"]]["id"] for result in run["results"]] == ["cycle", "stray-template", "new-code"]
+    assert [result["ruleId"] for result in run["results"]] == ["cycle", "stray-template", "new-code"]
     assert rules[0]["help"]["text"] == "the links are not a tree"
 
 

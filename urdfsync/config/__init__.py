@@ -3,6 +3,7 @@
 from urdfsync.config.load import find as find
 from urdfsync.config.load import load as load
 from urdfsync.config.load import parse as parse
+from urdfsync.config.names import is_package as is_package
 from urdfsync.config.names import is_robot_name as is_robot_name
 from urdfsync.config.paths import explained as explained
 from urdfsync.config.paths import find_own_library as find_own_library

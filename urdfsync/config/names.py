@@ -12,11 +12,8 @@ from urdfsync.modelica.names import (
     LIBRARY,
     RESERVED_CLASSES,
     any_case,
-    class_name,
     is_class_name,
-    is_identifier,
 )
-from urdfsync.modelica.names import is_package_name as may_be_package
 
 ROBOT_PATTERN = rf"^(?!(?:{any_case(DEVICES)})(?:\.|$))(?=.{{1,100}}$)[A-Za-z0-9](?:[A-Za-z0-9_.-]*[A-Za-z0-9_-])?$"
 """Matches a robot's name."""
@@ -42,29 +39,18 @@ def model_class(package: str, chosen: str) -> str:
     return chosen or last[:1].upper() + last[1:]
 
 
+def is_package(name: str) -> bool:
+    """Whether a full name can be that of a package: it hides nothing that generated models refer to."""
+    return re.fullmatch(PACKAGE_PATTERN, name, re.ASCII) is not None
+
+
 def find_name_problems(package: str, chosen: str) -> list[tuple[str, str, str]]:
     """Return key, message and hint for each fault of `package` and `class`; `chosen` is the class or empty."""
-    parts = package.split(".")
-    problems = []
-    for key, name in [*(("package", part) for part in parts), *([("class", chosen)] if chosen else [])]:
-        if name in KEYWORDS:
-            problems.append((key, f"`{key}`: `{name}` is a keyword of Modelica", _example(name)))
-        elif not is_identifier(name):
-            hint = "use letters, digits and `_`, a letter first"
-            problems.append((key, f"`{key}`: {name!r} is no Modelica identifier", hint))
-    if problems:
-        return problems
-    for index, part in enumerate(parts):
-        in_own_library = part == LIBRARY and index == 0 and len(parts) > 1  # whether it exists is known at the build
-        if not may_be_package(part) and not in_own_library:
-            message = f"`package`: `{part}` can't be a package: the name is reserved by Modelica, Windows or urdfsync"
-            problems.append(("package", message, _example(part)))
-    name = model_class(package, chosen)
-    if not problems and not is_class_name(name):
+    problems, name = [], model_class(package, chosen)
+    if not is_package(package):
+        hint = "use letters, digits and `_`, and no name that Modelica, Windows or urdfsync reserves, as in Plant.Arm"
+        problems.append(("package", f"{package!r} can't be a package", hint))
+    if not is_class_name(name) and (chosen or not problems):
         hint = "set `class` to a name that begins with a capital and is not reserved by Modelica or urdfsync"
-        problems.append(("class" if chosen else "package", f"`{name}` can't be the class of a robot model", hint))
+        problems.append(("class" if chosen else "package", f"{name!r} can't be the class of a robot model", hint))
     return problems
-
-
-def _example(name: str) -> str:
-    return f"choose another name, for example `{class_name(f'{name} robot')}`"

@@ -65,11 +65,6 @@ def is_class_name(name: str) -> bool:
     return free and is_identifier(name) and name[:1].isupper()
 
 
-def is_package_name(name: str) -> bool:
-    """Whether an identifier can name a package around generated models: it hides nothing that they refer to."""
-    return name not in FUNCTIONS and name.lower() not in RESERVED_CLASSES | DEVICES
-
-
 def class_name(text: str, fallback: str = "Robot") -> str:
     """Return a class name in capitals-first style made from any text: `my-robot v2` becomes `MyRobotV2`."""
     words = re.findall(r"[A-Za-z0-9]+", text)

@@ -5,12 +5,12 @@ from __future__ import annotations
 import sys
 from collections.abc import Container, Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
 
 import msgspec
 
+from urdfsync.changes import Change, Changes
 from urdfsync.diagnostics import Diagnostic
-from urdfsync.domain import ChangeClass, ChangeKind, Role
+from urdfsync.domain import ChangeClass, Role
 from urdfsync.engine.actions import Action, FileStatus, Kind, Reason
 from urdfsync.engine.result import Checked, Result
 from urdfsync.files import shown
@@ -20,9 +20,6 @@ from urdfsync.output.console import Console, StyledLine, first_lines, has_marks,
 from urdfsync.output.documents import KEYS, fill
 from urdfsync.output.phrases import change_lines, counted, reason, summary
 from urdfsync.output.repeated import show_findings
-
-if TYPE_CHECKING:
-    from urdfsync.changes import Changes
 
 
 class ActionDocument(msgspec.Struct, rename={"kind": "action"}):
@@ -51,18 +48,6 @@ class ConflictDocument(msgspec.Struct):
     merge: str | None
 
 
-class ChangeDocument(msgspec.Struct, rename=KEYS):
-    """A change of the model."""
-
-    path: Sequence[str]
-    kind: ChangeKind
-    change_class: ChangeClass
-    old: Any
-    new: Any
-    unit: str
-    noise: bool
-
-
 class RobotDocument(msgspec.Struct, rename=KEYS):
     """The result of a build of one robot; paths are relative to the configuration's folder."""
 
@@ -80,7 +65,7 @@ class RobotDocument(msgspec.Struct, rename=KEYS):
     checked: Checked | None
     stale: Sequence[str]
     change_class: ChangeClass
-    changes: Sequence[ChangeDocument]
+    changes: Sequence[Change]
     actions: Sequence[ActionDocument]
     conflicts: Sequence[ConflictDocument]
     diagnostics: Sequence[Diagnostic]

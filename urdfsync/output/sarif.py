@@ -26,26 +26,30 @@ def log(sections: Iterable[Section], findings: Sequence[Diagnostic], code: int) 
 
     What names no file is a notification about the run.
     """
-    per_robot = ((*section.findings, *filter(None, [section.verdict])) for section in sections)
-    told = list(dict.fromkeys([*findings, *(finding for group in per_robot for finding in group)]))
-    rules = {rule: number for number, rule in enumerate(sorted({finding.code for finding in told}))}
+    of_robots = ((*section.findings, *filter(None, [section.verdict])) for section in sections)
+    told = dict.fromkeys([*findings, *(finding for group in of_robots for finding in group)])
+    top, meanings = _top(), read_meanings()
     results, notifications = [], []
-    top = _top()
     for finding in told:
         values = {"level": str(finding.severity), "message": {"text": finding.sentence}}
         if finding.file:
-            place = {"locations": [{"physicalLocation": _location(finding, top)}]}
-            results.append({"ruleId": finding.code, "ruleIndex": rules[finding.code], **values, **place})
+            location = {"physicalLocation": _location(finding, top)}
+            results.append({"ruleId": finding.code, **values, "locations": [location]})
         else:
-            notifications.append({"descriptor": {"id": finding.code, "index": rules[finding.code]}, **values})
-    is_successful = code not in (Exit.ERROR, Exit.LOCKED, Exit.INTERRUPTED)
-    invocation = {"executionSuccessful": is_successful, "exitCode": int(code)}
-    meanings = read_meanings()
-    described = [_rule(rule, meanings.get(rule, "its message says what to do")) for rule in rules]
+            notifications.append({"descriptor": {"id": finding.code}, **values})
+    rules = []
+    for rule in sorted({finding.code for finding in told}):
+        text = {"text": meanings.get(rule, "its message says what to do")}
+        rules.append({"id": rule, "shortDescription": text, "fullDescription": text, "help": text})
+    invocation = {
+        "executionSuccessful": code not in (Exit.ERROR, Exit.LOCKED, Exit.INTERRUPTED),
+        "exitCode": int(code),
+        "toolExecutionNotifications": notifications,
+    }
     run = {
-        "tool": {"driver": {"name": "urdfsync", "semanticVersion": __version__, "rules": described}},
+        "tool": {"driver": {"name": "urdfsync", "semanticVersion": __version__, "rules": rules}},
         "columnKind": "unicodeCodePoints",
-        "invocations": [{**invocation, "toolExecutionNotifications": notifications}],
+        "invocations": [invocation],
         "results": results,
     }
     return json.dumps({"$schema": _SCHEMA, "version": "2.1.0", "runs": [run]}, indent=2) + "\n"
@@ -57,10 +61,6 @@ def read_meanings() -> dict[str, str]:
         code: f"{meaning} ({''.join(consequence)})" if any(consequence) else meaning
         for code, (meaning, *consequence) in config.explained("findings.md")
     }
-
-
-def _rule(code: str, meaning: str) -> dict[str, Any]:
-    return {"id": code, **{key: {"text": meaning} for key in ("shortDescription", "fullDescription", "help")}}
 
 
 def _location(finding: Diagnostic, top: Path) -> dict[str, Any]:
