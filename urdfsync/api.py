@@ -6,7 +6,6 @@ checks take 100 ms to load, the merge 20 ms, and a build has to be quick.
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
 from pathlib import Path
@@ -36,7 +35,6 @@ if TYPE_CHECKING:
     from urdfsync.versions.comparison import Comparison
 
 R = TypeVar("R", bound="Result | Comparison | RobotEdits | CheckResult")
-Options = TypeVar("Options", bound=msgspec.Struct)
 Place: TypeAlias = Config | Path | str | None
 """A configuration, or its file; None for `urdfsync.toml` in the working folder or the nearest one above."""
 
@@ -94,12 +92,6 @@ def load(config: Place = None) -> Config:
     return configuration.load(Path(config) if config else configuration.find(configuration.working_folder()))
 
 
-def options_of(kind: type[Options], **given: Any) -> Options:
-    """Return options of a kind, with the ROS packages of the environment."""
-    fixed = {name: tuple(value) if isinstance(value, list) else value for name, value in given.items()}
-    return kind(package_paths=configuration.ros_package_path(os.environ), **fixed)
-
-
 def build(
     *robots: str,
     config: Place = None,
@@ -118,7 +110,7 @@ def build(
     chosen: Sequence[RobotConfig] = loaded.select(robots)
     if merge:
         chosen = [msgspec.structs.replace(robot, on_conflict="merge") for robot in chosen]
-    built = build_and_check(loaded, chosen, options_of(BuildOptions, **given))
+    built = build_and_check(loaded, chosen, BuildOptions(**given))
     return Results(built, lambda result: build_lines(result, Console()), on_result)
 
 
@@ -142,7 +134,7 @@ def status(
     """
     from urdfsync.output.status import lines
 
-    loaded, options = load(config), options_of(BuildOptions, dry=True, expands=False, **given)
+    loaded, options = load(config), BuildOptions(dry=True, expands=False, **given)
     return Results(build_robots(loaded, loaded.select(robots), options), lines, on_result)
 
 
@@ -162,7 +154,7 @@ def diff(
     """
     from urdfsync.versions import comparison, report
 
-    folder, options = configuration.working_folder(), options_of(BuildOptions, **given)
+    folder, options = configuration.working_folder(), BuildOptions(**given)
     is_near = any((place / configuration.FILE_NAME).is_file() for place in (folder, *folder.parents))
     loaded = load(config) if is_near or config or robots or not sources else None
     pairs = list(comparison.select_sources(sources, robots, against, loaded, folder))
@@ -184,7 +176,7 @@ def edits(
     from urdfsync.engine.edits import find_edits
     from urdfsync.output.edits import robot_lines
 
-    loaded, options = load(config), options_of(BuildOptions, dry=True, **given)
+    loaded, options = load(config), BuildOptions(dry=True, **given)
     return Results(find_edits(paths, loaded, loaded.select(robots), options), robot_lines, on_result)
 
 
@@ -208,7 +200,7 @@ def check(
 
     loaded = load(config)
     chosen, tools = loaded.select(robots), chosen_tools(loaded, tool, trusted=trusted)
-    options = options_of(CheckOptions, tools=tools, **given)
+    options = CheckOptions(tools=tools, **given)
     checked = run.check_robots(loaded, chosen, options, progress)
     lines = partial(report.robot_lines, strict=options.strict, verbose=False, marks=False)
     return Results(checked, lines, on_result)
@@ -239,7 +231,7 @@ def simulate(
     robot = loaded.select_one(robots, "simulate")
     check_outputs(files, input_files(loaded, robot, given.get("motion")))
     chosen, *_ = chosen_tools(loaded, tool, trusted=trusted)
-    result = run.simulate(loaded, robot, options_of(SimulateOptions, tool=chosen, **given), progress)
+    result = run.simulate(loaded, robot, SimulateOptions(tool=chosen, **given), progress)
     write_outputs(files, result)
     return Simulation(**msgspec.structs.asdict(result))
 
@@ -262,7 +254,7 @@ def record(
     from urdfsync.engine.generate import Package
 
     source, target, form = Path(source), _target(class_, within, Path(source)), registry.domain(domain)
-    text = sources.read_file_source(form, source, arguments or {}, configuration.ros_package_path(os.environ))
+    text = sources.read_file_source(form, source, arguments or {}, configuration.ros_package_path())
     with text.locating():
         snapshot, reading = sources.read(form, form.permissive_options(), text.content, text.name)
     reading = msgspec.structs.replace(reading, snapshot=snapshot)

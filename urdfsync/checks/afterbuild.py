@@ -39,7 +39,6 @@ class BuildChecker:
             tools=chosen_tools(config, trusted=request.trusted),
             jobs=request.jobs,
             wait=request.wait,
-            package_paths=request.package_paths,
             fresh=request.full,
         )
 

@@ -10,6 +10,7 @@ from pathlib import Path
 import msgspec
 
 from urdfsync.checks.compilers.compiler import Tool
+from urdfsync.config import ros_package_path
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Deviation, Part, Quantity
 from urdfsync.engine.result import Exit
@@ -52,8 +53,8 @@ class CheckOptions(msgspec.Struct, frozen=True):
     """Gigabytes for all processes together; None for what is free."""
     wait: float = 60.0
     """Seconds to wait for a build that is writing."""
-    package_paths: tuple[Path, ...] = ()
-    """Where to look for packages after the configured folders."""
+    package_paths: tuple[Path, ...] = msgspec.field(default_factory=ros_package_path)
+    """Where to look for packages after the configured folders: where ROS looks."""
     compilers: int = 1
     """How many compilers may run at the same time for one robot."""
     executor: str = ""

@@ -29,7 +29,7 @@ from urdfsync.files import shown
 from urdfsync.workers import tell
 
 
-def known_check(config: Config, robot: RobotConfig, package_paths: tuple[Path, ...]) -> CheckResult | None:
+def known_check(config: Config, robot: RobotConfig) -> CheckResult | None:
     """Return what an earlier check found of the package as it is, best with physics; None if that is not known.
 
     Only checks by the embedded compiler count, and only those that found nothing wrong are remembered.
@@ -38,7 +38,7 @@ def known_check(config: Config, robot: RobotConfig, package_paths: tuple[Path, .
         return None
     cache = UserCache.default()
     for physics in (True, False):
-        key = fingerprint(config, robot, CheckOptions(physics=physics, package_paths=package_paths))
+        key = fingerprint(config, robot, CheckOptions(physics=physics))
         if key and (result := cache.load(key, CheckResult)):
             return result
     return None

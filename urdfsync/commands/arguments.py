@@ -12,7 +12,7 @@ from typing import Any, NoReturn, TypeAlias, TypeVar
 
 import msgspec
 
-from urdfsync.api import load, options_of
+from urdfsync.api import load
 from urdfsync.config import Config, RobotConfig
 from urdfsync.dependencies import read_unrecorded
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
@@ -184,12 +184,13 @@ def call(
 
 def request(args: argparse.Namespace, console: Console, **options: Any) -> BuildOptions:
     """Return how to build, as the arguments and `options` say."""
-    return options_of(BuildOptions, progress=console.progress, **{**chosen(BuildOptions, args), **options})
+    return BuildOptions(progress=console.progress, **{**chosen(BuildOptions, args), **options})
 
 
 def chosen(kind: type[msgspec.Struct], args: argparse.Namespace) -> dict[str, Any]:
     """Return the options of a kind that are arguments of the same names."""
-    return {name: value for name, value in vars(args).items() if name in kind.__struct_fields__}
+    given = {name: value for name, value in vars(args).items() if name in kind.__struct_fields__}
+    return {name: tuple(value) if isinstance(value, list) else value for name, value in given.items()}
 
 
 def split_sources(texts: Sequence[str], parser: argparse.ArgumentParser) -> tuple[list[Path], dict[str, str]]:

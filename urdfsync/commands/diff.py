@@ -8,7 +8,7 @@ from urdfsync.api import diff
 from urdfsync.commands import arguments
 from urdfsync.engine.findings import CONNECTORS
 from urdfsync.output.console import Console
-from urdfsync.output.repeated import show_findings
+from urdfsync.output.results import show_lines
 from urdfsync.versions.comparison import Comparison, exit_code
 from urdfsync.versions.report import robot_lines, to_document, to_section
 
@@ -44,13 +44,9 @@ def run(args: argparse.Namespace, console: Console) -> int:
         return edits.run(args, console)
 
     def show(compared: Comparison) -> None:
-        if console.is_document:
-            console.add(compared, to_document, to_section)
-            return
+        console.add(compared, to_document, to_section)
         told = [diagnostic for diagnostic in compared.result.diagnostics if diagnostic.code != CONNECTORS]
-        show_findings(console, compared.result, told)
-        if not console.quiet or compared.result.conflicts:
-            console.print(robot_lines(compared, verbose=console.verbose), error=compared.result.failed)
+        show_lines(console, compared.result, robot_lines(compared, verbose=console.verbose), told)
 
     options = {"config": args.config, "wait": args.wait, "progress": console.progress, "on_result": show}
     return console.end(exit_code(diff(*args.sources, robots=args.robot or (), against=args.against, **options)))

@@ -6,7 +6,6 @@ import argparse
 import importlib.util
 from pathlib import Path
 
-from urdfsync.api import options_of
 from urdfsync.checks.compilers.compiler import Export
 from urdfsync.checks.tools import chosen_tools
 from urdfsync.commands import arguments
@@ -69,7 +68,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     if args.output:
         check_file(args.output, input_files(configuration, robot, args.motion))
     (tool,) = chosen_tools(configuration, "omc", trusted=args.trusted)
-    options = options_of(SimulateOptions, tool=tool, **arguments.chosen(SimulateOptions, args))
+    options = SimulateOptions(tool=tool, **arguments.chosen(SimulateOptions, args))
     kind = Export(_VERSIONS[args.fmi], _EXPORTED[args.kind])
     exported = export(configuration, robot, options, kind, console.progress, for_trial=args.check)
     file = args.output or _default_file(exported)

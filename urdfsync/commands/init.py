@@ -142,7 +142,7 @@ def _guess(
     if any(ord(char) < 32 or ord(char) == 127 or "\ud800" <= char <= "\udfff" for char in str(path)):
         message, hint = "the name of the source can't be written into a configuration", "rename it"
         raise SourceError.of("source-name", message, shown(source), hint=hint)
-    text = source_files.read_file_source(domain, source, given, config.ros_package_path(os.environ))
+    text = source_files.read_file_source(domain, source, given, config.ros_package_path())
     with text.locating():
         snapshot, reading = source_files.read(domain, domain.permissive_options(), text.content, text.name)
     stem = source.name.partition(".")[0][:_LONGEST]

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import argparse
-import os
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import msgspec
 
-from urdfsync import config
 from urdfsync.commands import arguments
 from urdfsync.config import working_folder
 from urdfsync.engine.result import Exit
@@ -60,7 +58,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
         raise not_writable(file, "it is there, and urdfsync did not write it", hint)
     check_page(file, input_files(configuration, robot, None))
     content = gather(configuration, robot, args.against, arguments.request(args, console), working_folder())
-    text = page(content, check=known_check(configuration, robot, config.ros_package_path(os.environ)))
+    text = page(content, check=known_check(configuration, robot))
     write_file(file, text)
     section, place = content.section, shown(file)
     console.add_result(PageDocument(robot.name, place, len(text), section.summary))

@@ -8,9 +8,9 @@ from urdfsync.api import status
 from urdfsync.commands import arguments
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Result, exit_code
+from urdfsync.output.build_section import build_section
 from urdfsync.output.console import Console
-from urdfsync.output.repeated import show_findings
-from urdfsync.output.results import robot_document
+from urdfsync.output.results import robot_document, show_lines
 from urdfsync.output.status import lines
 
 
@@ -31,13 +31,8 @@ def run(args: argparse.Namespace, console: Console) -> int:
     """Show how each robot's package stands."""
 
     def show(result: Result) -> None:
-        if console.is_document:
-            console.add_result(robot_document(result))
-            return
-        show_findings(console, result, result.diagnostics)
-        console.stop_progress()
-        if not console.quiet or result.conflicts or result.is_broken:
-            console.print(lines(result, verbose=console.verbose), error=result.failed)
+        console.add(result, robot_document, build_section)
+        show_lines(console, result, lines(result, verbose=console.verbose), result.diagnostics)
 
     results = arguments.call(status, BuildOptions, args, console, on_result=show)
     return console.end(exit_code(results, check=True))

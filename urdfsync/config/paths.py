@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from pathlib import Path
 
 import urdfsync
@@ -26,10 +26,10 @@ def working_folder() -> Path:
         raise ConfigError(Diagnostic(Severity.ERROR, "no-folder", message, hint=hint)) from None
 
 
-def ros_package_path(environment: Mapping[str, str]) -> tuple[Path, ...]:
+def ros_package_path() -> tuple[Path, ...]:
     """Return the folders of ROS 1 packages, by ROS_PACKAGE_PATH, and of ROS 2 packages, by AMENT_PREFIX_PATH."""
-    folders = environment.get("ROS_PACKAGE_PATH", "").split(os.pathsep)
-    prefixes = environment.get("AMENT_PREFIX_PATH", "").split(os.pathsep)
+    folders = os.environ.get("ROS_PACKAGE_PATH", "").split(os.pathsep)
+    prefixes = os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep)
     paths = [*filter(None, folders), *(f"{prefix}/share" for prefix in prefixes if prefix)]
     return tuple(Path(folder).absolute() for folder in paths)
 

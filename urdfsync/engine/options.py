@@ -8,6 +8,7 @@ from typing import TypeAlias
 
 import msgspec
 
+from urdfsync.config import ros_package_path
 from urdfsync.state.record import UsersChoice
 
 Progress: TypeAlias = Callable[[str, int, int], None]
@@ -35,8 +36,8 @@ class BuildOptions(msgspec.Struct, frozen=True):
     """Take the robots' packages and records away, as if their sources gave nothing any more."""
     draw: bool = False
     """Also draw the main model's diagram into the state folder."""
-    package_paths: tuple[Path, ...] = ()
-    """Where to look for packages after the configured folders."""
+    package_paths: tuple[Path, ...] = msgspec.field(default_factory=ros_package_path)
+    """Where to look for packages after the configured folders: where ROS looks."""
     wait: float = 60.0
     """Seconds to wait for another build to finish."""
     choices: Mapping[str, UsersChoice] = msgspec.field(default_factory=dict)

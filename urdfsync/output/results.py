@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Container, Iterator, Sequence
+from collections.abc import Container, Iterable, Iterator, Sequence
 from pathlib import Path
 
 import msgspec
@@ -111,14 +111,20 @@ def change_line(text: str) -> StyledLine:
 
 def show_result(console: Console, result: Result, *, explain: bool = False, named: Container[str] = ()) -> None:
     """Show what was done with one robot; `named` files are listed."""
+    console.add(result, robot_document, build_section)
+    show_lines(console, result, build_lines(result, console, explain=explain, named=named), result.diagnostics)
+
+
+def show_lines(
+    console: Console, result: Result, lines: Iterable[StyledLine], diagnostics: Sequence[Diagnostic]
+) -> None:
+    """Show findings and lines about one robot to people; with --quiet, only what they have to look after."""
     if console.is_document:
-        console.add(result, robot_document, build_section)
         return
-    show_findings(console, result, result.diagnostics)
-    if console.quiet and not (result.conflicts or result.is_broken):
-        console.stop_progress()
-        return
-    console.print(build_lines(result, console, explain=explain, named=named), error=result.failed)
+    show_findings(console, result, diagnostics)
+    console.stop_progress()
+    if not console.quiet or result.conflicts or result.is_broken:
+        console.print(lines, error=result.failed)
 
 
 def build_lines(

@@ -8,6 +8,7 @@ import msgspec
 
 from urdfsync.checks.compilers.compiler import Series as Series
 from urdfsync.checks.compilers.compiler import Tool
+from urdfsync.config import ros_package_path
 from urdfsync.diagnostics import Diagnostic
 
 STOP = 1.0
@@ -41,7 +42,7 @@ class SimulateOptions(msgspec.Struct, frozen=True):
     """Gigabytes; None for what is free."""
     wait: float = 60.0
     """Seconds to wait for a build that is writing."""
-    package_paths: tuple[Path, ...] = ()
+    package_paths: tuple[Path, ...] = msgspec.field(default_factory=ros_package_path)
     as_exported: bool = False
     """Whether it is simulated as its FMU would be: filters of drives stay, inputs change at each step, or stay at 0."""
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import contextlib
 import functools
-import os
 import threading
 from collections.abc import Iterator
 from http import HTTPStatus
@@ -95,7 +94,7 @@ class View:
                 loaded = config.load(self._file)
                 (configured,) = loaded.select([name])
                 content = gather(loaded, configured, None, self._options, config.working_folder(), robot.shown)
-                check = known_check(loaded, configured, config.ros_package_path(os.environ))
+                check = known_check(loaded, configured)
                 robot.page, robot.page_build = page(content, check=check, build=build), build
                 if not robot.shown or robot.shown[0][0] != content.version[0]:
                     robot.shown = (content.version, *robot.shown[:1])
