@@ -76,14 +76,14 @@ class UrdfDomain(Domain):
             return Reading(None, diagnostics, lines)
         tree = KinematicTree.of(robot)
         diagnostics += located(find_implausible(tree), file, lines) + unmodelled
-        findings, stated = list(find_loop_findings(tree, options)), {loop.name for loop in options.loops}
+        findings, stated = list(find_loop_findings(tree, options)), {f"loop {loop.name}" for loop in options.loops}
         # those of loops in the options are told by `check_options`
-        sourced = [finding.at_source() for finding in findings if finding.loop not in stated]
-        diagnostics += located(sourced, file, lines)
-        if not any(finding.is_fault for finding in findings):
-            diagnostics += tuple(find_unsimulated(tree, options, file, lines))
-        elif any(finding.is_fault and finding.loop not in stated for finding in findings):
+        told = located([finding for finding in findings if finding.path not in stated], file, lines)
+        diagnostics += told
+        if any(entry.severity is Severity.ERROR for entry in told):
             return Reading(None, diagnostics, lines)
+        if not any(ADVICE[finding.code][0] is Severity.ERROR for finding in findings):
+            diagnostics += tuple(find_unsimulated(tree, options, file, lines))
         return Reading(to_snapshot(robot), diagnostics, lines)
 
     def beside(self, source: Path) -> Path:
@@ -157,9 +157,9 @@ class UrdfDomain(Domain):
         if options.loops:
             yield from option_names.check_loops(snapshot["links"], options)
             stated = {loop.name for loop in options.loops}
-            for finding in find_loop_findings(tree, options) if tree else ():
-                if finding.loop in stated:
-                    yield f"loops.{finding.loop}", diagnostic(finding.code, finding.message, 0, finding.hint)
+            for code, path, message, hint in find_loop_findings(tree, options) if tree else ():
+                if (name := path.removeprefix("loop ")) in stated:
+                    yield f"loops.{name}", diagnostic(code, message, 0, hint)
 
     def permissive_options(self) -> Options:
         """Allow all that can be left out of a model."""

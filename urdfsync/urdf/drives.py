@@ -17,36 +17,31 @@ from typing import TYPE_CHECKING
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import FrictionLaw, Options
 from urdfsync.urdf.robot import MOTION_KINDS, Joint
+from urdfsync.urdf.validate import Finding
 
 if TYPE_CHECKING:
-    from urdfsync.urdf.kinematics.loops import Assembly, LoopFault
+    from urdfsync.urdf.kinematics.loops import Assembly
 
 
 def driven_joints(tree: KinematicTree, options: Options) -> frozenset[str]:
     """Return the names of the joints that Run and Test drive: of `wanted_joints`, as many as loops leave free."""
-    closed = assemble_loops(tree, options)
-    if closed is None or isinstance(closed, tuple):  # without loops, or with some whose faults are told
-        return wanted_joints(tree.joints, options)
-    return frozenset(closed.driven)
+    closed = assembly(tree, options)
+    return frozenset(closed.driven) if closed else wanted_joints(tree.joints, options)
 
 
 def dependent_joints(tree: KinematicTree, options: Options) -> frozenset[str]:
     """Return the names of the joints whose positions follow from those of other joints through loops."""
-    closed = assemble_loops(tree, options)
-    if closed is None or isinstance(closed, tuple):
-        return frozenset()
-    return frozenset(closed.joints).difference(closed.states)
+    closed = assembly(tree, options)
+    return frozenset(closed.joints).difference(closed.states) if closed else frozenset()
 
 
 def assembly(tree: KinematicTree, options: Options) -> Assembly | None:
-    """Return how the loops of a robot are closed; None if it has none. Raises ValueError if they can't be closed."""
+    """Return how the loops of a robot are closed; None if it has none, or some whose faults are told."""
     closed = assemble_loops(tree, options)
-    if isinstance(closed, tuple):
-        raise ValueError("; ".join(fault.message for fault in closed))  # noqa: TRY004 - a tuple is no wrong type
-    return closed
+    return None if isinstance(closed, tuple) else closed
 
 
-def assemble_loops(tree: KinematicTree, options: Options) -> Assembly | tuple[LoopFault, ...] | None:
+def assemble_loops(tree: KinematicTree, options: Options) -> Assembly | tuple[Finding, ...] | None:
     """Return how the loops of a robot are closed, or why they can't be; None for a robot without loops."""
     if not tree.loops:
         return None
@@ -56,7 +51,7 @@ def assemble_loops(tree: KinematicTree, options: Options) -> Assembly | tuple[Lo
 
 
 @functools.lru_cache(maxsize=2)
-def _assemble(tree: KinematicTree, wanted: frozenset[str], named: frozenset[str]) -> Assembly | tuple[LoopFault, ...]:
+def _assemble(tree: KinematicTree, wanted: frozenset[str], named: frozenset[str]) -> Assembly | tuple[Finding, ...]:
     """Close loops. The last results are kept: a build asks ten times, for two versions, and one takes 40 ms."""
     from urdfsync.urdf.kinematics.loops import assemble  # 60 ms for numpy, which a robot without loops does not need
 

@@ -13,7 +13,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from msgspec.structs import replace
 
-from urdfsync.urdf.kinematics.loops import Assembly, Closure, LoopFault, assemble
+from urdfsync.urdf.kinematics.loops import Assembly, Closure, assemble
 from urdfsync.urdf.kinematics.poses import compose, link_poses, pose
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.robot import Joint, JointType, Limit, Link, Loop, LoopKind, Mimic, Origin, Robot, Vector
@@ -40,8 +40,7 @@ def assembled(tree: KinematicTree, *named: str) -> Assembly:
 def faults(tree: KinematicTree, *named: str) -> list[tuple[str, str]]:
     result = assemble(tree, frozenset(named), frozenset(named))
     assert not isinstance(result, Assembly), result
-    assert all(isinstance(fault, LoopFault) for fault in result)
-    return [(fault.code, fault.loop) for fault in result]
+    return [(fault.code, fault.path.removeprefix("loop ")) for fault in result]
 
 
 def distances(tree: KinematicTree, assembly: Assembly) -> list[float]:

@@ -16,9 +16,10 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from urdfsync.urdf.kinematics.mechanism import AXES, ORIGIN, Array, Equation, Gap, Mechanism, Rows, array_of
-from urdfsync.urdf.kinematics.poses import own_range, position_ranges, start_positions
+from urdfsync.urdf.kinematics.poses import across, own_range, position_ranges, start_positions
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.robot import MOTION_KINDS, Joint, Loop, Vector
+from urdfsync.urdf.validate import Finding
 
 _PARALLEL = 1e-4
 """Angle between axes that are meant to be parallel, in rad: exporters write 1.5708."""
@@ -32,7 +33,6 @@ _AMPLITUDES = (0.4, 0.2, 0.1, 0.05)
 _POSES = 3
 _STEPS = 16
 """Steps of the way along which Test moves the driven joints."""
-_OPEN = "correct its frames, or the start and limits of its joints"
 _SWEEP = {"rotational": 1.0, "translational": 0.1}
 """Longest way of a sweep in the library, in rad and m."""
 _SWEEP_MARGIN, _SWEEP_PERIOD = 0.9, 10.0
@@ -71,15 +71,6 @@ class Assembly(Struct, frozen=True):
     closures: Mapping[str, Closure]
     gaps: Mapping[str, Gap]
     """Of the start of the source."""
-
-
-class LoopFault(Struct, frozen=True):
-    """A reason why a loop has no model."""
-
-    code: str
-    loop: str
-    message: str
-    hint: str
 
 
 class _Problem:
@@ -151,11 +142,11 @@ class _Problem:
 class _UnclosableError(Exception):
     """Stops an assembly."""
 
-    def __init__(self, *faults: LoopFault) -> None:
+    def __init__(self, *faults: Finding) -> None:
         self.faults = faults
 
 
-def assemble(tree: KinematicTree, wanted: frozenset[str], named: frozenset[str]) -> Assembly | tuple[LoopFault, ...]:
+def assemble(tree: KinematicTree, wanted: frozenset[str], named: frozenset[str]) -> Assembly | tuple[Finding, ...]:
     """Close all loops of a robot that has any, near its start, or say why that is impossible.
 
     `wanted` joints are to be driven; of these the source or the options name `named` as drives. If none of these is in
@@ -168,7 +159,7 @@ def assemble(tree: KinematicTree, wanted: frozenset[str], named: frozenset[str])
         return error.faults
     except np.linalg.LinAlgError:
         loop = tree.loops[0]
-        return (LoopFault("loop-open", loop.name, f"loop {loop.name!r} has numbers that are too large", _OPEN),)
+        return (Finding("loop-open", f"loop {loop.name}", f"loop {loop.name!r} has numbers that are too large"),)
 
 
 def _assemble(tree: KinematicTree, wanted: frozenset[str], named: frozenset[str]) -> Assembly:
@@ -269,17 +260,6 @@ def _with_others(space: Array, states: Sequence[int]) -> list[int]:
     return states
 
 
-def _across(normal: Vector) -> tuple[Vector, Vector]:
-    """Return two unit vectors that complete a unit vector to a frame: the other two axes, if it is one."""
-    sizes = [abs(value) for value in normal]
-    k = sizes.index(min(sizes))
-    x, y, z = ((1.0 if i == k else 0.0) - normal[k] * value for i, value in enumerate(normal))
-    length = math.sqrt(x * x + y * y + z * z)
-    x, y, z = x / length, y / length, z / length
-    a, b, c = normal
-    return (x, y, z), (b * z - c * y, c * x - a * z, a * y - b * x)
-
-
 def _normal(mechanism: Mechanism, loop: int) -> Vector | None:
     """Return the normal of the plane in which a loop moves, in the frame of its parent; None if it is spatial."""
     poses = mechanism.poses(mechanism.start)
@@ -298,10 +278,10 @@ def _normal(mechanism: Mechanism, loop: int) -> Vector | None:
 
 def _equations(loop: Loop, normal: Vector | None) -> list[Equation]:
     """Return the equations of the kind of a loop; those of its plane come first."""
-    x, y, z = (*_across(normal), normal) if normal else AXES
+    x, y, z = (*across(normal), normal) if normal else AXES
     pairs: Sequence[tuple[Vector, Vector]] = ()
     if loop.kind == "revolute":
-        pairs = [(across, loop.axis) for across in _across(loop.axis)]
+        pairs = [(across, loop.axis) for across in across(loop.axis)]
     elif loop.kind == "universal":
         pairs = [(loop.axis, loop.child_axis)]
     elif loop.kind == "fixed":
@@ -316,13 +296,13 @@ def _closure(loop: Loop, candidates: Rows, rows: Rows, k: int, normal: Vector | 
     translations = tuple(u for u, v in mine if v == ORIGIN)
     rotations = tuple((u, v[:3]) for u, v in mine if v != ORIGIN)
     whole = int((candidates.loops == k).sum())
-    is_planar = normal is not None and translations == _across(normal)
+    is_planar = normal is not None and translations == across(normal)
     weaker = None
     if len(mine) < whole and not (is_planar and len(rotations) == (loop.kind == "fixed")):
         weaker = f"closed by {len(mine)} of {whole} equations: the others follow from these and the rest of the robot"
     if not mine:
         message = f"loop {loop.name!r} holds nothing that the other loops and joints do not hold already"
-        raise _UnclosableError(LoopFault("loop-redundant", loop.name, message, "remove one of them"))
+        raise _UnclosableError(Finding("loop-redundant", f"loop {loop.name}", message))
     return Closure(translations, rotations, normal if is_planar and not rotations else None, weaker)
 
 
@@ -341,7 +321,7 @@ def _closed_near(problem: _Problem, held: Array) -> Array:
             tried.append(problem.close(np.where(free, near, start), whole, free))
             if not list(_open_loops(problem, tried[-1])):
                 return tried[-1]
-    beyond, hint = problem.close(start, whole, bounded=False), _OPEN
+    beyond, hint = problem.close(start, whole, bounded=False), ""
     if not list(_open_loops(problem, beyond)):
         is_outside = (beyond < problem.lower) | (beyond > problem.upper)
         names = [repr(j.name) for j, outside in zip(problem.mechanism.independent, is_outside, strict=True) if outside]
@@ -418,10 +398,10 @@ def _check_joints(mechanism: Mechanism) -> None:
         free = [j for j in mechanism.joints if j.name in path and j.type in ("planar", "floating")]
         if free:
             message = f"loop {loop.name!r} has the {free[0].type} joint {free[0].name!r}, which no loop can hold"
-            faults.append(LoopFault("loop-free-joint", loop.name, message, "use joints with one axis in a loop"))
+            faults.append(Finding("loop-free-joint", f"loop {loop.name}", message))
         elif not moves.any():
             message = f"loop {loop.name!r}: no joint moves link {loop.child!r} against link {loop.parent!r}"
-            faults.append(LoopFault("loop-rigid", loop.name, message, "remove the loop, or give it joints that move"))
+            faults.append(Finding("loop-rigid", f"loop {loop.name}", message))
     if faults:
         raise _UnclosableError(*faults)
 
@@ -433,7 +413,7 @@ def _open_loops(problem: _Problem, q: Array) -> Iterator[tuple[Loop, Gap]]:
             yield loop, gap
 
 
-def _check_closed(problem: _Problem, q: Array, hint: str = _OPEN) -> None:
+def _check_closed(problem: _Problem, q: Array, hint: str = "") -> None:
     """Raise an error for the loops that are not closed."""
     faults = []
     starts = dict(zip(problem.mechanism.loops, problem.mechanism.gaps(problem.mechanism.start), strict=True))
@@ -442,7 +422,7 @@ def _check_closed(problem: _Problem, q: Array, hint: str = _OPEN) -> None:
             f"loop {loop.name!r} cannot be closed: its frames on links {loop.parent!r} and {loop.child!r} stay "
             f"{_apart(gap)} apart ({_apart(starts[loop])} at the start)"
         )
-        faults.append(LoopFault("loop-open", loop.name, message, hint))
+        faults.append(Finding("loop-open", f"loop {loop.name}", message, hint))
     if faults:
         raise _UnclosableError(*faults)
 
@@ -453,5 +433,4 @@ def _apart(gap: Gap) -> str:
 
 def _singular(loop: Loop, reason: str) -> _UnclosableError:
     message = f"loop {loop.name!r} is singular at the start: {reason}"
-    hint = "let its joints start elsewhere, by `start` in the configuration"
-    return _UnclosableError(LoopFault("loop-singular", loop.name, message, hint))
+    return _UnclosableError(Finding("loop-singular", f"loop {loop.name}", message))

@@ -120,6 +120,17 @@ def _near(position: float) -> float:
     return min(max(position, -_FAR), _FAR)
 
 
+def across(axis: Vector) -> tuple[Vector, Vector]:
+    """Return two unit vectors that complete a unit vector to a frame: the other two axes, if it is one."""
+    sizes = [abs(value) for value in axis]
+    k = sizes.index(min(sizes))
+    x, y, z = ((1.0 if i == k else 0.0) - axis[k] * value for i, value in enumerate(axis))
+    length = math.sqrt(x * x + y * y + z * z)
+    x, y, z = x / length, y / length, z / length
+    a, b, c = axis
+    return (x, y, z), (b * z - c * y, c * x - a * z, a * y - b * x)
+
+
 def dot(a: Sequence[float], b: Sequence[float]) -> float:
     """Return the scalar product of two vectors of three."""
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]

@@ -31,7 +31,7 @@ class LoopData(NamedTuple):
 
 
 def loop_data(tree: KinematicTree, options: Options) -> LoopData:
-    """Return the data of a robot's loops. Raises ValueError if these can't be closed."""
+    """Return the data of a robot's loops; there are no closures if these can't be closed."""
     closed = assembly(tree, options)
     if closed is None:
         return LoopData(tree, frozenset(), {}, {})

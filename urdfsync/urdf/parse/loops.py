@@ -19,7 +19,7 @@ import msgspec
 from msgspec.structs import replace
 
 from urdfsync.urdf import validate
-from urdfsync.urdf.kinematics.poses import Matrix, Pose, compose, link_poses, pose
+from urdfsync.urdf.kinematics.poses import Matrix, Pose, across, compose, link_poses, pose
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import LoopOption, Options
 from urdfsync.urdf.parse.fields import Reader, quoted
@@ -120,6 +120,10 @@ def _ends(loop: Loop) -> frozenset[tuple[str, Origin]]:
     return frozenset({(loop.parent, loop.origin), (loop.child, loop.child_origin)})
 
 
+def _second_axis(axis: Vector) -> Vector:
+    return across(validate.unit_vector(axis))[1]
+
+
 def _unit(loop: Loop) -> Loop:
     axes = validate.unit_vector(loop.axis), validate.unit_vector(loop.child_axis)
     return replace(loop, axis=axes[0], child_axis=axes[1])
@@ -143,8 +147,7 @@ def _read_loop_joint(reader: Reader, element: Element, path: str, name: str) -> 
     axis = element.find("axis")
     direction = (1.0, 0.0, 0.0) if axis is None else reader.read(axis, f"{path} / axis", _Axis, path).xyz
     (parent, origin), (child, child_origin) = ((side.link, Origin(side.xyz, side.rpy)) for side in sides)
-    across = _across(direction)
-    return kind and Loop(name, kind, parent, child, origin, child_origin, direction, across)
+    return kind and Loop(name, kind, parent, child, origin, child_origin, direction, _second_axis(direction))
 
 
 def _read_ball(reader: Reader, element: Element, path: str, name: str) -> Loop | None:
@@ -177,7 +180,7 @@ def _read_joint(reader: Reader, element: Element, path: str, name: str, poses: M
     child_origin = Origin(numbers[:3], numbers[3:])  # type: ignore[arg-type] # six numbers
     origin = _origin(compose(_inverse(poses[parent]), compose(poses[child], pose(child_origin))))
     direction: Vector = axis  # type: ignore[assignment] # three numbers
-    return Loop(name, kind, parent, child, origin, child_origin, direction, second or _across(direction))  # type: ignore[arg-type]
+    return Loop(name, kind, parent, child, origin, child_origin, direction, second or _second_axis(direction))  # type: ignore[arg-type]
 
 
 def _inverse(of: Pose) -> Pose:
@@ -196,14 +199,6 @@ def _origin(of: Pose) -> Origin:
     )
     xyz, rpy = (tuple(round(value, _DIGITS) + 0.0 for value in values) for values in (place, angles))
     return Origin(xyz, rpy)  # type: ignore[arg-type]
-
-
-def _across(axis: Vector) -> Vector:
-    """Return a unit vector at right angles to an axis."""
-    k = min(range(3), key=lambda i: abs(axis[i]))
-    other = tuple(1.0 if i == k else 0.0 for i in range(3))
-    (a, b, c), (x, y, z) = axis, other
-    return validate.unit_vector((b * z - c * y, c * x - a * z, a * y - b * x))
 
 
 def _frames_by_name(reader: Reader, links: Sequence[Link]) -> Iterator[Loop]:
