@@ -14,6 +14,7 @@ import pytest
 from support import physics
 from support.cases import sampled
 from support.corpus import REPOSITORY
+from support.loops import UNIVERSAL, to_options, to_urdf
 from support.modelica import URDFSYNC
 from support.urdfs import dynamics, joint, limit, link, links, mimic, robot
 
@@ -164,10 +165,26 @@ FLOATING: Mapping[str, Fault] = {
 }
 
 
+LOOP: Mapping[str, Fault] = {
+    "place of a loop's frame": Fault(B, "Joints/YokeParameters.mo", "{0.4, 0, 0}", "{0.4001, 0, 0}"),
+    "frame of the other end": Fault(B, "Joints/Yoke.mo", "r = parameters.childOrigin.xyz", "r = parameters.origin.xyz"),
+    "axis of a loop": Fault(B, "Joints/YokeParameters.mo", "rotations = [0, 0, 1]", "rotations = [0.28, 0, 0.96]"),
+    "torque of a loop": Fault(Part.LOOPS, "Joints/Yoke.mo", "t = constraint.t", "t = -constraint.t"),
+    "start of a dependent joint": Fault(F, "ArmStart.mo", "turn_x = 0.06", "turn_x = 3.06"),
+}
+HELD: Mapping[str, Fault] = {
+    "force of a loop": Fault(B, "Loops/Constraint.mo", "frame_a.f = f;", "frame_a.f = -f;"),
+    "lever of a row": Fault(B, "Loops/Constraint.mo", "cross(rotations[i, :], rotated[i, :])", "rotations[i, :]"),
+}
+"""In the library; the robot has a loop."""
+
+
 def prepared(fault: Fault, name: str, **options: str) -> physics.Case:
     """The robot, and the one simulation in which a fault shows."""
     trial = {Part.FREE_MOTION: "free motion", Part.BENCHES: ""}.get(fault.part, "motion")
     source = CART if fault.part is Part.CONTACTS else SOURCE
+    if fault in (*LOOP.values(), *HELD.values()):
+        return physics.prepare(to_urdf(UNIVERSAL).encode(), name, **to_options(UNIVERSAL)).only(trial)
     return physics.prepare(source.encode(), name, **options).only(trial)
 
 
@@ -182,19 +199,19 @@ def test_without_a_fault_all_is_right(modelica_library: Path, tmp_path: Path) ->
     assert {each.part for each in (*arm, *cart)} == {*Part} - {Part.LOOPS}
 
 
-@pytest.mark.parametrize("fault_name", sampled(PACKAGE, 9))
+@pytest.mark.parametrize("fault_name", sampled((*PACKAGE, *LOOP), 9))
 def test_a_fault_in_a_package_is_seen(fault_name: str, modelica_library: Path, tmp_path: Path) -> None:
-    fault = PACKAGE[fault_name]
+    fault = {**PACKAGE, **LOOP}[fault_name]
     name, options = ("Cart", {"base": "floating"}) if fault.part is Part.CONTACTS else ("Arm", {})
     case = prepared(fault, name, **options).changed(fault.file, fault.old, fault.new)
     (found,) = physics.compare(modelica_library, tmp_path, [case])
     assert is_seen(fault, found)
 
 
-@pytest.mark.parametrize("name", sampled((*LIBRARY, *FLOATING), 9))
+@pytest.mark.parametrize("name", sampled((*LIBRARY, *FLOATING, *HELD), 9))
 def test_a_fault_in_the_library_is_seen(name: str, modelica_library: Path, tmp_path: Path) -> None:
     base = "floating" if name in FLOATING else "fixed"
-    fault, own = {**LIBRARY, **FLOATING}[name], tmp_path / "own" / "UrdfSync"
+    fault, own = {**LIBRARY, **FLOATING, **HELD}[name], tmp_path / "own" / "UrdfSync"
     shutil.copytree(URDFSYNC, own, ignore=shutil.ignore_patterns("Images", "robots"))
     text = (own / fault.file).read_text("utf-8")
     assert fault.old in text

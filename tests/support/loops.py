@@ -1,4 +1,4 @@
-"""Robots that are no tree, in a vertical plane: a four-bar, a five-bar, a slider crank, and a spatial four-bar."""
+"""Robots that are no tree: a four-bar, a five-bar and a slider crank in a vertical plane, and spatial four-bars."""
 
 from __future__ import annotations
 
@@ -80,7 +80,61 @@ SPATIAL = Robot(
     ),
     loops=(Loop("ball", "ball", "coupler", "rocker", Origin((0.7, 0.0, 0.0)), Origin((0.4, 0.0, 0.0))),),
 )
-ROBOTS = {"FourBar": FOUR_BAR, "FiveBar": FIVE_BAR, "SliderCrank": SLIDER_CRANK, "Spatial": SPATIAL}
+TILTED: Vector = (0.0, 0.28, 0.96)
+RINGS = tuple(Link(name, Inertial(0.05, inertia=Inertia(ixx=1e-4, iyy=1e-4, izz=1e-4))) for name in ("ring", "ball"))
+
+
+def ball(parent: str, child: str, x: float, *starts: float) -> tuple[Joint, ...]:
+    """Three joints one after the other, which are a ball joint together."""
+    ends = (parent, "ring", "ball", child)
+    return tuple(
+        joint(f"turn_{name}", "continuous", ends[k], ends[k + 1], 0.0 if k else x, axis=axis, start=starts[k])
+        for k, (name, axis) in enumerate({"z": (0.0, 0.0, 1.0), "y": (0.0, 1.0, 0.0), "x": (1.0, 0.0, 0.0)}.items())
+    )
+
+
+HINGE = Robot(
+    "hinge",
+    (*SPATIAL.links, *RINGS),
+    (*SPATIAL.joints[:3], *ball("coupler", "rocker", 0.7, 2.3, 0.0, 0.0)),
+    loops=(
+        Loop(
+            *("rocker_pivot", "revolute", "ground", "rocker"),
+            *(Origin((0.6, 0.0, 0.0), UPRIGHT), Origin((0.4, 0.0, 0.0)), TILTED),
+        ),
+    ),
+)
+UNIVERSAL = Robot(
+    "universal",
+    (*(link for link in SPATIAL.links if link.name != "spider"), *RINGS),
+    (SPATIAL.joints[0], *ball("crank", "coupler", 0.2, -0.7, 0.0, 0.0), SPATIAL.joints[3]),
+    loops=(
+        Loop(
+            *("yoke", "universal", "coupler", "rocker", Origin((0.7, 0.0, 0.0)), Origin((0.4, 0.0, 0.0))),
+            *((0.0, 0.0, 1.0), (0.0, 1.0, 0.0)),
+        ),
+    ),
+)
+WELD = Robot(
+    "weld",
+    (*FOUR_BAR.links, bar("foot", 0.2, 0.1)),
+    (
+        *FOUR_BAR.joints[:2],
+        joint("rocker_pin", "continuous", "coupler", "rocker", 0.6, start=-2.0),
+        joint("rocker_pivot", "continuous", "rocker", "foot", 0.4, start=1.5),
+    ),
+    loops=(Loop("seam", "fixed", "ground", "foot", Origin((0.5, 0.0, 0.0), UPRIGHT)),),
+)
+"""Four-bars like the others, closed elsewhere."""
+ROBOTS = {
+    "FourBar": FOUR_BAR,
+    "FiveBar": FIVE_BAR,
+    "SliderCrank": SLIDER_CRANK,
+    "Spatial": SPATIAL,
+    "Universal": UNIVERSAL,
+    "Weld": WELD,
+    "Hinge": HINGE,
+}
 
 
 def to_urdf(robot: Robot) -> str:
