@@ -345,6 +345,10 @@ class Trial(msgspec.Struct, frozen=True):
     """From the root outwards."""
     expected: Mapping[str, tuple[float, ...]]
     """Expected numbers of each value at the times in `time`; NaN is possible."""
+    over_time: tuple[Compared, ...] = ()
+    """What is drawn at all times, and no part of the verdict."""
+    expected_over_time: Mapping[str, tuple[float, ...]] = {}
+    """The same as `expected` for it."""
 
 
 class Experiment(msgspec.Struct, frozen=True):
@@ -620,12 +624,19 @@ class Domain(Protocol):
         return None
 
     def experiment(
-        self, content: bytes, file: str, target: Target, options: Any, imports: Mapping[str, Import]
+        self,
+        content: bytes,
+        file: str,
+        target: Target,
+        options: Any,
+        imports: Mapping[str, Import],
+        step: float | None = None,
     ) -> Experiment | str:
         """Return a comparison of the generated package with an independent reference, or why there is none.
 
         `file` is the source's name in diagnostics. What the source lacks for a telling comparison (inertias, say) is
-        made up. It runs in a process of its own. Raises SourceError if the reference can't be had or can't read it.
+        made up. With a `step`, in s, there is something to draw: `Trial.over_time`. It runs in a process of its own.
+        Raises SourceError if the reference can't be had or can't read it.
         """
         return "there is no reference for such packages"
 

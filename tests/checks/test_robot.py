@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from support.checks import Compiling
 from support.corpus import REPOSITORY
@@ -88,9 +89,10 @@ def rebuild() -> None:
     assert not result.failed
 
 
-def check(physics: bool = False, fresh: bool = False) -> CheckResult:
+def check(physics: bool = False, fresh: bool = False, curves: bool = False) -> CheckResult:
     loaded = config.load(Path("urdfsync.toml").absolute())
-    return check_robot(loaded, loaded.robots[0], CheckOptions(physics=physics, compilers=2, fresh=fresh))
+    options = CheckOptions(physics=physics, compilers=2, fresh=fresh, curves=curves)
+    return check_robot(loaded, loaded.robots[0], options)
 
 
 def write(files: dict[str, str]) -> None:
@@ -158,6 +160,25 @@ def test_a_generator_that_is_wrong_is_found_whoever_edited_what(arm: Path, model
     assert max(one.relative for one in result.deviations) > 1e-2
     (gap,) = result.gaps
     assert "not ready yet" in gap
+
+
+@pytest.mark.slow
+def test_for_a_page_poses_and_efforts_agree_over_time_too_and_are_remembered(
+    arm: Path, modelica_library: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setattr("platformdirs.user_cache_path", lambda *_, **__: tmp_path / "cache")
+    plain, drawn = check(physics=True), check(physics=True, curves=True)
+    monkeypatch.setattr(robot_check, "_check", None)  # from now on all is remembered
+    again = check(physics=True)
+    assert plain.tools[0].curves == ()
+    assert again.tools[0].curves == drawn.tools[0].curves
+    assert plain.deviations == drawn.deviations
+    elements = {curve.element for curve in drawn.tools[0].curves}
+    assert elements == {*("link base", "link arm", "link hand"), *("joint shoulder", "joint elbow")}
+    for curve in drawn.tools[0].curves:
+        assert len(curve.times) == 101
+        assert np.abs(np.subtract(curve.values, curve.expected)).max() < 1e-9
+        assert curve.element == "link base" or np.ptp(curve.values) > 0.1
 
 
 @pytest.mark.slow

@@ -194,7 +194,7 @@ def test_a_check_is_drawn_beside_its_reference_with_the_error_on_a_log_scale(
     loaded = config.load(Path("urdfsync.toml"))
     content = gather(loaded, loaded.robots[0], None, BuildOptions(), tmp_path)
     times, expected = (0.0, 0.2, 0.4, 0.6), (1.0, 2.0, 3.0, 4.0)
-    values = ((1.0, 2.0 + 1e-12, 3.0, 4.01),)
+    values = ((1.0, 2.0 + 1e-12, 3.0, 4.01),)  # in one line, which has the errors 1e-17, 1e-12, 1e-17 and 1e-2
     curve = Curve(Quantity.EFFORT, "joint elbow", "N·m", times, values, (expected,))
     file = tmp_path / "check.html"
     check = CheckResult("arm", "Arm", tools=(ToolResult("rumoca", curves=(curve,)),), reference="Pinocchio 3")
@@ -202,9 +202,10 @@ def test_a_check_is_drawn_beside_its_reference_with_the_error_on_a_log_scale(
     page = opened(chromium, file)
     drawn = "[...document.querySelectorAll('#curves .{}')].map((path) => path.getAttribute('d'))"
     (reference,), (curve_, error) = (page.run(drawn.format(kind)) for kind in ("reference", "curve"))
-    assert [text.count("M") for text in (reference, curve_, error)] == [2, 2, 2]  # a gap, where the motion jumps
+    assert [(text.count("M"), text.count("L")) for text in (reference, curve_, error)] == [(1, 3)] * 3
     heights = [float(point.split(",")[1].removesuffix(" h0")) for point in error.replace("L", "M").split("M")[1:]]
-    assert heights[0] > heights[1] > heights[3]  # 1e-17, 1e-12, 1e-2
+    assert heights[0] == heights[2] > heights[1] > heights[3]
+    assert "effort in N·m, 1 … 4, 0 … 0.6 s" in page.run("element('curves').textContent")
     assert "error of effort in N·m, 10^-17 … 10^-2 on a log scale" in page.run("element('curves').textContent")
     page.run("document.querySelector('#curves button').click()")
     assert page.run("page.selected") == "joint elbow"

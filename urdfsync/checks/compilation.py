@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import bisect
 import math
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -29,7 +30,6 @@ from urdfsync.checks.libraries import Libraries
 from urdfsync.checks.package import PackageTexts, RobotPackage, UsersModels
 from urdfsync.checks.process import Limits
 from urdfsync.checks.results import (
-    KINDS,
     MOST_SINGLE_EDITS,
     CompiledModel,
     Curve,
@@ -40,7 +40,7 @@ from urdfsync.checks.results import (
     listed,
 )
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError, findings_of
-from urdfsync.domain import Compared, Deviation, Experiment, Quantity, Trial
+from urdfsync.domain import Compared, Deviation, Experiment, Trial
 from urdfsync.engine.generation import generated_texts
 from urdfsync.files import shown
 from urdfsync.output.phrases import counted
@@ -297,25 +297,20 @@ def compare(compared: Iterable[Compared], series: Series, expected: Series) -> t
 
 
 def curves(trial: Trial, series: Series) -> Iterator[Curve]:
-    """Yield the poses and efforts of each element beside what is expected of them; parts of one quantity are joined."""
-    parts = dict[tuple[Quantity, str, str], list[Compared]]()
-    for compared in trial.compared:
-        if compared.quantity in KINDS[0] or compared.quantity is Quantity.EFFORT:
-            parts.setdefault((compared.quantity, compared.element, compared.unit), []).append(compared)
-    for key, every in parts.items():
-        times = tuple(time for compared in every for time in compared.instants)
-        found, expected = (
-            tuple(tuple(_number(numbers, name, time) for time in times) for name in every[0].values)
-            for numbers in (series, trial.expected)
+    """Yield what is drawn over time, beside what is expected of it."""
+    for each in trial.over_time:
+        values, expected = (
+            tuple(tuple(_number(numbers, name, time) for time in each.instants) for name in each.values)
+            for numbers in (series, trial.expected_over_time)
         )
-        yield Curve(*key, times, found, expected)
+        yield Curve(each.quantity, each.element, each.unit, each.instants, values, expected)
 
 
 def _number(series: Series, name: str, instant: float) -> float:
     """Return the number of a variable at a time."""
     numbers, times = series.get(name), series.get("time", ())
-    place = next((k for k, time in enumerate(times) if abs(time - instant) < _SAME_TIME), None)
-    return numbers[place] if numbers and place is not None else math.nan
+    place = bisect.bisect_left(times, instant - _SAME_TIME)
+    return numbers[place] if numbers and place < len(times) and times[place] < instant + _SAME_TIME else math.nan
 
 
 def edit_effects(

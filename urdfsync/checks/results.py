@@ -61,6 +61,8 @@ class CheckOptions(msgspec.Struct, frozen=True):
     """Address of a Dask scheduler whose workers check robots; empty for processes of this machine."""
     fresh: bool = False
     """Whether what was right before is checked again."""
+    curves: bool = False
+    """Whether the comparison is kept over time, for a page."""
 
 
 class CheckStatus(enum.StrEnum):
@@ -96,7 +98,7 @@ class EditEffect(msgspec.Struct, frozen=True):
 
 
 class Curve(msgspec.Struct, frozen=True):
-    """A quantity of an element over the times at which it was compared."""
+    """A quantity of an element over time."""
 
     quantity: Quantity
     element: str
@@ -132,7 +134,7 @@ class ToolResult(msgspec.Struct):
     times: tuple[TrialTime, ...] = ()
     """Those of the comparison, if the compiler tells them."""
     curves: tuple[Curve, ...] = ()
-    """Poses and efforts of the package as it is generated, in the first simulation."""
+    """Poses and efforts of the package as it is generated, in the first simulation, if a page was asked for."""
 
 
 class CheckResult(msgspec.Struct):

@@ -28,6 +28,9 @@ from urdfsync.engine.options import BuildOptions
 from urdfsync.files import shown
 from urdfsync.workers import tell
 
+_STEP = 0.04
+"""Seconds between two points of a curve. The motion jumps at halves of a second, which are no multiples."""
+
 
 def known_check(config: Config, robot: RobotConfig) -> CheckResult | None:
     """Return what an earlier check found of the package as it is, best with physics; None if that is not known.
@@ -58,6 +61,8 @@ def check_robot(config: Config, robot: RobotConfig, options: CheckOptions, folde
         request = BuildOptions(dry=True, package_paths=options.package_paths, wait=options.wait, jobs=1)
         package = read_package(config, robot, request)
         earlier = cache.load(key, CheckResult) if key and package.in_step and not options.fresh else None
+        if earlier and options.curves and earlier.reference and not any(tool.curves for tool in earlier.tools):
+            earlier = None  # nobody wanted to draw it
         if earlier is None:
             if folder:
                 _check(config, package, options, result, limits, folder)
@@ -140,7 +145,7 @@ def _experiment(package: RobotPackage, options: CheckOptions, result: CheckResul
     try:
         generation, file = package.generation, shown(robot.source)
         content, imports = generation.inputs.source.content, generation.now.imports
-        arguments = robot.domain, content, file, robot.target, robot.options, imports
+        arguments = robot.domain, content, file, robot.target, robot.options, imports, _STEP if options.curves else None
         (experiment,) = process.run(_experiments, *arguments, limits=limits)
     except UrdfsyncError as error:
         result.add(error.diagnostics)

@@ -50,7 +50,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
         show_result(console, result, strict=args.strict)
 
     try:
-        extra = {"tool": args.tool, "trusted": args.trusted}
+        extra = {"tool": args.tool, "trusted": args.trusted, "curves": args.report is not None}
         arguments.call(check, CheckOptions, args, console, on_result=show, **extra)
     finally:
         console.tell(closing_lines(results, strict=args.strict))

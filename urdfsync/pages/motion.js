@@ -86,24 +86,24 @@ function fillCharts(place, motion, seek, select) {
   return (time) => { for (const move of cursors) move(time); };
 }
 
-/* Fills the place of curves: of each joint the effort, of each link its place, beside the reference, and the error on a log scale. */
+/* Fills the place of curves: of each joint the effort, of each link place and axes, beside the reference, and the error on a log scale. */
 function fillCurves(place, curves, select) {
   const LEAST = 1e-17, rows = new Map();
   const error = ({ values, expected }) => values.reduce((worst, own, part) => own.map((value, time) =>
     Math.max(worst[time] ?? LEAST, Math.abs(value - expected[part][time]) || LEAST)), []).map(Math.log10);
-  const gapped = ({ times, values }) => { // between two instants all jumps
-    const ends = times.flatMap((time, at) => at && Math.round(time) !== Math.round(times[at - 1]) ? [at] : []);
-    return [times, values].map((list) => list.flatMap((value, at) => ends.includes(at) ? [list === times ? value : null, value] : [value]));
-  };
   for (const curve of curves) rows.set(curve.element, [...rows.get(curve.element) || [], curve]);
   for (const [element, every] of rows) {
-    const row = make("div", { class: "charts two" }, make("button", { type: "button", class: "name" }, nameOf(element), { click: () => select(element) }));
-    const [first] = every, parts = [...first.expected.map((values) => ["reference", values]), ...first.values.map((values) => ["curve", values])];
-    const errors = every.map((curve) => ["curve", error(curve)]), units = every.map((curve) => `${curve.quantity}${curve.unit && ` in ${curve.unit}`}`);
-    for (const [drawn, words] of [[parts, `${units[0]}, the reference broad`], [errors, `error of ${units.join(" and ")}, 10^${rangeOf(errors.flatMap(([, values]) => values)).map(Math.round).join(" … 10^")} on a log scale`]]) {
-      const lines_ = drawn.map(([kind, values]) => [kind, ...gapped({ times: first.times, values })]);
-      const [picture] = chart(lines_[0][1], lines_.map(([kind, , values]) => [kind, values]), [], `${nameOf(element)}: ${words}`);
-      row.append(make("figure", {}, [picture, make("figcaption", {}, words)]));
+    const row = make("div", { class: "charts" }, make("button", { type: "button", class: "name" }, nameOf(element), { click: () => select(element) }));
+    const words = every.map(({ quantity, unit }) => `${quantity}${unit && ` in ${unit}`}`), { times } = every[0], span = `${times[0]} … ${times[times.length - 1]} s`;
+    const pictures = every.map(({ values, expected }, at) => {
+      const [least, greatest] = rangeOf(expected.flat()).map((value) => Number(value.toPrecision(3)));
+      return [[...expected.map((part) => ["reference", part]), ...values.map((part) => ["curve", part])], `${words[at]}, ${least} … ${greatest}, ${span}`];
+    });
+    const errors = every.map((curve, at) => [at ? "curve second" : "curve", error(curve)]), ends = rangeOf(errors.flatMap(([, values]) => values)).map(Math.round);
+    pictures.push([errors, `error of ${words.join(" and, in green, ")}, 10^${ends.join(" … 10^")} on a log scale`]);
+    for (const [lines, caption] of pictures) {
+      const [picture] = chart(times, lines, [], `${nameOf(element)}: ${caption}`);
+      row.append(make("figure", {}, [picture, make("figcaption", {}, caption)]));
     }
     place.append(row);
   }

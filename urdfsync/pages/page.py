@@ -70,11 +70,12 @@ def page(
     environment = html_environment(_FOLDER)
     environment.filters |= {"words": words, "findings": findings_table}
     environment.globals |= {"difference_lines": _difference, "settle_hint": settle_hint}
+    curves = check.tools[0].curves if check and check.tools else ()
     data = {name: getattr(content, name) for name in _DATA} | {
         "robot": content.robot.name,
         "meshes": {name: [len(mesh.points), len(mesh.faces)] for name, mesh in content.meshes.items()},
         "motion": simulation and _motion(simulation),
-        "curves": check.tools[0].curves if check and check.tools else (),
+        "curves": curves,
         "build": build,
     }
     text = environment.get_template("page.html.jinja").render(
@@ -95,6 +96,7 @@ def page(
         check=check,
         check_section=check and check_section(check, strict=False),
         compared=_compared(check) if check else (),
+        has_curves=bool(curves),
         follows=build is not None,
         library=library,
     )

@@ -230,12 +230,18 @@ class UrdfDomain(Domain):
         return package.record(robot, target, options), tuple(findings)
 
     def experiment(
-        self, content: bytes, file: str, target: Target, options: Options, imports: Mapping[str, Import]
+        self,
+        content: bytes,
+        file: str,
+        target: Target,
+        options: Options,
+        imports: Mapping[str, Import],
+        step: float | None = None,
     ) -> Experiment | str:
         """Return the comparison with Pinocchio, or why a robot has none, such as one with planar or floating joints."""
         from urdfsync.urdf.physics.experiment import experiment  # with numpy, which no build needs
 
-        return experiment(content, file, target, options, imports)
+        return experiment(content, file, target, options, imports, step)
 
     def wiring(
         self, texts: Mapping[str, bytes], snapshot: Snapshot, target: Target, options: Options

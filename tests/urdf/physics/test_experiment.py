@@ -29,8 +29,8 @@ ELBOW = robot(link("base", 4.0), link("arm", 2.5), joint("elbow", "revolute", "b
 BARE = robot(link("base"), link("arm"), joint("elbow", "continuous", "base", "arm"))
 
 
-def experiment(urdf: str, **options: Any) -> Experiment:
-    found = DOMAIN.experiment(urdf.encode(), "robot.urdf", BOT, Options(**options), {})
+def experiment(urdf: str, step: Any = None, **options: Any) -> Experiment:
+    found = DOMAIN.experiment(urdf.encode(), "robot.urdf", BOT, Options(**options), {}, step)
     assert isinstance(found, Experiment)
     return found
 
@@ -134,6 +134,23 @@ def test_a_robot_with_loops_is_moved_by_its_states_and_its_loops_are_compared(ba
     assert "crank_pivot(w_start" in free.probe.source, "it begins where the loop is closed"
     assert "the limits of joints in loops beyond where crank_pivot moves them" in one.unchecked
     assert "the record, which has no loops" in one.unchecked
+
+
+@pytest.mark.parametrize(("urdf", "options"), [(ARM, {}), (to_urdf(FOUR_BAR), to_options(FOUR_BAR))])
+def test_with_a_step_poses_and_efforts_are_expected_over_time_and_the_verdict_stays(
+    urdf: str, options: dict[str, Any]
+) -> None:
+    motion, plain = (experiment(urdf, step, **options).trials[0] for step in (0.2, None))
+    assert (motion.compared, motion.probe.source) == (plain.compared, plain.probe.source)
+    assert repr(motion.expected) == repr(plain.expected)  # NaN is among them
+    assert (motion.probe.step, plain.probe.step, plain.over_time) == (0.2, 1.0, ())
+    assert {each.quantity for each in motion.over_time} == {Quantity.POSITION, Quantity.ORIENTATION, Quantity.EFFORT}
+    for each in motion.over_time:
+        assert each.instants == pytest.approx([0.2 * k for k in range(21)])
+        for name in each.values:
+            drawn = motion.expected_over_time[name]
+            assert drawn[::5] == pytest.approx(motion.expected[name][:5], abs=1e-12)
+            assert len(drawn) == 21
 
 
 def test_a_package_without_joints_is_moved_without_the_record_that_it_does_not_have() -> None:

@@ -27,7 +27,12 @@ _MOST_AXES = 20
 
 
 def experiment(
-    content: bytes, file: str, target: Target, options: Options, imports: Mapping[str, Import]
+    content: bytes,
+    file: str,
+    target: Target,
+    options: Options,
+    imports: Mapping[str, Import],
+    step: float | None = None,
 ) -> Experiment | str:
     """Return the comparison, see `urdfsync.domain.Domain.experiment`. Links that move without any mass get inertias.
 
@@ -53,7 +58,7 @@ def experiment(
             return "Pinocchio closes its loops neither where they start nor around"
         for approach in options.approach:
             if approach == "package" or not tree.loops:
-                trials += _trials(subject, approach)
+                trials += _trials(subject, approach, step)
     return Experiment(
         reference=f"Pinocchio {pinocchio().__version__}",
         content=completed,
@@ -64,7 +69,7 @@ def experiment(
     )
 
 
-def _trials(subject: Subject, approach: str) -> Iterator[Trial]:
+def _trials(subject: Subject, approach: str, step: float | None) -> Iterator[Trial]:
     """Yield the simulations for one approach, that of all instants first."""
     names = probe.robot_variables(subject, approach)
     label = " of the record" if len(subject.options.approach) > 1 and approach == "record" else ""
@@ -79,9 +84,11 @@ def _trials(subject: Subject, approach: str) -> Iterator[Trial]:
         pairs += quantities.loops(subject, names)
         limits += quantities.limits(subject)
     needed, optional = ([v for compared, _ in some for v in compared.values] for some in (pairs, limits))
-    moving = probe.moving_probe(subject, names, geared, needed, optional)
+    moving = probe.moving_probe(subject, names, geared, needed, optional, step or 1.0)
     table = quantities.table([*pairs, *limits], list(map(float, Instant)))
-    every = [Trial(f"motion{label}", moving, *table)]
+    over_time = list(quantities.over_time(subject, names, step)) if step else []
+    times = over_time[0][0].instants if over_time else ()
+    every = [Trial(f"motion{label}", moving, *table, *quantities.table(over_time, times))]
     if approach == "record" or len(subject.axes) <= _MOST_AXES:
         every += _free(subject, names, f"free motion{label}")
     for each in every:

@@ -35,6 +35,17 @@ class Course(NamedTuple):
         position = self.position + self.speed * time + self.acceleration * time**2 / 2
         return Course(position, self.speed + self.acceleration * time, self.acceleration)
 
+    def toward(self, goal: Course, time: float) -> Course:
+        """Return it on its way to `goal`, one second later, with the speed and the acceleration of both."""
+        here, end = self.ahead(time), self.ahead(1.0)
+        d, v, a = (there - left for there, left in zip(goal, end, strict=True))
+        c3, c4, c5 = 10 * d - 4 * v + a / 2, 7 * v - 15 * d - a, 6 * d - 3 * v + a / 2
+        return Course(
+            here.position + time**3 * (c3 + time * (c4 + time * c5)),
+            here.speed + time**2 * (3 * c3 + time * (4 * c4 + time * 5 * c5)),
+            here.acceleration + time * (6 * c3 + time * (12 * c4 + time * 20 * c5)),
+        )
+
 
 class Instant(enum.IntEnum):
     """What is looked at when, in s.

@@ -98,11 +98,16 @@ def robot_variables(subject: Subject, approach: str) -> RobotVariables:
 
 
 def moving_probe(
-    subject: Subject, names: RobotVariables, gears: Iterable[str], values: Iterable[str], optional: Iterable[str]
+    subject: Subject,
+    names: RobotVariables,
+    gears: Iterable[str],
+    values: Iterable[str],
+    optional: Iterable[str],
+    step: float,
 ) -> Probe:
     """Return a model in which base and axes of the robot move through all instants.
 
-    If it stands, the ground is where the robot touches it at last.
+    If it stands, the ground is where the robot touches it at last. `step` is that of the results, in s.
     """
     target, options = subject.target, subject.options
     world = f"n = {{0, 0, -1}}, g = {motion.GRAVITY!r}, enableAnimation = false"
@@ -136,7 +141,7 @@ def moving_probe(
     last = float(max(motion.Instant))
     # loops are closed by integration: what it leaves open shows in accelerations, by the square of its rate of decay
     tolerance = 1e-11 if subject.tree.loops else None
-    return Probe(source, "Probe_.Probe", last, 1.0, tuple(values), tuple(optional), tolerance)
+    return Probe(source, "Probe_.Probe", last, step, tuple(values), tuple(optional), tolerance)
 
 
 def free_probe(

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import TypeAlias
 
+import msgspec
 import numpy as np
 
 from urdfsync.domain import Compared, Part, Quantity
 from urdfsync.urdf.kinematics.poses import own_range
 from urdfsync.urdf.physics import motion, probe
+from urdfsync.urdf.physics.closing import OpenLoopError
 from urdfsync.urdf.physics.motion import COMPARED, Instant
 from urdfsync.urdf.physics.probe import CENTRE, FORCE, MASS, TORQUE, RobotVariables
 from urdfsync.urdf.physics.reference import Gear, Solution
@@ -38,23 +41,41 @@ def poses(
 def bodies(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
     """Yield poses, efforts of the axes, what holds the root, and the mass."""
     root, solved = f"link {subject.tree.links[0].name}", [subject.solved[time] for time in COMPARED]
+    joints = {f"joint {joint.name}": joint for joint in subject.tree.joints}
     yield from poses(subject, names, solved, COMPARED, Part.BODIES)
-    for joint in subject.tree.joints:
-        if joint.name not in subject.reference.axes:
-            continue
-        unit, effort = ("N·m", "tau") if MOTION_KINDS[joint.type] == "rotational" else ("N", "f")
-        number = subject.reference.axes.index(joint.name)
-        value, efforts = (f"{names.flanges[joint.name]}.{effort}",), [[i.efforts[number]] for i in solved]
+    for compared, efforts in _efforts(subject, names, solved, COMPARED):
+        joint = joints[compared.element]
         losses = Part.LOSSES if joint.dynamics or joint.transmission else Part.BODIES
         # at rest no joint has losses
         for times, part in ((slice(0, 1), Part.BODIES), (slice(1, None), losses)):
-            compared = Compared(Quantity.EFFORT, f"joint {joint.name}", unit, value, COMPARED[times], part)
-            yield compared, efforts[times]
+            yield msgspec.structs.replace(compared, instants=COMPARED[times], part=part), efforts[times]
     yield Compared(Quantity.REACTION, root, "N", FORCE, COMPARED), [-instant.force for instant in solved]
     yield Compared(Quantity.REACTION, root, "N·m", TORQUE, COMPARED), [-instant.torque for instant in solved]
     masses = [instant.mass_and_centre() for instant in solved]
     yield Compared(Quantity.MASS, "robot", "kg", MASS, COMPARED), [[mass] for mass, _ in masses]
     yield Compared(Quantity.CENTRE, "robot", "m", CENTRE, COMPARED), [centre for _, centre in masses]
+
+
+def _efforts(
+    subject: Subject, names: RobotVariables, solved: Sequence[Solution], times: tuple[float, ...]
+) -> Iterator[tuple[Compared, Sequence[Sequence[float]]]]:
+    for joint in subject.tree.joints:
+        if joint.name in subject.reference.axes:
+            unit, effort = ("N·m", "tau") if MOTION_KINDS[joint.type] == "rotational" else ("N", "f")
+            number, value = subject.reference.axes.index(joint.name), (f"{names.flanges[joint.name]}.{effort}",)
+            compared = Compared(Quantity.EFFORT, f"joint {joint.name}", unit, value, times)
+            yield compared, [[float(each.efforts[number])] for each in solved]
+
+
+def over_time(subject: Subject, names: RobotVariables, step: float) -> Iterator[Pair]:
+    """Yield poses and efforts every `step` s, where the reference closes the loops."""
+    solved = dict[float, Solution]()
+    for k in range(round(Instant.TURNED / step) + 1):
+        with contextlib.suppress(OpenLoopError):
+            solved[k * step] = subject.solve_at(k * step)
+    every, times = [*solved.values()], tuple(solved)
+    yield from _efforts(subject, names, every, times)
+    yield from poses(subject, names, every, times, Part.BODIES)
 
 
 def loops(subject: Subject, names: RobotVariables) -> Iterator[Pair]:

@@ -20,7 +20,7 @@ from urdfsync.urdf.parse import xml
 from urdfsync.urdf.physics import contacts, motion
 from urdfsync.urdf.physics.closing import OpenLoopError
 from urdfsync.urdf.physics.motion import COMPARED, LOADS, Course, Instant
-from urdfsync.urdf.physics.reference import Configuration, Reference, read
+from urdfsync.urdf.physics.reference import Configuration, Reference, Solution, read
 from urdfsync.urdf.robot import Joint
 
 _SHARES = tuple(0.25**k for k in range(8))
@@ -101,6 +101,16 @@ class Subject:
 
     def _state(self, instant: Instant, courses: Sequence[Sequence[Course]]) -> Configuration:
         return self.reference.state([course[instant] for course in courses], [c[instant] for c in self.base])
+
+    def solve_at(self, time: float) -> Solution:
+        """Return what is expected at any time of the motion, as the probe's .mo files say it. Raises OpenLoopError."""
+        second = math.floor(time) if self.tree.loops else math.floor(time + 0.5)
+
+        def at(courses: Sequence[Course]) -> Course:
+            course, rest = courses[second], time - second
+            return course.toward(courses[second + 1], rest) if self.tree.loops else course.ahead(rest)
+
+        return self.reference.solve(self.reference.state([*map(at, self.courses)], [*map(at, self.base)]))
 
     def _put_down(self, imports: Mapping[str, Import]) -> None:
         """Put the robot on the ground, if it can be."""
