@@ -89,6 +89,8 @@ class Dependency(msgspec.Struct, frozen=True):
     """Whether it is found only in a folder that does not have the name of its package."""
     facts: tuple[str, ...] = ()
     """Names of the facts that artifacts need of it, where not all conversions have the same."""
+    is_for_picture: bool = False
+    """Whether it is converted for a picture alone, for which one that is too large is simplified."""
 
 
 class Conversion(msgspec.Struct, frozen=True):

@@ -9,12 +9,14 @@ import math
 import re
 import shutil
 import subprocess
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from html.parser import HTMLParser
 from pathlib import Path
+from typing import cast
 from xml.sax.saxutils import quoteattr
 
 import pytest
+import trimesh
 from support.commands import Execute
 from support.git import NEEDS_GIT, Repository
 
@@ -155,11 +157,30 @@ def test_a_mesh_that_is_missing_is_named(arm: Path, report: Report) -> None:
 def test_a_large_mesh_is_simplified_and_the_page_says_so(
     arm: Path, report: Report, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("urdfsync.urdf.meshes.simplify._MOST", 200)
+    monkeypatch.setattr("urdfsync.urdf.meshes.simplify.MOST", 200)
     page = read(report())
     assert re.search(
         r"Resources/\S*\.(stl|obj) is simplified for this page: \d+ of its [\d,]+ triangles are left", page.words
     )
+
+
+@pytest.mark.slow
+def test_a_mesh_that_is_too_large_for_the_package_is_simplified_and_one_that_is_damaged_is_not_shown(
+    tmp_path: Path, report: Report
+) -> None:
+    ball = trimesh.creation.icosphere(8)  # 1.3 million triangles
+    ball.export(tmp_path / "ball.ply")
+    (tmp_path / "damaged.stl").write_bytes(b"solid\n")
+    shapes = (
+        f'<visual><geometry><mesh filename="{name}" scale="2 2 2"/></geometry></visual>'
+        for name in ("ball.ply", "damaged.stl")
+    )
+    page = read(report(f'<robot name="ball"><link name="base">{"".join(shapes)}</link></robot>'))
+    assert "it has more than 1,000,000 triangles; left out" in page.words
+    assert "ball.ply is not in the package, and simplified for this page" in page.words
+    assert "link base, visual 2: mesh damaged.stl is not in the package" in page.words
+    ((_, faces),) = cast(Mapping[str, list[int]], data_of(page)["meshes"]).values()
+    assert 10_000 < faces <= 60_000
 
 
 def test_the_page_is_where_it_is_wanted_and_replaces_nothing_else(arm: Path, execute: Execute) -> None:

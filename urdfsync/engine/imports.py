@@ -100,6 +100,8 @@ class Imported(msgspec.Struct):
     imports: dict[str, Import] = msgspec.field(default_factory=dict)
     contents: dict[str, bytes] = msgspec.field(default_factory=dict)
     diagnostics: list[Diagnostic] = msgspec.field(default_factory=list)
+    refused: list[tuple[Dependency, Path]] = msgspec.field(default_factory=list)
+    """Files that were found, and could not be converted."""
 
     def add(self, key: str, entry: Import, content: bytes | None) -> None:
         """Add an import; `content` is None if it is not at hand."""
@@ -204,6 +206,7 @@ def _import(
     try:
         conversion = domain.convert(dependency, path, text, others)
     except SourceError as error:
+        result.refused.append((dependency, path))
         return unreadable(error.diagnostics[0].message, error.diagnostics[0].hint)
     for number, part in enumerate((conversion, *conversion.more)):
         key = further_key(dependency.key, number) if number else dependency.key

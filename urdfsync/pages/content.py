@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path, PurePosixPath
 
 import msgspec
@@ -11,8 +11,9 @@ import msgspec
 from urdfsync import registry
 from urdfsync.changes import Changes, compare
 from urdfsync.config import Config, RobotConfig
+from urdfsync.dependencies import read_file
 from urdfsync.diagnostics import UrdfsyncError
-from urdfsync.domain import ChangeClass, ChangeKind
+from urdfsync.domain import ChangeClass, ChangeKind, Domain, Import
 from urdfsync.engine.edits import RobotEdits, find_edited
 from urdfsync.engine.generation import Generation, generate_robot
 from urdfsync.engine.inputs import inspect
@@ -26,6 +27,9 @@ from urdfsync.output.sections import Section
 from urdfsync.scene import Scene, Triangles
 from urdfsync.versions.comparison import Contents, compare_sources
 from urdfsync.versions.report import to_section
+
+_MOST_REFUSED = 4
+"""Files that are tried once more for the picture: each may take 16 s."""
 
 
 class Content(msgspec.Struct, frozen=True):
@@ -90,7 +94,9 @@ def gather(
         older, changes = other, compare(other[0], version[0], domain, robot.options, same)
         told = msgspec.structs.replace(result, changes=changes)
         compared = msgspec.structs.replace(compared, result=told, against="the picture before")
-    now = domain.scene(version[0].snapshot, version[0].imports or {}, robot.target, robot.options)
+    imports, files = {**generation.imported.imports}, {**version[1]}
+    simplified = list(_add_refused(generation, domain, imports, files))
+    now = domain.scene(version[0].snapshot, imports, robot.target, robot.options)
     if now is None:
         message = f"packages of the domain `{robot.domain}` have no picture"
         raise UrdfsyncError.of("no-picture", message, shown(robot.source))
@@ -98,7 +104,7 @@ def gather(
         old, options_then = older[0], older[0].options or robot.options
         with contextlib.suppress(*NO_MODEL):  # what is recorded may be no model
             before = domain.scene(old.snapshot, old.imports or {}, robot.target, options_then)
-    contents = [_meshes(now, version), _meshes(before, older)]
+    contents = [_meshes(now, (version[0], files)), _meshes(before, older)]
     paths = {name: path for every in contents for path, (name, _) in every.items()}
     meshes, problems = domain.triangles({name: content for every in contents for name, content in every.values()})
     names_now, names_before = ({path: name for path, (name, _) in every.items()} for every in contents)
@@ -123,6 +129,7 @@ def gather(
         conflicts=find_conflicts([result]),
         notes=(
             *now.missing,
+            *simplified,
             *(f"{paths[name]} can't be shown: {problem}" for name, problem in problems.items()),
             # triangles without area are left out of every mesh
             *(
@@ -144,6 +151,20 @@ def _last_build(generation: Generation) -> Contents | None:
         if content is not None and digest(content) == entry.target_hash:
             contents[entry.target] = content
     return last.version, contents
+
+
+def _add_refused(
+    generation: Generation, domain: Domain, imports: dict[str, Import], contents: dict[str, bytes]
+) -> Iterator[str]:
+    """Add files that are too large for the package, simplified for the picture; yield what to say of that."""
+    for dependency, file in generation.imported.refused[:_MOST_REFUSED]:
+        if dependency.key not in imports:  # else the copy of an earlier build is there
+            wanted = msgspec.structs.replace(dependency, is_for_picture=True)
+            with contextlib.suppress(UrdfsyncError, OSError):  # it is damaged, and the findings say so
+                conversion = domain.convert(wanted, file, read_file(file), {})
+                imports[dependency.key] = Import(dependency.target, "", "", None, conversion.facts)
+                contents[dependency.target] = conversion.content
+                yield f"`{dependency.uri}` is not in the package, and simplified for this page"
 
 
 def _meshes(scene: Scene | None, version: Contents | None) -> dict[str, tuple[str, bytes]]:

@@ -12,6 +12,9 @@ from urdfsync.urdf.meshes.process import MeshError, MeshProcess, Request, is_bin
 
 _FORMATS = (".dae", ".glb", ".gltf", ".obj", ".off", ".ply", ".stl")
 
+MOST = 60_000
+"""Triangles of one mesh in a picture: a page has some 13 bytes for each."""
+
 _process = MeshProcess()
 
 
@@ -32,9 +35,10 @@ def convert(dependency: Dependency, file: Path, content: bytes, others: Mapping[
     try:
         if suffix not in _FORMATS:
             raise MeshError(f"its format isn't one of {', '.join(_FORMATS)}")  # noqa: TRY301 - told as what the process finds
-        colors = next((name for name in (lookup.PARTS, lookup.COLORS) if name in dependency.facts), "")
+        most = MOST if dependency.is_for_picture else 0
+        colors = next((name for name in (lookup.PARTS, lookup.COLORS) if name in dependency.facts and not most), "")
         is_obj = suffix == ".obj" and lookup.as_is(mesh)
-        request = Request(suffix, mesh.scale, lookup.HULL in dependency.facts, colors, is_obj)
+        request = Request(suffix, mesh.scale, lookup.HULL in dependency.facts, colors, is_obj, most)
         (whole, facts), *parts = _process.read(request, content, others)
     except MeshError as error:
         message = f"the mesh {mesh.filename} can't be read: {error}"
@@ -42,7 +46,7 @@ def convert(dependency: Dependency, file: Path, content: bytes, others: Mapping[
         raise SourceError(Diagnostic(Severity.ERROR, "unreadable-mesh", message, str(file), hint=hint)) from error
     is_split = colors == lookup.PARTS and parts
     more = tuple(Conversion(part, its_facts) for part, its_facts in parts)
-    return Conversion(content if lookup.as_is(mesh) and not is_split else whole, facts, more)
+    return Conversion(content if lookup.as_is(mesh) and not (is_split or most) else whole, facts, more)
 
 
 def as_stl(suffix: str, content: bytes) -> bytes:

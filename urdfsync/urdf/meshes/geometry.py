@@ -51,12 +51,12 @@ def placed(mesh: Triangles, pose: Array) -> Triangles:
     return Triangles(points, mesh.faces[:, ::-1] if np.linalg.det(pose[:3, :3]) < 0 else mesh.faces)
 
 
-def joined(parts: Sequence[Triangles]) -> Triangles:
+def joined(parts: Sequence[Triangles], most: float = MAX_TRIANGLES) -> Triangles:
     """Return all triangles as one mesh. Raises MeshError for none or too many, and for a corner that is no point."""
     triangles = sum(len(part.faces) for part in parts)
     if not triangles:
         raise MeshError("it has no triangles")
-    if triangles > MAX_TRIANGLES:
+    if triangles > most:
         raise MeshError(f"it has more than {MAX_TRIANGLES:,} triangles")
     for part in parts:
         if len(part.faces) and (part.faces.min() < 0 or part.faces.max() >= len(part.points)):

@@ -16,6 +16,8 @@ from urdfsync.diagnostics import cut
 from urdfsync.processes import importable, python_module
 from urdfsync.urdf.robot import Vector
 
+FOR_PICTURE = 4
+"""So many times the limits below hold for a mesh that is simplified."""
 CPU_SECONDS = 4.0
 """CPU time for one mesh, on Linux and macOS. A command with one such mesh stays below 5 s."""
 MEMORY = 450_000_000
@@ -50,6 +52,8 @@ class Request(msgspec.Struct, frozen=True):
     """Name of the fact that tells the colours, see `lookup.PARTS`; empty if they are not wanted."""
     as_obj: bool = False
     """Whether the parts of a mesh are OBJ, and not STL."""
+    most: int = 0
+    """Triangles of a picture, to which any number is simplified; 0 refuses a mesh that is too large for a package."""
     size: int = 0
     """Size of the mesh in bytes; `MeshProcess` fills in this field and those below."""
     others: Mapping[str, int] = {}
@@ -93,7 +97,9 @@ class MeshProcess:
         """
         others = others or {}
         sizes = {name: len(other) for name, other in others.items()}
-        request = msgspec.structs.replace(request, size=len(content), others=sizes, seconds=CPU_SECONDS)
+        request = msgspec.structs.replace(
+            request, size=len(content), others=sizes, seconds=CPU_SECONDS * (FOR_PICTURE if request.most else 1)
+        )
         with self._lock:
             process = self._process = self._process or self._start()
             timer = threading.Timer(WALL_SECONDS, process.kill)

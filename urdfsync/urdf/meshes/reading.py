@@ -15,7 +15,7 @@ import trimesh
 
 from urdfsync.diagnostics import cut
 from urdfsync.urdf.meshes.collada import collada_parts
-from urdfsync.urdf.meshes.geometry import Triangles, joined, placed
+from urdfsync.urdf.meshes.geometry import MAX_TRIANGLES, Triangles, joined, placed
 from urdfsync.urdf.meshes.materials import Color, library_colors, number_materials
 from urdfsync.urdf.meshes.process import MeshError, is_binary_stl
 
@@ -39,11 +39,11 @@ class _Files(dict[str, bytes]):
         raise MeshError(f"it needs another file, {name}")
 
 
-def read_mesh(suffix: str, content: bytes) -> Triangles:
+def read_mesh(suffix: str, content: bytes, most: float = MAX_TRIANGLES) -> Triangles:
     """Read all triangles, moved by the nodes of their scene; in metres, or the file's unit. Raises MeshError."""
     with _damage_is_an_error():
         parts = collada_parts(content) if suffix == ".dae" else _parts(suffix, content)
-        mesh = joined([triangles for _, triangles in parts])
+        mesh = joined([triangles for _, triangles in parts], most)
         if len(mesh.faces) < _announced(suffix, content):  # trimesh passes over those that are missing
             raise MeshError("its end is missing")
     gc.collect()  # scenes refer to themselves, and hold copies of large meshes
