@@ -35,7 +35,7 @@ from urdfsync.urdf.diff.renames import find_renames
 from urdfsync.urdf.drives import dependent_joints
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.loop_findings import find_loop_findings
-from urdfsync.urdf.meshes.lookup import COLORLESS, TEXTURED, dependencies, mentioned_files, mesh
+from urdfsync.urdf.meshes.lookup import COLORLESS, GLTF, TEXTURED, dependencies, mentioned_files, mesh, suffix
 from urdfsync.urdf.names import identify
 from urdfsync.urdf.options import LeftOut, Options
 from urdfsync.urdf.parse import beside
@@ -123,8 +123,9 @@ class UrdfDomain(Domain):
         return dependencies(snapshot["links"], kinds, lookup, lines, touches=options.base == "floating")
 
     def mentioned(self, dependency: Dependency, file: str, content: bytes) -> Sequence[str]:
-        """Return the libraries of materials and the textures of a mesh whose own colours are drawn."""
-        return mentioned_files(file, content) if TEXTURED in dependency.facts else ()
+        """Return the buffers of a glTF file, and materials and textures of a mesh whose own colours are drawn."""
+        is_needed = TEXTURED in dependency.facts or suffix(dependency.uri) == GLTF
+        return mentioned_files(file, content) if is_needed else ()
 
     def convert(self, dependency: Dependency, file: Path, content: bytes, others: Mapping[str, bytes]) -> Conversion:
         """Return a mesh as STL or OBJ, with its bounds and its outermost points, and by its colours."""

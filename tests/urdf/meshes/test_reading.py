@@ -11,6 +11,7 @@ import pytest
 import trimesh
 
 from urdfsync.urdf.meshes.geometry import Array, import_form
+from urdfsync.urdf.meshes.lookup import mentioned_files
 from urdfsync.urdf.meshes.process import MeshError
 from urdfsync.urdf.meshes.reading import read_mesh
 
@@ -87,6 +88,19 @@ def test_scene_of_gltf_places_its_meshes() -> None:
     scene = trimesh.Scene()
     scene.add_geometry(BOX, transform=trimesh.transformations.translation_matrix((10, 20, 30)))
     assert _read(".glb", bytes(scene.export(file_type="glb"))).reshape(-1, 3).mean(axis=0).tolist() == [10, 20, 30]
+
+
+def test_a_buffer_of_gltf_may_be_a_file_below_its_folder() -> None:
+    buffers = trimesh.Scene([BOX]).export(file_type="gltf")
+    content = buffers.pop("model.gltf")
+    assert mentioned_files("arm.gltf", content) == [*buffers]
+    mesh = read_mesh(".gltf", content, buffers)
+    assert _sorted(mesh.points[mesh.faces]) == _sorted(BOX.triangles)
+    for missing in ({}, dict.fromkeys(buffers, b"")):
+        with pytest.raises(MeshError, match="another file, "):
+            read_mesh(".gltf", content, missing)
+    for elsewhere in ("../a.bin", "b/../../a.bin", "/a.bin", "https://host/a.bin", "a.png"):
+        assert mentioned_files("arm.gltf", b'{"buffers": [{"uri" : "%s"}]}' % elsewhere.encode()) == []
 
 
 VERTICES = b"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"

@@ -34,6 +34,7 @@ found, `colorless` which colours were not, in words.
 """
 COLORED = (".dae", ".obj")
 """Formats whose colours are drawn."""
+GLTF = ".gltf"
 AS_IS = (".stl", ".obj")
 """Formats that Modelica tools draw, and that are imported as they are unless they are scaled."""
 
@@ -44,8 +45,9 @@ _MENTIONS = {
     ".obj": re.compile(rb"^[ \t]*mtllib[ \t]([^\r\n]+)", re.MULTILINE),
     ".mtl": re.compile(rb"^[ \t]*map_Kd[ \t]([^\r\n]+)", re.MULTILINE),
     ".dae": re.compile(rb"<init_from>([^<>]+)</init_from>"),
+    GLTF: re.compile(rb'"uri"\s*:\s*"([^":]+\.bin)"'),
 }
-"""Names of libraries of materials and of textures, in files of each suffix."""
+"""Names of libraries of materials, of textures and of buffers, in files of each suffix."""
 _LIBRARY = re.compile(rb"(?i)\S.*?\.mtl(?=\s|$)|\S.*")
 """One of the libraries that a line names; names may have blanks in them."""
 _TEXTURE_OPTION = re.compile(r"-[a-zA-Z]+|[-+.\deE]+|on|off")
@@ -85,7 +87,7 @@ def _has_colors(mesh: Mesh, visual: Mapping[str, Any]) -> bool:
 
 
 def mentioned_files(file: str, content: bytes) -> list[str]:
-    """Return the files that have a part in the colours of a mesh, by their paths from its folder.
+    """Return the buffers of a mesh and the files that have a part in its colours, by their paths from its folder.
 
     `file` is the path of the mesh, or of its library of materials, which names files from its own folder.
     """
@@ -95,7 +97,8 @@ def mentioned_files(file: str, content: bytes) -> list[str]:
     if suffix == ".obj":
         mentions = [library for line in mentions for library in _LIBRARY.findall(line)]
     names = dict.fromkeys(map(path_of_mention, mentions))
-    return [str(path.parent / name) for name in names if name]
+    # a buffer without which there is no mesh is looked for below its folder alone
+    return [str(path.parent / name) for name in names if name and not (suffix == GLTF and ".." in name.split("/"))]
 
 
 def path_of_mention(mention: bytes) -> str:

@@ -39,10 +39,15 @@ class _Files(dict[str, bytes]):
         raise MeshError(f"it needs another file, {name}")
 
 
-def read_mesh(suffix: str, content: bytes, most: float = MAX_TRIANGLES) -> Triangles:
-    """Read all triangles, moved by the nodes of their scene; in metres, or the file's unit. Raises MeshError."""
+def read_mesh(
+    suffix: str, content: bytes, others: Mapping[str, bytes] | None = None, most: float = MAX_TRIANGLES
+) -> Triangles:
+    """Read all triangles, moved by the nodes of their scene; in metres, or the file's unit. Raises MeshError.
+
+    `others` has the buffers of a glTF file.
+    """
     with _damage_is_an_error():
-        parts = collada_parts(content) if suffix == ".dae" else _parts(suffix, content)
+        parts = collada_parts(content) if suffix == ".dae" else _parts(suffix, content, buffers=others)
         mesh = joined([triangles for _, triangles in parts], most)
         if len(mesh.faces) < _announced(suffix, content):  # trimesh passes over those that are missing
             raise MeshError("its end is missing")
@@ -96,10 +101,14 @@ def _damage_is_an_error() -> Iterator[None]:
 
 
 def _parts(
-    suffix: str, content: bytes, colors: Mapping[bytes, Color] | None = None
+    suffix: str,
+    content: bytes,
+    colors: Mapping[bytes, Color] | None = None,
+    buffers: Mapping[str, bytes] | None = None,
 ) -> Iterator[tuple[Color | None, Triangles]]:
     """Yield the triangles of a file; of an OBJ file by its materials, if their `colors` are wanted."""
-    files, by_name = dict[str, bytes](), dict[str, Color | None]()
+    files = {name: buffer for name, buffer in (buffers or {}).items() if buffer}
+    by_name = dict[str, Color | None]()
     if suffix == ".stl":
         content = _one_solid(content)
     if suffix == ".obj":
@@ -119,7 +128,7 @@ def _parts(
         file_type=suffix[1:],
         resolver=_Files(files),
         process=False,
-        skip_materials=not files,
+        skip_materials=not colors,
     )
     for color in dict.fromkeys(by_name.values()):  # in the order of the file, which trimesh turns around
         yield color, Triangles(np.empty((0, 3)), np.empty((0, 3), dtype=np.int64))

@@ -49,7 +49,7 @@ def _answer(request: Request, content: bytes, others: Mapping[str, bytes]) -> tu
     try:
         with limits(request.seconds, MEMORY * (FOR_PICTURE if request.most else 1)):
             if not request.colors:
-                read = read_mesh(request.suffix, content, math.inf if request.most else geometry.MAX_TRIANGLES)
+                read = read_mesh(request.suffix, content, others, math.inf if request.most else geometry.MAX_TRIANGLES)
                 mesh, facts = geometry.import_form(read, request.scale, request.with_hull)
                 if request.most:
                     coarse = simplify.merged(mesh.points, mesh.faces, request.most)
