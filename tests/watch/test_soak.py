@@ -204,7 +204,7 @@ def _compare(project: Path, fresh: Path, tags: set[str]) -> Iterator[str]:
     done = _urdfsync(project, "build", "--check", "--json")
     document = json.loads(done.stdout)
     if done.returncode not in (0, 3):
-        yield f"out of step: {[robot['summary'] for robot in document['robots']]} {document['diagnostics']}"
+        yield f"out of step: {[robot['summary'] for robot in document['results']]} {document['diagnostics']}"
     everything = "".join(path.read_text() for path in (project / "modelica").rglob("*.mo*"))  # `.mo.saved`, too
     yield from (f"lost: {tag}" for tag in sorted(tags - set(TAG.findall(everything))))
     shutil.copytree(project, fresh, ignore=shutil.ignore_patterns("modelica", ".urdfsync"))
@@ -214,7 +214,7 @@ def _compare(project: Path, fresh: Path, tags: set[str]) -> Iterator[str]:
         yield from (f"not resolved: {one['path']}" for one, is_edited in zip(robot["conflicts"], edited, strict=True)
                     if not is_edited)  # fmt: skip
         if not robot["conflicts"]:  # which keep the rest of their robot waiting
-            place = f"modelica/{robot['name'].capitalize()}"
+            place = f"modelica/{robot['robot'].capitalize()}"
             yield from _differences(project / place, fresh / place)
 
 
