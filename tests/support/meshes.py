@@ -107,7 +107,7 @@ HOSTILE: dict[str, tuple[str | bytes | Callable[[Path], None], str]] = {
     "accessor.gltf": (gltf([{"mesh": 0}], [0], 400_000_000), LIMITS),
     "corners.obj": (VERTICES + b"f " + b"1 2 3 " * 1_500_000, TRIANGLES),
     "lines.obj": (b"\n" * 40_000_000, f"{LIMITS}|no triangles"),
-    "corners.stl": (b"solid a\n" + b"vertex " * 6_000_000 + b"\nendsolid a\n", LIMITS),
+    "corners.stl": (b"solid a\n" + b"vertex " * 6_000_000 + b"\nendsolid a\n", f"{LIMITS}|no triangles"),
     "triangles.stl": (bytes(80) + struct.pack("<I", 1_500_000) + bytes(75_000_000), f"{LIMITS}|{TRIANGLES}"),
     "sparse.stl": (_sparse, "more than 100,000,000 bytes"),
     "sparse.dae": (_sparse, "more than 100,000,000 bytes"),
