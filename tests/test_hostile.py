@@ -15,10 +15,10 @@ import sys
 import time
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
 import pytest
 from support import hostile
+from support.cases import sampled
 from support.git import NEEDS_GIT, Repository
 from support.workplace import WATCH, Workplace, changes, check_output, contents
 
@@ -79,15 +79,11 @@ def _attack(
 
 ATTACKS = [name for name in hostile.ATTACKS if name not in ("modules", "a domain of the repository")]
 """In this process: modules of the working folder can only meet programs."""
+BIG = [name for name in ATTACKS if any(word in name for word in LARGE)]
+OTHERS = [name for name in ATTACKS if name not in BIG]
 
 
-def _marked(mark: pytest.MarkDecorator, every: int) -> list[Any]:
-    """The attacks as parameters; one of so many stays without a mark, if it is none of the large ones."""
-    is_marked = [number % every or any(word in name for word in LARGE) for number, name in enumerate(ATTACKS)]
-    return [pytest.param(name, marks=[mark] if long else []) for name, long in zip(ATTACKS, is_marked, strict=True)]
-
-
-@pytest.mark.parametrize("name", _marked(pytest.mark.slow, 1))
+@pytest.mark.parametrize("name", [*OTHERS, *(pytest.param(name, marks=pytest.mark.slow) for name in BIG)])
 def test_an_attack_meets_a_build(tmp_path: Path, stale: Path, name: str) -> None:
     work = Workplace(tmp_path)
     _attack(work, stale, name, READING[:1], READ, afresh=False)
@@ -95,7 +91,7 @@ def test_an_attack_meets_a_build(tmp_path: Path, stale: Path, name: str) -> None
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", _marked(pytest.mark.large, 3))
+@pytest.mark.parametrize("name", [*sampled(OTHERS, 3), *(pytest.param(name, marks=pytest.mark.large) for name in BIG)])
 def test_an_attack_meets_every_other_command(tmp_path: Path, stale: Path, name: str) -> None:
     work = Workplace(tmp_path)
     _attack(work, stale, name, READING[1:], READ, afresh=False)
