@@ -158,8 +158,8 @@ def test_commands_that_plan_have_the_document_of_a_build(folder: Path, execute: 
 
 def test_saved_texts_are_where_a_conflict_says(folder: Path, execute: Execute) -> None:
     edited(folder)
-    ((conflict,),) = (robot["conflicts"] for robot in printed(execute, folder, "build")["results"])
-    assert all((folder / conflict[name]).is_file() for name in ("base", "generated", "merge"))
+    ((conflict,),) = (robot["disputed"] for robot in printed(execute, folder, "build")["results"])
+    assert all((folder / conflict["saved"][name]).is_file() for name in ("base", "generated", "merge"))
 
 
 def watched(folder: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> list[Any]:
@@ -195,20 +195,18 @@ def test_watch(folder: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) 
     events_of_session = [{**event, "time": ""} for event in found]
     assert all({**event, "time": ""} in events_of_session for event in SESSION)
     (built,) = (event for event in found if event["event"] == "built" and event["files"])
-    assert [action["reason"] for action in built["actions"]] == ["update"]
+    assert [action["reason"] for action in built["result"]["actions"]] == ["update"]
     assert_event_has_its_keys(found)
 
 
 def assert_event_has_its_keys(found: list[Any]) -> None:
-    """Each event has the keys that its row of the table names, those of a robot included."""
+    """Each event has the keys that its row of the table names."""
     rows = re.findall(r"^\| .* \| `(\w+)` \| (.*)\|$", SECTIONS["watch"], re.MULTILINE)
-    table = {event: (set(re.findall(r"`(\w+)`", cell)), "those of a robot" in cell) for event, cell in rows}
-    result = set(BUILD["results"][0])
+    table = {event: set(re.findall(r"`(\w+)`", cell)) for event, cell in rows}
     for event in found:
-        own, has_result = table[event["event"]]
-        own -= {"unchanged"}
-        assert event.keys() == {"version", "event", "time"} | own | (result if has_result else set()), event["event"]
-    assert named("watch") >= {key for own, _ in table.values() for key in own} - {"unchanged", "diagnostics"}
+        own = table[event["event"]] - {"unchanged"}
+        assert event.keys() == {"version", "event", "time"} | own, event["event"]
+    assert named("watch") >= {key for own in table.values() for key in own} - {"unchanged", "diagnostics"}
 
 
 def test_a_daemon_that_can_not_start_says_so_in_one_line(folder: Path, execute: Execute) -> None:
@@ -338,7 +336,7 @@ def test_values_that_are_one_of_a_few_are_all_named(execute: Execute) -> None:
     assert all(f'"{word}"' in schemas for word in few)
     assert {f"`{word}`" for word in Checked} <= set(re.findall(r"`[\w -]+`", PAGE))
     reasons = re.findall(r"^\|.*\|([^|]*)\|$", CONFLICTS.partition("| `reason` |")[2], re.MULTILINE)
-    assert {f"`{reason.word}`" for reason in Reason} == set(re.findall(r"`[\w-]+`", "".join(reasons)))
+    assert {f"`{reason}`" for reason in Reason} == set(re.findall(r"`[\w-]+`", "".join(reasons)))
     assert f"`version` is {JSON_VERSION}" in PAGE
 
 

@@ -442,7 +442,7 @@ class Walk(RuleBasedStateMachine):
         printed = self.execute(*command.split(), "--json", code=None)
         assert printed.code in (0, 3) or SOURCE.name in printed.words, printed
         (robot,) = printed.json["results"]
-        writes = [action for action in robot["actions"] if action["action"] == "write" and not action["held"]]
+        writes = [action for action in robot["actions"] if action["kind"] == "write" and not action["held"]]
         self.expected.move({inside(one["origin"]): inside(one["path"]) for one in writes if one["origin"]})
         now = replay.contents(PACKAGE)
         lost = [edit for edit in self.expected.lost(now) if edit[0] not in self.expected.given_up]
@@ -466,11 +466,11 @@ class Walk(RuleBasedStateMachine):
         codes = [printed.code for printed in documents]
         assert [code == 0 for code in codes] == [status["in_step"]] * 2, codes
         self.conflicts = {
-            one["path"]: one["origin"] or one["path"] for one in check["actions"] if one["action"] == "conflict"
+            one["path"]: one["origin"] or one["path"] for one in check["actions"] if one["kind"] == "conflict"
         }
         reasons = {one["origin"] or one["path"]: one["reason"] for one in status["actions"] if one["status"]}
         files = {one["file"] for one in check["diagnostics"] if one["severity"] != "note" and one["file"]}
-        self.broken = sorted(files & reasons.keys()) if check["broken"] else []
+        self.broken = sorted(files & reasons.keys()) if check["is_broken"] else []
         if check["in_step"]:
             self.compare({inside(path): reason for path, reason in reasons.items()})
         return bool(check["in_step"])

@@ -7,7 +7,6 @@ checks take 100 ms to load, the merge 20 ms, and a build has to be quick.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
@@ -50,7 +49,10 @@ class Results(list[R]):
     """
 
     def __init__(
-        self, results: Iterable[R], lines: Callable[[R], Iterable[StyledLine]], on_result: Callable[[R], object]
+        self,
+        results: Iterable[R],
+        lines: Callable[[R], Iterable[StyledLine]],
+        on_result: Callable[[R], object] = ignore,
     ) -> None:
         """`lines` shows a result; `on_result` gets each as soon as it is there."""
         super().__init__()
@@ -73,10 +75,16 @@ class Results(list[R]):
 class WholeRecord(msgspec.Struct, frozen=True):
     """A whole robot as one record of Modelica, in the package `within`, which is empty for none."""
 
+    KEYS = ("name", "within", "text", "file", "is_written")
+
     text: str
-    class_: str
+    name: str
     within: str
     diagnostics: tuple[Diagnostic, ...]
+    file: Path | None = None
+    """The file that has it, which `urdfsync record --output` names."""
+    is_written: bool = False
+    """Whether the file did not have it before."""
 
     def _repr_html_(self) -> str:
         return html([*findings(self.diagnostics), *(line((text, "")) for text in self.text.splitlines())])
@@ -125,17 +133,14 @@ def build_and_check(config: Config, robots: Sequence[RobotConfig], options: Buil
     return afterbuild.with_checks(config, options, results)
 
 
-def status(
-    *robots: str, config: Place = None, on_result: Callable[[Result], object] = ignore, **given: Any
-) -> Results[Result]:
-    """Say how each file stands, from a build that writes nothing: `action.reason.status` of a result's `actions`.
+def status(*robots: str, **given: Any) -> Results[Result]:
+    """Say how each file stands, from a `build` that writes nothing: `action.status` of a result's `actions`.
 
     A source that xacro or a command makes is not made anew: `stale` names the inputs that changed.
     """
     from urdfsync.output.status import lines
 
-    loaded, options = load(config), BuildOptions(dry=True, expands=False, **given)
-    return Results(build_robots(loaded, loaded.select(robots), options), lines, on_result)
+    return Results(build(*robots, dry=True, expands=False, **given), lines)
 
 
 def diff(
@@ -189,21 +194,20 @@ def check(
     on_result: Callable[[CheckResult], object] = ignore,
     **given: Any,
 ) -> Results[CheckResult]:
-    """Check packages as they are on disk, as `urdfsync check` does; `result.status(strict)` is the verdict.
+    """Check packages as they are on disk, as `urdfsync check` does; `result.status` is the verdict.
 
     `given` are fields of `CheckOptions`, such as `physics`. Raises UrdfsyncError for a configuration that can't be
     used, a robot that it does not have, a compiler that is not trusted, and where there is no place for the cache.
     """
-    from urdfsync.checks import report, run
+    from urdfsync.checks import run
+    from urdfsync.checks.report import robot_lines
     from urdfsync.checks.results import CheckOptions
     from urdfsync.checks.tools import chosen_tools
 
     loaded = load(config)
     chosen, tools = loaded.select(robots), chosen_tools(loaded, tool, trusted=trusted)
-    options = CheckOptions(tools=tools, **given)
-    checked = run.check_robots(loaded, chosen, options, progress)
-    lines = partial(report.robot_lines, strict=options.strict, verbose=False, marks=False)
-    return Results(checked, lines, on_result)
+    checked = run.check_robots(loaded, chosen, CheckOptions(tools=tools, **given), progress)
+    return Results(checked, robot_lines, on_result)
 
 
 def simulate(
@@ -233,7 +237,7 @@ def simulate(
     chosen, *_ = chosen_tools(loaded, tool, trusted=trusted)
     result = run.simulate(loaded, robot, SimulateOptions(tool=chosen, **given), progress)
     write_outputs(files, result)
-    return Simulation(**msgspec.structs.asdict(result))
+    return Simulation(**msgspec.structs.asdict(result) | {"files": files})
 
 
 def record(

@@ -39,7 +39,7 @@ class Change(msgspec.Struct, frozen=True):
 
     path: tuple[str, ...]
     kind: ChangeKind
-    change_class: ChangeClass = msgspec.field(name="class")
+    change_class: ChangeClass
     old: Any
     new: Any
     unit: str = ""
@@ -64,6 +64,8 @@ class Change(msgspec.Struct, frozen=True):
 
 class Changes(msgspec.Struct, frozen=True):
     """All differences of two versions of a model."""
+
+    KEYS = ("change_class", "generator", "options", "changes")
 
     changes: tuple[Change, ...] = ()
     """Structure first, then numbers, then rounding and what is not modelled."""

@@ -276,6 +276,8 @@ class Quantity(enum.StrEnum):
 class Deviation(msgspec.Struct, frozen=True):
     """Greatest deviation of one quantity of one element from the reference, over all instants."""
 
+    KEYS = ("quantity", "element", "difference", "value", "size", "unit", "part", "detail", "relative")
+
     quantity: Quantity
     element: str
     """The element in the domain's words: `link hand`, `joint elbow`, `robot`."""

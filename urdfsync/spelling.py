@@ -18,6 +18,11 @@ def same_count(old: Sequence[str], new: Sequence[str]) -> int:
     return next((index for index, pair in enumerate(zip_longest(old, new)) if pair[0] != pair[1]), len(old))
 
 
+def counted(count: int, noun: str) -> str:
+    """`1 file`, `2 files`."""
+    return f"{count} {noun}{'' if count == 1 else 's'}"
+
+
 def visible(text: str) -> str:
     """Return the text with everything escaped that a terminal would obey instead of showing it."""
     if text.isprintable():

@@ -91,8 +91,8 @@ def shown(capsys: Capture, *results: CheckResult, strict: bool = False, **option
     capsys.readouterr()
     console = Console(**options)  # type: ignore[arg-type]
     for result in results:
-        show_result(console, result, strict=strict)
-    console.tell(closing_lines(results, strict=strict))
+        show_result(console, msgspec.structs.replace(result, strict=strict))
+    console.tell(closing_lines(results))
     return capsys.readouterr().out.splitlines()
 
 
@@ -248,7 +248,7 @@ def test_any_number_can_be_told(difference: float, value: float, quantity: Quant
     result = CheckResult(
         "arm", "Arm", tools=(ToolResult(deviations=(Deviation(quantity, "it", difference, value, value, "N"),)),)
     )
-    show_result(Console(verbose=True), result, strict=False)
+    show_result(Console(verbose=True), result)
 
 
 CHANGED = ToolResult(effects=(EditEffect(("a.mo",), (ELBOW,)),))

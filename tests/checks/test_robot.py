@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from support.checks import Compiling
+from support.checks import Compiling, status
 from support.corpus import REPOSITORY
 from support.urdfs import dynamics, joint, link, robot
 
@@ -21,7 +21,6 @@ from urdfsync import config
 from urdfsync.checks import libraries
 from urdfsync.checks import robot as robot_check
 from urdfsync.checks.package import RobotPackage, read_package
-from urdfsync.checks.report import summary
 from urdfsync.checks.results import CheckOptions, CheckResult, CheckStatus
 from urdfsync.checks.robot import check_robot
 from urdfsync.engine.build import build
@@ -134,7 +133,7 @@ def test_each_edit_is_told_with_what_it_changes(arm: Path, modelica_library: Pat
     assert [one.model for one in result.compiled if one.unknowns > 100] == ["Arm", "ArmRun", "ArmTest"]
     assert result.deviations
     assert not result.differs
-    assert (result.status(strict=False), result.status(strict=True)) == (CheckStatus.RIGHT, CheckStatus.DIFFERS)
+    assert (status(result, strict=False), status(result, strict=True)) == (CheckStatus.RIGHT, CheckStatus.DIFFERS)
     elements = {effect.files: {one.element for one in effect.deviations} for effect in result.effects}
     assert elements.keys() == {("Joints/ElbowParameters.mo",), ("Links/HandParameters.mo",)}, "a comment is no change"
     assert elements["Joints/ElbowParameters.mo",] == {"joint elbow"}
@@ -156,7 +155,7 @@ def test_a_generator_that_is_wrong_is_found_whoever_edited_what(arm: Path, model
     result = check(physics=True, fresh=True)
     assert codes(result) == []
     assert len(result.compiled) == 3, "the edited robot compiles, although it can't be moved"
-    assert result.status(strict=False) is CheckStatus.DIFFERS
+    assert status(result, strict=False) is CheckStatus.DIFFERS
     assert max(one.relative for one in result.deviations) > 1e-2
     (gap,) = result.gaps
     assert "not ready yet" in gap
@@ -189,7 +188,7 @@ def test_what_was_right_is_not_compiled_again_until_something_changes(
     assert sorted(compiler.models) == ["Arm", "ArmRun", "ArmTest"]
     assert [one.model for one in first.compiled] == ["Arm", "ArmRun", "ArmTest"]
     assert first.compiled == second.compiled
-    assert second.status(strict=True) is CheckStatus.RIGHT
+    assert status(second, strict=True) is CheckStatus.RIGHT
     assert first.unchecked == second.unchecked == ("poses and efforts were not compared; `--physics` compares them",)
     check(fresh=True)
     assert len(compiler.models) == 6
@@ -200,7 +199,7 @@ def test_what_was_right_is_not_compiled_again_until_something_changes(
     compiler.problem = ""
     replace(Path("arm.urdf"), 'type="continuous"', 'type="fixed"')
     result = check()
-    assert (result.in_step, result.status(strict=False)) == (False, CheckStatus.DIFFERS)
+    assert (result.in_step, status(result, strict=False)) == (False, CheckStatus.DIFFERS)
     assert [one.model for one in result.compiled] == ["Arm", "ArmRun", "ArmTest"]
 
 
@@ -219,8 +218,8 @@ def test_a_robot_of_which_a_joint_is_left_out_agrees_with_nothing(
     assert result.gaps == (
         "poses, efforts and masses were not compared: loop bar has type='planar', by which no loop can be closed",
     )
-    assert result.status(strict=False) is CheckStatus.INCOMPLETE
-    assert "agree" not in summary(result, strict=False)
+    assert status(result, strict=False) is CheckStatus.INCOMPLETE
+    assert "agree" not in result.summary
 
 
 def test_a_check_of_what_somebody_saved_meanwhile_is_not_remembered(
@@ -236,7 +235,7 @@ def test_a_check_of_what_somebody_saved_meanwhile_is_not_remembered(
 
     with monkeypatch.context() as patch:
         patch.setattr(robot_check, "read_package", read_later)
-        assert check().status(strict=True) is CheckStatus.RIGHT
+        assert status(check(), strict=True) is CheckStatus.RIGHT
     file.write_text(before)
     check()
     assert len(compiler.models) == 6
@@ -254,7 +253,7 @@ def test_without_a_compiler_all_else_is_checked(
     assert "second-reader-failed" in [one.code for one in result.diagnostics]
     (gap,) = result.gaps
     assert gap.startswith("nothing was compiled: there is no compiler: rumoca is not installed; pip install")
-    assert result.status(strict=False) is CheckStatus.INCOMPLETE
+    assert status(result, strict=False) is CheckStatus.INCOMPLETE
     assert codes(check(physics=True)) == ["no-compiler"]
     replace(arm / "Arm.mo", "connect(shoulder.frame_b, ", "connect(sholder.frame_b, ")
     assert codes(check()) == ["unresolved"]
@@ -278,7 +277,7 @@ def test_in_a_folder_that_is_not_utf8_the_compiler_gets_copies(
         }
     )
     result = check()
-    assert (result.status(strict=True), len(result.compiled)) == (CheckStatus.RIGHT, 4)
+    assert (status(result, strict=True), len(result.compiled)) == (CheckStatus.RIGHT, 4)
     assert "Bench" in compiler.models
     assert any(root.endswith("/Pumps") for root in compiler.roots)
     assert all(root.encode() for root in compiler.roots)
@@ -326,7 +325,7 @@ def test_a_file_that_goes_is_missed_although_the_package_was_right(
     replace(hand, "end Hand;", 'end Hand; // see "<a href=modelica://Arm/Resources/none.html>"')
     (arm / "Resources").mkdir(exist_ok=True)
     (arm / "Resources" / "cover.stl").touch()
-    assert [check().status(strict=True) for _ in range(2)] == [CheckStatus.RIGHT] * 2
+    assert [status(check(), strict=True) for _ in range(2)] == [CheckStatus.RIGHT] * 2
     assert len(compiler.models) == 3
     (arm / "Resources" / "cover.stl").unlink()
     (found,) = check().diagnostics
@@ -383,7 +382,7 @@ def test_models_beside_the_package_are_compiled_with_it(
     result = check()
     assert [one.model for one in result.compiled if one.is_users] == models
     assert {str(Path("modelica", root).resolve()) for root in roots} <= set(compiler.roots)
-    assert (result.status(strict=True), result.gaps) == (CheckStatus.RIGHT, ())
+    assert (status(result, strict=True), result.gaps) == (CheckStatus.RIGHT, ())
 
 
 @pytest.mark.parametrize(
@@ -399,7 +398,7 @@ def test_a_model_that_no_compiler_would_find_keeps_the_verdict_from_being_right(
 ) -> None:
     write({file: text})
     result = check()
-    assert result.status(strict=False) is CheckStatus.INCOMPLETE
+    assert status(result, strict=False) is CheckStatus.INCOMPLETE
     assert result.gaps == (f"modelica/{file} outside of the package: nothing there was compiled",)
 
 

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 import msgspec
 import pytest
+from support.checks import status
 
 from urdfsync.checks.compilation import compare_all
 from urdfsync.checks.compilers.compiler import Tool
@@ -84,15 +85,15 @@ def check(
 
 
 def lines(result: CheckResult, capsys: pytest.CaptureFixture[str]) -> list[str]:
-    show_result(Console(), result, strict=False)
-    Console().tell(closing_lines([result], strict=False))
+    show_result(Console(), result)
+    Console().tell(closing_lines([result]))
     return capsys.readouterr().out.splitlines()
 
 
 def test_three_that_agree_are_right(capsys: pytest.CaptureFixture[str]) -> None:
     numbers = {"x": (0.5, 0.75), "tau": (2.0, 4.0 + 4.4e-15)}
     result = check({"rumoca": EXPECTED, "omc": numbers})
-    assert result.status(strict=True) is CheckStatus.RIGHT
+    assert status(result, strict=True) is CheckStatus.RIGHT
     assert lines(result, capsys) == [
         "arm: right: 1 model compiles; rigid bodies right; 0.0 s",
         "  rumoca 0.10.2 and OpenModelica 1.27.0 agree to 1.1e-15",
@@ -112,7 +113,7 @@ def test_who_stands_alone_is_named(
 ) -> None:
     one, other = ({"x": (0.5, 0.75), "tau": (2.0, last)} for last in (rumoca, omc))
     result = check({"rumoca": one, "omc": other})
-    assert result.status(strict=False) is CheckStatus.DIFFERS
+    assert status(result, strict=False) is CheckStatus.DIFFERS
     assert lines(result, capsys)[1] == f"  {sentence}"
 
 
@@ -120,7 +121,7 @@ def test_edits_that_two_compilers_understand_in_two_ways_are_a_difference(capsys
     """Such as a modifier that one of them ignores: then what is simulated is not what was written."""
     same = {"rumoca": EXPECTED, "omc": EXPECTED}
     result = check(same, {"rumoca": EXPECTED, "omc": {"x": (0.5, 0.75), "tau": (2.0, 4.25)}})
-    assert result.status(strict=False) is CheckStatus.DIFFERS
+    assert status(result, strict=False) is CheckStatus.DIFFERS
     assert lines(result, capsys)[1:-1] == [
         "  joint elbow: with your edits, the torque by OpenModelica 1.27.0 "
         "differs from that by rumoca 0.10.2 by 0.25 N·m",

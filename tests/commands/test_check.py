@@ -44,7 +44,7 @@ class Checker:
         for robot in robots:
             self.robots.append(robot.name)
             progress(f"{robot.name}: compiling", 0, len(robots))
-            yield msgspec.structs.replace(self.result, robot=robot.name)
+            yield msgspec.structs.replace(self.result, robot=robot.name, strict=options.strict)
 
 
 @pytest.fixture

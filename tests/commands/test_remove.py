@@ -137,7 +137,7 @@ def test_a_robot_without_a_table_stays(project: Path, execute: Execute) -> None:
 
 def test_what_the_document_says(plant: Path, execute: Execute) -> None:
     (robot,) = execute(*REMOVE, "--json").json["results"]
-    assert {action["action"] for action in robot["actions"]} == {"delete", "write"}
+    assert {action["kind"] for action in robot["actions"]} == {"delete", "write"}
     assert not (plant / FILTER).exists()
 
 

@@ -109,7 +109,7 @@ def test_without_its_state_a_package_is_out_of_step(built: Path, execute: Execut
     for file in (built / ".urdfsync/robots").iterdir():
         file.unlink()
     (robot,) = execute("status", "--json", code=1).json["results"]
-    assert (robot["built"], robot["in_step"]) == (True, False)
+    assert (robot["is_built"], robot["in_step"]) == (True, False)
     assert execute("status", code=1).lines == [
         "ladder: out of step: 12 already equal to the generated text",
     ]
@@ -125,7 +125,7 @@ def test_a_build_that_is_writing_is_waited_for(built: Path, execute: Execute) ->
 
 
 def action(reason: Reason, held: bool = False, path: str = "") -> Action:
-    return Action(path or f"Arm/{reason.word}.mo", reason, Role.MODEL, "link tip", base="b", mine="m", held=held)
+    return Action(path or f"Arm/{reason}.mo", reason, Role.MODEL, "link tip", base="b", mine="m", held=held)
 
 
 def result_of(*actions: Action, changes: Changes | None = None) -> Result:
@@ -148,7 +148,7 @@ def test_every_action_says_how_its_file_stands(reason: Reason) -> None:
     status = reason.status
     assert (status is FileStatus.CONFLICT) == (reason.kind is Kind.CONFLICT)
     assert (status in (FileStatus.STALE, FileStatus.MISSING)) == Action("A.mo", reason, Role.MODEL).writes
-    shown, *_ = (line for line in said(result_of(action(reason)), verbose=True) if f"Arm/{reason.word}.mo" in line)
+    shown, *_ = (line for line in said(result_of(action(reason)), verbose=True) if f"Arm/{reason}.mo" in line)
     assert shown.startswith(f"  {status}")
     assert not shown.endswith(".mo") or reason in (Reason.UNCHANGED, Reason.KEEP)
 

@@ -108,7 +108,7 @@ def test_a_full_disk_is_told_once_and_recovers(start: Start) -> None:
     before = resource.prlimit(watch.process.pid, resource.RLIMIT_FSIZE)
     resource.prlimit(watch.process.pid, resource.RLIMIT_FSIZE, (1, before[1]))
     Path("ladder.json").write_text(ladder(330))
-    assert watch.wait("failed")["diagnostics"][0]["code"] == "output-not-writable"
+    assert watch.wait("failed")["result"]["diagnostics"][0]["code"] == "output-not-writable"
     since = watch.mark
     await_rescans()
     assert watch.mark == since
@@ -132,7 +132,7 @@ def test_a_folder_without_permission_is_told_once_and_recovers(start: Start) -> 
     since = watch.mark
     folder.chmod(0)
     try:
-        assert watch.wait("failed", since=since)["diagnostics"][0]["code"] == "no-source"
+        assert watch.wait("failed", since=since)["result"]["diagnostics"][0]["code"] == "no-source"
         await_rescans()
     finally:
         folder.chmod(0o755)

@@ -105,7 +105,7 @@ def test_nothing_is_green_on_what_is_broken(
         assert "error: " in printed.err
         assert "broken" in printed.lines[0]
     (robot,) = execute("build", "--json", code=3).json["results"]
-    assert (robot["broken"], robot["in_step"]) == (True, False)
+    assert (robot["is_broken"], robot["in_step"]) == (True, False)
 
 
 def test_what_is_mended_is_in_step(arm: Path, execute: Execute) -> None:

@@ -142,7 +142,7 @@ def test_each_file_is_an_input(built: Path, execute: Execute, name: str, text: s
     (built / "urdf" / name).write_text(text)
     with unchanged(built):
         assert execute("status", code=1).lines == [f"arm: {CHANGED}", f"  urdf/{name}"]
-        assert execute("status", "--json", code=1).json["results"][0]["not_expanded"] == [f"urdf/{name}"]
+        assert execute("status", "--json", code=1).json["results"][0]["stale"] == [f"urdf/{name}"]
         execute("build", "--check", code=1)
         execute("diff", code=1)
         assert execute("status", code=1).lines[0] == f"arm: {CHANGED}"

@@ -11,18 +11,24 @@ from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+import msgspec
 import psutil
 
 from urdfsync.checks import process
 from urdfsync.checks.cache import UserCache
 from urdfsync.checks.compilers.compiler import CompileJob, CompileResult, Complaint, Tool
 from urdfsync.checks.process import LimitError, Limits
-from urdfsync.checks.results import CheckOptions, CheckResult, CompiledModel, ToolResult
+from urdfsync.checks.results import CheckOptions, CheckResult, CheckStatus, CompiledModel, ToolResult
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.workers import Workers, tell
 
 FAULT = Diagnostic(Severity.ERROR, "fault", "as it was asked for")
+
+
+def status(result: CheckResult, *, strict: bool) -> CheckStatus:
+    """The verdict, whichever was asked for."""
+    return msgspec.structs.replace(result, strict=strict).status
 
 
 def check_robot(config: Config, robot: RobotConfig, options: CheckOptions, folder: Path | None) -> CheckResult:

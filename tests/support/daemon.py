@@ -135,7 +135,8 @@ class Watch(Listener):
         """Wait until so many robots have come to an end since, and none of them is under way."""
 
         def rests() -> bool:
-            last = {event["robot"]: event["event"] for event in self.events[since:] if "robot" in event}
+            about = [(event.get("result", event), event["event"]) for event in self.events[since:]]
+            last = {told["robot"]: kind for told, kind in about if "robot" in told}
             return len(last) >= robots and all(event in (*ENDS, "ran") for event in last.values())
 
         self.until(rests)

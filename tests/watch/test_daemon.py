@@ -172,7 +172,7 @@ def test_the_configuration_changes(start: Start) -> None:
     probe(watch)  # the last good one is still in force
     file.write_text(f'{good}prefix = "net"\n{CONFIG.format("second", "ladder.json", "Second")}')
     assert watch.wait("started", since=since)["robots"] == ["ladder", "second"]
-    watch.wait("built", lambda event: event["robot"] == "second", since)
+    watch.wait("built", lambda event: event["result"]["robot"] == "second", since)
     assert Path("modelica/Second/package.mo").is_file()
     assert "net" in Path("modelica/Ladder/Ladder.mo").read_text()
 
@@ -183,7 +183,7 @@ def test_an_imported_file_changes_vanishes_and_comes_back(start: Start) -> None:
     with building(watch):
         signal_file.write_text("0,0\n1,7\n")
     assert "7.0" in imported.read_text()
-    with building(watch, wanted=lambda event: event["diagnostics"][0]["code"] == "table-not-found-kept"):
+    with building(watch, wanted=lambda event: event["result"]["diagnostics"][0]["code"] == "table-not-found-kept"):
         signal_file.unlink()
     assert imported.is_file(), "the copy serves"
     with building(watch, wanted=has_files):
@@ -222,7 +222,7 @@ def test_git_works_underneath(start: Start, project: Path, monkeypatch: pytest.M
     watch.until(lambda: watch.kinds(since).count("built") == 2)
     assert sorted(watch.kinds(since)) == sorted(2 * BUILD)
     assert holds(330)
-    with building(watch, 330, lambda event: event["robot"] == "ladder" and has_files(event)):
+    with building(watch, 330, lambda event: event["result"]["robot"] == "ladder" and has_files(event)):
         repository.git("checkout", "--", "modelica", ".urdfsync")
 
 
@@ -233,8 +233,10 @@ def test_what_a_user_edits_is_left_alone_and_each_is_told_once(start: Start) -> 
     watch = start("--rescan", "0.1")
 
     def acted(what: str, since: int) -> list[str]:
-        event = watch.wait("built", lambda event: any(one["reason"] == what for one in event["actions"]), since)
-        return [action["path"] for action in event["actions"] if action["reason"] == what]
+        event = watch.wait(
+            "built", lambda event: any(one["reason"] == what for one in event["result"]["actions"]), since
+        )
+        return [action["path"] for action in event["result"]["actions"] if action["reason"] == what]
 
     since = watch.mark
     MODEL.write_text(MODEL.read_text() + "// mine\n")
@@ -282,7 +284,7 @@ def _to_link(path: Path) -> None:
 def test_what_is_in_the_way_is_told_once_and_recovers(start: Start, change: Callable[[Path], None]) -> None:
     watch = start("--rescan", "0.1")
     change(RECORD)
-    assert [one["code"] for one in watch.wait("failed")["diagnostics"]] == ["output-in-the-way"]
+    assert [one["code"] for one in watch.wait("failed")["result"]["diagnostics"]] == ["output-in-the-way"]
     since = watch.mark
     (RECORD.rmdir if change is _to_folder else RECORD.unlink)()
     assert watch.wait("built", since=since)["recovered"]
@@ -350,7 +352,7 @@ def test_a_command_waits_while_the_package_is_broken(start: Start) -> None:
     since, text = watch.mark, MODEL.read_text()
     MODEL.write_text(text.replace("\nequation", "\n  Elements.Gone gone;\nequation"))
     event = watch.wait("built", since=since)
-    assert (event["broken"], event["in_step"]) == (True, False)
+    assert (event["result"]["is_broken"], event["result"]["in_step"]) == (True, False)
     probe(watch)
     watch.rest(since)
     assert watch.kinds().count("ran") == 1

@@ -56,7 +56,7 @@ def test_an_edit_during_a_build_is_seen_without_its_event(running: list[Daemons]
     daemon = Daemons(edit, rescan=NEVER)
     running.append(daemon)
     result = daemon.wait(events.Built, 3).result
-    assert [(one.reason.word, one.path) for one in result.actions.decided] == KEEP
+    assert [(one.reason, one.path) for one in result.actions.decided] == KEEP
 
 
 @pytest.mark.usefixtures("without_events")

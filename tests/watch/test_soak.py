@@ -77,7 +77,9 @@ def test_nothing_is_lost_and_nothing_stale(tmp_path: Path) -> None:
         if watch.process.poll() is not None or watch.stop() != 0 or watch.errors:
             soak.problems.append(f"the daemon ended badly:\n{watch.said}")
         soak.counts.update(f"event {event['event']}" for event in watch.events)
-        soak.problems += [f"failed: {event['diagnostics']}" for event in watch.events if event["event"] == "failed"]
+        soak.problems += [
+            f"failed: {event['result']['diagnostics']}" for event in watch.events if event["event"] == "failed"
+        ]
     soak.problems += _compare(project, tmp_path / "fresh", soak.tags)
     assert soak.problems == []
     assert soak.counts["event built"] >= SECONDS / 20, soak.counts
@@ -210,10 +212,11 @@ def _compare(project: Path, fresh: Path, tags: set[str]) -> Iterator[str]:
     shutil.copytree(project, fresh, ignore=shutil.ignore_patterns("modelica", ".urdfsync"))
     _urdfsync(fresh, "build", "-q")
     for robot in document["results"]:
-        edited = (_is_edited(project / (one["origin"] or one["path"])) for one in robot["conflicts"])
-        yield from (f"not resolved: {one['path']}" for one, is_edited in zip(robot["conflicts"], edited, strict=True)
+        disputed = [one["action"] for one in robot["disputed"]]
+        edited = (_is_edited(project / (one["origin"] or one["path"])) for one in disputed)
+        yield from (f"not resolved: {one['path']}" for one, is_edited in zip(disputed, edited, strict=True)
                     if not is_edited)  # fmt: skip
-        if not robot["conflicts"]:  # which keep the rest of their robot waiting
+        if not disputed:  # which keep the rest of their robot waiting
             place = f"modelica/{robot['robot'].capitalize()}"
             yield from _differences(project / place, fresh / place)
 

@@ -43,7 +43,7 @@ from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError, findings_o
 from urdfsync.domain import Compared, Deviation, Experiment, Trial
 from urdfsync.engine.generation import generated_texts
 from urdfsync.files import shown
-from urdfsync.output.phrases import counted
+from urdfsync.spelling import counted
 from urdfsync.workers import tell
 
 _USERS = "users"

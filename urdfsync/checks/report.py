@@ -1,33 +1,27 @@
-"""Results of checks in words, a line for each robot and what belongs to it indented below; and as JSON."""
+"""Results of checks in words, a line for each robot and what belongs to it indented below."""
 
 from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Collection, Iterator, Mapping, Sequence
-from typing import Literal
-
-import msgspec
+from collections.abc import Collection, Iterator, Sequence
 
 from urdfsync.checks.results import (
     KINDS,
-    TOLERANCE,
     CheckResult,
     CheckStatus,
-    CompiledModel,
     EditEffect,
-    TrialTime,
     agrees,
     listed,
+    part_word,
     relative,
     worst,
 )
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Deviation, Part, Quantity
 from urdfsync.output.console import StyledLine, line
-from urdfsync.output.documents import KEYS, fill
-from urdfsync.output.phrases import counted
 from urdfsync.output.sections import Mark, Section, Table
+from urdfsync.spelling import counted
 
 _STYLES = {
     "right": ("✓", "green"),
@@ -44,25 +38,25 @@ _STATED = {
 """Differences that are no amounts."""
 
 
-def robot_lines(result: CheckResult, *, strict: bool, verbose: bool, marks: bool) -> Iterator[StyledLine]:
+def robot_lines(result: CheckResult, *, verbose: bool = False, marks: bool = False) -> Iterator[StyledLine]:
     """Yield all lines about one robot alone."""
-    mark, style = _STYLES[verdict(result, strict)]
+    mark, style = _STYLES[result.verdict]
     sign = f"{mark} " if marks else ""
-    yield line((sign, style), (result.robot, "bold"), (f": {summary(result, strict)}", ""))
-    sentences = _sentences(result, strict=strict)
+    yield line((sign, style), (result.robot, "bold"), (f": {result.summary}", ""))
+    sentences = _sentences(result)
     if verbose:
         sentences += [(sentence, "dim") for sentence in _details(result)]
     yield from (line(("  ", ""), sentence) for sentence in sentences)
 
 
-def _sentences(result: CheckResult, *, strict: bool) -> list[tuple[str, str]]:
+def _sentences(result: CheckResult) -> list[tuple[str, str]]:
     """Return the sentences below the first line, with their styles."""
     sentences = list(_two_tools(result)) if len(result.tools) > 1 else []
     if result.between is None:
         sentences += _differences(result)
     for effect in result.effects:
         changed = "; ".join(_change(*each) for each in _by_kind(effect.deviations, effect.owners))
-        style = "dim" if not changed else "bold red" if strict else "cyan"
+        style = "dim" if not changed else "bold red" if result.strict else "cyan"
         sentences.append((f"{_edited(effect)} {changed or 'nothing that is compared'}", style))
     sentences += [(gap, "magenta") for gap in result.gaps]
     if not result.built:
@@ -161,7 +155,7 @@ def _outlier(first: str, second: str, reference: str, *deviations: Deviation) ->
     return ""
 
 
-def closing_lines(results: Sequence[CheckResult], *, strict: bool) -> Iterator[StyledLine]:
+def closing_lines(results: Sequence[CheckResult]) -> Iterator[StyledLine]:
     """Yield the sentences about several robots, each once."""
     for label, field in (("not compared", "unchecked"), ("for the comparison", "notes")):
         robots: dict[str, list[str]] = {}
@@ -173,147 +167,29 @@ def closing_lines(results: Sequence[CheckResult], *, strict: bool) -> Iterator[S
             which = "" if len(results) == 1 else f" ({who})"
             yield line((f"{label}: ", "bold"), (f"{sentence}{which}", ""))
     if len(results) > 1:
-        verdicts = [verdict(result, strict) for result in results]
+        verdicts = [result.verdict for result in results]
         tally = ", ".join(f"{verdicts.count(word)} {word}" for word in _STYLES if word in verdicts)
         yield line((f"{counted(len(results), 'robot')}: {tally}", "bold"))
 
 
-def to_section(result: CheckResult, strict: bool) -> Section:
+def to_section(result: CheckResult) -> Section:
     """Return a result for a comment: its sentences, and how far each part agrees with the reference."""
-    status, sentences = result.status(strict), [sentence.strip() for sentence, _ in _sentences(result, strict=strict)]
+    status, sentences = result.status, [sentence.strip() for sentence, _ in _sentences(result)]
     rows = [
-        (part, f"{_word(each)}, to {each.relative:.1e}", f"{each.element}, {each.quantity}")
+        (part, f"{part_word(each)}, to {each.relative:.1e}", f"{each.element}, {each.quantity}")
         for part, each in worst(result.deviations).items()
     ]
     finding = None
     if status in (CheckStatus.DIFFERS, CheckStatus.INCOMPLETE):
         file = f"{result.folder}/package.mo" if result.folder else ""
-        told = next(iter(sentences), summary(result, strict))
+        told = next(iter(sentences), result.summary)
         severity = Severity.NOTE if status is CheckStatus.INCOMPLETE else Severity.WARNING
         finding = Diagnostic(severity, str(status), f"{result.package}: {told}", file)
     marks = {CheckStatus.RIGHT: Mark.FINE, CheckStatus.FAILED: Mark.WRONG}
     points = [*sentences, *(f"not compared: {sentence}" for sentence in dict.fromkeys(result.unchecked))]
     table = Table(f"Compared with {result.reference}", ("", "", "Worst"), rows)
     mark = marks.get(status, Mark.OPEN)
-    return Section(result.robot, summary(result, strict), mark, points, [table], result.diagnostics, finding)
-
-
-class DeviationDocument(msgspec.Struct):
-    """How far one quantity of one element is from the reference; JSON has None for what is no number."""
-
-    quantity: Quantity
-    element: str
-    difference: float | None
-    value: float | None
-    size: float | None
-    unit: str
-    part: Part
-    detail: str
-    relative: float | None
-
-    def __post_init__(self) -> None:
-        """Leave out infinite numbers, and those that the simulation did not give."""
-        for name in ("difference", "value", "size", "relative"):
-            if not math.isfinite(getattr(self, name)):
-                setattr(self, name, None)
-
-
-class EditDocument(msgspec.Struct):
-    """What edited files do to the robot."""
-
-    files: Sequence[str]
-    deviations: Sequence[DeviationDocument]
-    owners: Sequence[str]
-
-
-class ToolDocument(msgspec.Struct, rename={"effects": "edits"}):
-    """The answers of one compiler."""
-
-    tool: str
-    compiled: Sequence[CompiledModel]
-    failing: Sequence[str]
-    deviations: Sequence[DeviationDocument] | None
-    effects: Sequence[EditDocument]
-    seconds: float
-    times: Sequence[TrialTime]
-    megabytes: float
-
-
-class CheckDocument(msgspec.Struct, rename=KEYS | {"freedoms": "degrees_of_freedom"}):
-    """The check of one robot."""
-
-    robot: str
-    package: str
-    failed: bool
-    built: bool
-    in_step: bool
-    conflicting: bool
-    reference: str
-    seconds: float
-    megabytes: float
-    notes: Sequence[str]
-    unchecked: Sequence[str]
-    gaps: Sequence[str]
-    standing: CheckStatus
-    summary: str
-    freedoms: int | None
-    tolerance: float
-    parts: Mapping[Part, Literal["right", "differ"]]
-    worst: Sequence[DeviationDocument]
-    agrees: bool | None
-    tools: Sequence[ToolDocument]
-    between: Sequence[DeviationDocument] | None
-    between_edited: Sequence[DeviationDocument]
-    diagnostics: Sequence[Diagnostic]
-
-
-def to_document(result: CheckResult, strict: bool) -> CheckDocument:
-    """Return what was checked as a part of a document; with `strict`, what an edit does is a difference as well."""
-    greatest = worst(result.deviations)
-    return fill(
-        CheckDocument,
-        result,
-        standing=result.status(strict),
-        summary=summary(result, strict),
-        tolerance=TOLERANCE,
-        parts={part: "right" if agrees(each) else "differ" for part, each in greatest.items()},
-        worst=list(greatest.values()),
-        agrees=None if all(tool.deviations is None for tool in result.tools) else not result.differs,
-    )
-
-
-def summary(result: CheckResult, strict: bool) -> str:
-    """Return the verdict, what compiles, and how far it agrees with the reference, in one line."""
-    errors = sum(finding.severity is Severity.ERROR for finding in result.diagnostics)
-    facts = [counted(errors, "error")] if errors else []
-    if result.compiled:
-        own = [model for model in result.compiled if not model.is_users]
-        count, users = len(own), len(result.compiled) - len(own)
-        yours = f", and {users} of yours" if users else ""
-        if failing := len({name for tool in result.tools for name in tool.failing}):
-            yours += f"; {failing} of yours {'does' if failing == 1 else 'do'} not"
-        facts.append(f"1 model compiles{yours}" if count == 1 else f"{count} models compile{yours}")
-        if result.freedoms is not None:
-            facts.append(f"{counted(result.freedoms, 'degree')} of freedom")
-    elif not errors:
-        facts.append("syntax and layout")
-    facts += [f"{part} {_word(deviation)}" for part, deviation in worst(result.deviations).items()]
-    return f"{verdict(result, strict)}: {'; '.join(facts)}; {result.seconds:.1f} s"
-
-
-def _word(deviation: Deviation) -> str:
-    """Return the verdict on a part of the model by its greatest deviation."""
-    if agrees(deviation):
-        return "plausible" if deviation.part is Part.CONTACTS else "right"
-    return f"differ ({deviation.element})"
-
-
-def verdict(result: CheckResult, strict: bool) -> str:
-    """Return the status in a word or two."""
-    status = result.status(strict)
-    if status is not CheckStatus.DIFFERS or result.differs or (strict and result.is_changed_by_edits):
-        return str(status)
-    return "out of step" if result.built else "not built"
+    return Section(result.robot, result.summary, mark, points, [table], result.diagnostics, finding)
 
 
 def _by_kind(deviations: Sequence[Deviation], owners: Collection[str] = ()) -> Iterator[tuple[Deviation, str]]:

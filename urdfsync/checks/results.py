@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import enum
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
+from typing import Literal
 
 import msgspec
 
@@ -14,6 +15,7 @@ from urdfsync.config import ros_package_path
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Deviation, Part, Quantity
 from urdfsync.engine.result import Exit
+from urdfsync.spelling import counted
 
 TOLERANCE = 1e-10
 """The greatest difference that counts as agreement, relative to the greatest value of its kind or 1."""
@@ -119,6 +121,8 @@ class TrialTime(msgspec.Struct, frozen=True):
 class ToolResult(msgspec.Struct):
     """The answers of one compiler about a package."""
 
+    KEYS = ("tool", "compiled", "failing", "deviations", "effects", "seconds", "megabytes", "times")
+
     tool: str = ""
     """The compiler with its version."""
     compiled: tuple[CompiledModel, ...] = ()
@@ -139,6 +143,12 @@ class ToolResult(msgspec.Struct):
 
 class CheckResult(msgspec.Struct):
     """The result for one robot. The check alone fills it."""
+
+    KEYS = (
+        *("robot", "package", "folder", "failed", "built", "in_step", "conflicting", "strict", "status", "summary"),
+        *("freedoms", "reference", "tolerance", "agrees", "parts", "worst", "tools", "between", "between_edited"),
+        *("notes", "unchecked", "gaps", "diagnostics", "seconds", "megabytes"),
+    )
 
     robot: str
     package: str
@@ -171,6 +181,10 @@ class CheckResult(msgspec.Struct):
     """The package's folder, as people see it; empty if the check did not come that far."""
     reference: str = ""
     """The reference of `deviations`, for example `Pinocchio 3.4`; empty if nothing was compared."""
+    strict: bool = False
+    """Whether a difference that comes from an edit counts as one, and a check that is incomplete."""
+    tolerance: float = TOLERANCE
+    """Up to this relative difference most quantities agree, see `tolerance`."""
 
     @property
     def failed(self) -> bool:
@@ -202,17 +216,60 @@ class CheckResult(msgspec.Struct):
         """Whether edits of the user change what is compared."""
         return any(effect.deviations for effect in self.effects)
 
+    @property
+    def status(self) -> CheckStatus:
+        """The verdict; if `strict`, a difference that comes from an edit counts as well."""
+        if self.failed:
+            return CheckStatus.FAILED
+        if self.differs or not self.in_step or (self.strict and self.is_changed_by_edits):
+            return CheckStatus.DIFFERS
+        return CheckStatus.INCOMPLETE if self.gaps else CheckStatus.RIGHT
+
+    @property
+    def verdict(self) -> str:
+        """The status in a word or two."""
+        is_other = self.differs or (self.strict and self.is_changed_by_edits)
+        if self.status is not CheckStatus.DIFFERS or is_other:
+            return str(self.status)
+        return "out of step" if self.built else "not built"
+
+    @property
+    def summary(self) -> str:
+        """The verdict, what compiles, and how far it agrees with the reference, in one line."""
+        errors = sum(finding.severity is Severity.ERROR for finding in self.diagnostics)
+        facts = [counted(errors, "error")] if errors else []
+        if self.compiled:
+            own = [model for model in self.compiled if not model.is_users]
+            count, users = len(own), len(self.compiled) - len(own)
+            yours = f", and {users} of yours" if users else ""
+            if failing := len({name for tool in self.tools for name in tool.failing}):
+                yours += f"; {failing} of yours {'does' if failing == 1 else 'do'} not"
+            facts.append(f"1 model compiles{yours}" if count == 1 else f"{count} models compile{yours}")
+            if self.freedoms is not None:
+                facts.append(f"{counted(self.freedoms, 'degree')} of freedom")
+        elif not errors:
+            facts.append("syntax and layout")
+        facts += [f"{part} {part_word(deviation)}" for part, deviation in worst(self.deviations).items()]
+        return f"{self.verdict}: {'; '.join(facts)}; {self.seconds:.1f} s"
+
+    @property
+    def parts(self) -> Mapping[Part, Literal["right", "differ"]]:
+        """The parts that were compared with the reference, and whether they agree with it."""
+        return {part: "right" if agrees(each) else "differ" for part, each in worst(self.deviations).items()}
+
+    @property
+    def worst(self) -> Sequence[Deviation]:
+        """The greatest deviation of each of these."""
+        return [*worst(self.deviations).values()]
+
+    @property
+    def agrees(self) -> bool | None:
+        """Whether the package without edits agrees with the reference; None if that was not compared."""
+        return None if all(tool.deviations is None for tool in self.tools) else not self.differs
+
     def add(self, diagnostics: Iterable[Diagnostic]) -> None:
         """Add findings, each once."""
         self.diagnostics = tuple(dict.fromkeys((*self.diagnostics, *diagnostics)))
-
-    def status(self, strict: bool) -> CheckStatus:
-        """Return the verdict; with `strict`, a difference that comes from an edit counts as well."""
-        if self.failed:
-            return CheckStatus.FAILED
-        if self.differs or not self.in_step or (strict and self.is_changed_by_edits):
-            return CheckStatus.DIFFERS
-        return CheckStatus.INCOMPLETE if self.gaps else CheckStatus.RIGHT
 
 
 def agrees(deviation: Deviation) -> bool:
@@ -240,12 +297,12 @@ def worst(deviations: Iterable[Deviation]) -> dict[Part, Deviation]:
     return greatest
 
 
-def exit_code(results: Iterable[CheckResult], strict: bool) -> Exit:
-    """Return 2 if anything failed, 1 if anything differs or, with `strict`, is incomplete, else 0."""
-    verdicts = {result.status(strict) for result in results}
-    if CheckStatus.FAILED in verdicts:
+def exit_code(results: Iterable[CheckResult]) -> Exit:
+    """Return 2 if anything failed, 1 if anything differs or, if `strict`, is incomplete, else 0."""
+    verdicts = {(result.status, result.strict) for result in results}
+    if CheckStatus.FAILED in {status for status, _ in verdicts}:
         return Exit.ERROR
-    wrong = {CheckStatus.DIFFERS, CheckStatus.INCOMPLETE} if strict else {CheckStatus.DIFFERS}
+    wrong = {(CheckStatus.DIFFERS, True), (CheckStatus.DIFFERS, False), (CheckStatus.INCOMPLETE, True)}
     return Exit.OUT_OF_STEP if verdicts & wrong else Exit.IN_STEP
 
 
@@ -254,3 +311,10 @@ def listed(names: Sequence[str]) -> str:
     if len(names) > 3:
         names = [*names[:2], f"{len(names) - 2} more"]
     return f"{', '.join(names[:-1])} and {names[-1]}" if len(names) > 1 else "".join(names)
+
+
+def part_word(deviation: Deviation) -> str:
+    """Return the verdict on a part of the model by its greatest deviation."""
+    if agrees(deviation):
+        return "plausible" if deviation.part is Part.CONTACTS else "right"
+    return f"differ ({deviation.element})"

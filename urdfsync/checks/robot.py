@@ -53,7 +53,7 @@ def check_robot(config: Config, robot: RobotConfig, options: CheckOptions, folde
     A package in step that was right is not checked again until its fingerprint is another one.
     """
     begin, cache = time.monotonic(), UserCache.default()
-    result = CheckResult(robot.name, robot.target.package)
+    result = CheckResult(robot.name, robot.target.package, strict=options.strict)
     limits = limits_of(f"the check of robot `{robot.name}`", options.timeout, options.memory)
     try:
         tell(f"{robot.name}: reading the source and the package")
@@ -74,7 +74,7 @@ def check_robot(config: Config, robot: RobotConfig, options: CheckOptions, folde
             if key and package.in_step and is_same:
                 cache.save(key, None if result.failed or result.differs else result)
         result = earlier or result
-        result.folder = shown(robot.folder)  # of this project, whichever was checked before
+        result.folder, result.strict = shown(robot.folder), options.strict  # of this check, whichever was before
         result.add(texts.missing_resources(package))  # files that no fingerprint knows of
     except (UrdfsyncError, OSError) as error:
         result.add(findings_of(error))

@@ -16,7 +16,6 @@ from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.package_files import key_of
 from urdfsync.engine.result import Result, exit_code
 from urdfsync.modelica.files import modelica_files
-from urdfsync.output.conflicts import shown_path
 from urdfsync.output.console import Console, StyledLine
 from urdfsync.output.edits import edit_lines
 from urdfsync.output.results import file_line, show_result
@@ -66,4 +65,4 @@ def _lines(
     for place in sorted(modelica_files(result.folder)):
         path = key_of(Path(place), result.root)
         if path not in generated:
-            yield file_line(shown_path(result, path), "unknown", "yellow", "yours: no export changes it")
+            yield file_line(result.shown(path), "unknown", "yellow", "yours: no export changes it")

@@ -169,6 +169,13 @@ def select_robots(args: argparse.Namespace, configuration: Config, console: Cons
     return robots
 
 
+def select_robot(args: argparse.Namespace, console: Console) -> tuple[Config, RobotConfig]:
+    """Return the configuration, and the robot that the arguments of a command name that takes one, likewise."""
+    loaded = configuration(args)
+    robots = select_robots(args, loaded, console)
+    return loaded, loaded.select_one([robot.name for robot in robots], args.command)
+
+
 def call(
     function: Callable[..., Value], kind: type[msgspec.Struct], args: argparse.Namespace, console: Console, **given: Any
 ) -> Value:

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import argparse
 import sys
-from functools import partial
 from pathlib import Path
 
 from urdfsync.api import check
 from urdfsync.checks.compilers import COMPILERS
-from urdfsync.checks.report import closing_lines, robot_lines, to_document, to_section
+from urdfsync.checks.report import closing_lines, robot_lines, to_section
 from urdfsync.checks.results import CheckOptions, CheckResult, CheckStatus, exit_code
 from urdfsync.checks.tools import BOTH
 from urdfsync.commands import arguments
@@ -47,24 +46,24 @@ def run(args: argparse.Namespace, console: Console) -> int:
 
     def show(result: CheckResult) -> None:
         results.append(result)
-        show_result(console, result, strict=args.strict)
+        show_result(console, result)
 
     try:
         extra = {"tool": args.tool, "trusted": args.trusted, "curves": args.report is not None}
         arguments.call(check, CheckOptions, args, console, on_result=show, **extra)
     finally:
-        console.tell(closing_lines(results, strict=args.strict))
+        console.tell(closing_lines(results))
     if write_report:
         write_report(check=results[0])
         console.tell([line((f"  report: {args.report}", ""))])
-    return console.end(exit_code(results, args.strict))
+    return console.end(exit_code(results))
 
 
-def show_result(console: Console, result: CheckResult, *, strict: bool) -> None:
+def show_result(console: Console, result: CheckResult) -> None:
     """Show the result of one robot."""
     if console.is_document:
-        console.add(result, partial(to_document, strict=strict), partial(to_section, strict=strict))
-    elif not console.quiet or result.status(strict) is not CheckStatus.RIGHT:
+        console.add(result, to_section)
+    elif not console.quiet or result.status is not CheckStatus.RIGHT:
         marks = has_marks(sys.stdout)
-        console.print(robot_lines(result, strict=strict, verbose=console.verbose, marks=marks))
+        console.print(robot_lines(result, verbose=console.verbose, marks=marks))
     console.findings(result.diagnostics)

@@ -3,14 +3,20 @@
 from __future__ import annotations
 
 import argparse
+from functools import partial
+from typing import TYPE_CHECKING
 
-from urdfsync.api import diff
+from urdfsync.api import diff, edits
 from urdfsync.commands import arguments
 from urdfsync.engine.findings import CONNECTORS
+from urdfsync.engine.result import Exit
 from urdfsync.output.console import Console
 from urdfsync.output.results import show_lines
+from urdfsync.versions import report
 from urdfsync.versions.comparison import Comparison, exit_code
-from urdfsync.versions.report import robot_lines, to_document, to_section
+
+if TYPE_CHECKING:
+    from urdfsync.engine.edits import RobotEdits
 
 
 def add(commands: arguments.Commands) -> None:
@@ -37,16 +43,25 @@ def add(commands: arguments.Commands) -> None:
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
-    """Show what changed in each source."""
+    """Show what changed in each source, or what the user edited."""
+    given = {"robots": args.robot or (), "config": args.config, "wait": args.wait, "progress": console.progress}
     if args.edits:
-        from urdfsync.commands import edits  # the merge takes a while to load
+        edited = edits(*args.sources, **given, on_result=partial(_show_edits, console))
+        return console.end(Exit.ERROR if any(each.failed for each in edited) else Exit.IN_STEP)
+    compared = diff(*args.sources, **given, against=args.against, on_result=partial(_show_changes, console))
+    return console.end(exit_code(compared))
 
-        return edits.run(args, console)
 
-    def show(compared: Comparison) -> None:
-        console.add(compared, to_document, to_section)
-        told = [diagnostic for diagnostic in compared.result.diagnostics if diagnostic.code != CONNECTORS]
-        show_lines(console, compared.result, robot_lines(compared, verbose=console.verbose), told)
+def _show_changes(console: Console, compared: Comparison) -> None:
+    told = [diagnostic for diagnostic in compared.result.diagnostics if diagnostic.code != CONNECTORS]
+    lines = report.robot_lines(compared, verbose=console.verbose)
+    console.add(compared, report.to_section)
+    show_lines(console, compared.result, lines, told)
 
-    options = {"config": args.config, "wait": args.wait, "progress": console.progress, "on_result": show}
-    return console.end(exit_code(diff(*args.sources, robots=args.robot or (), against=args.against, **options)))
+
+def _show_edits(console: Console, edited: RobotEdits) -> None:
+    from urdfsync.output.edits import robot_lines, to_section  # the merge takes a while to load
+
+    console.add(edited, to_section)
+    console.findings(edited.diagnostics)
+    console.tell(robot_lines(edited, verbose=console.verbose))

@@ -16,7 +16,7 @@ from urdfsync.output.console import Console
 from urdfsync.simulation.export import TOLERANCE, Exported, export, is_exported
 from urdfsync.simulation.files import check_file, input_files, not_writable, write_file
 from urdfsync.simulation.fmu import KINDS, WrittenFmu, find_faults, try_out
-from urdfsync.simulation.report import fmu_lines, fmu_to_document
+from urdfsync.simulation.report import fmu_lines
 from urdfsync.simulation.results import STOP, SimulateOptions
 
 _VERSIONS = {"2": "2.0", "3": "3.0"}
@@ -55,9 +55,7 @@ def add(commands: arguments.Commands) -> None:
 
 def run(args: argparse.Namespace, console: Console) -> int:
     """Export one model, check it if that is wanted, and write it."""
-    configuration = arguments.configuration(args)
-    robots = arguments.select_robots(args, configuration, console)
-    robot = configuration.select_one([robot.name for robot in robots], "fmu")
+    configuration, robot = arguments.select_robot(args, console)
     if args.check and importlib.util.find_spec("fmpy") is None:
         raise ConfigError.of("no-fmpy", "`--check` needs FMPy, which is not installed", hint=install_command("fmu"))
     if args.motion and (args.kind == "me" or not args.check):
@@ -77,7 +75,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     write_file(file, exported.content)
     warnings = robot.without_ignored(find_faults(trial, file)) if trial else ()
     written = WrittenFmu(robot.name, exported, kind, file, trial, warnings)
-    console.add_result(fmu_to_document(written))
+    console.add(written)
     console.tell(fmu_lines(written))
     console.findings(written.diagnostics)
     return console.end(Exit.OUT_OF_STEP if warnings else Exit.IN_STEP)

@@ -27,8 +27,8 @@ from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Exit, Result, exit_code
 from urdfsync.files import shown
 from urdfsync.output.console import Console
-from urdfsync.output.phrases import counted, summary
 from urdfsync.output.results import show_result
+from urdfsync.spelling import counted
 from urdfsync.state.store import Store
 
 _FEW = 4
@@ -177,8 +177,8 @@ class RobotFiles:
     def fault_of_build(self, result: Result, hint: str) -> Fault:
         """Return the fault of a robot that a build has written, or would have to."""
         if result.failed or result.conflicts or result.is_broken:
-            return self.fault("out-of-step", summary(result), "", result)
-        return self.fault("out-of-step", f"out of step: {summary(result)}", hint, result)
+            return self.fault("out-of-step", result.summary, "", result)
+        return self.fault("out-of-step", f"out of step: {result.summary}", hint, result)
 
     def fault(self, code: str, message: str, hint: str, result: Result | None = None) -> Fault:
         """Return a fault of this robot."""

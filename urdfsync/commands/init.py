@@ -47,10 +47,10 @@ _LONGEST = 80
 """A longer stem is cut: robots and packages become names of files."""
 
 
-class Guess(msgspec.Struct, frozen=True, rename={"name": "robot"}):
+class Guess(msgspec.Struct, frozen=True):
     """The proposed table of one robot."""
 
-    name: str
+    robot: str
     source: str
     arguments: Mapping[str, str]
     package: str
@@ -108,7 +108,7 @@ def guess_robots(
     errors: list[Diagnostic] = []
     for source in unique.values():
         try:
-            used = {*taken, *(name for one in guesses for name in (one.name, one.package))}
+            used = {*taken, *(name for one in guesses for name in (one.robot, one.package))}
             guess, noted = _guess(domain, source, given, root, used)
         except SourceError as error:
             if named:
@@ -166,7 +166,7 @@ def configuration_text(domain: Domain, guesses: Sequence[Guess], *, merges: bool
 def robot_table(guess: Guess, domain: Domain) -> str:
     """Return the table of a robot, with its options: those that are guessed, and the others as comments."""
     lines = [
-        f"[robots.{guess.name}]",
+        f"[robots.{guess.robot}]",
         _assignment("source", guess.source),
         *([_inline_table("arguments", guess.arguments)] if guess.arguments else []),
         _assignment("package", guess.package)
@@ -226,12 +226,12 @@ def show_guesses(console: Console, file: Path, done: str, guesses: Sequence[Gues
     """End a command: show what was `done` to the configuration, and what was guessed for each robot, and why."""
     lines = [line((shown(file), "bold"), (f" {done}", ""))]
     for guess in guesses:
-        name, package = (guess.name, "bold"), (guess.package, "bold")
+        name, package = (guess.robot, "bold"), (guess.package, "bold")
         lines.append(line(("  ", ""), name, (f": {guess.source} becomes package ", ""), package))
         for option in guess.options:
             assignment = f"    {option.option} = {json.dumps(option.value)}"
             lines.append(line((assignment, ""), (f"  guessed: {option.reason}", "dim")))
     console.tell([*lines, line(("Look it over, then run `urdfsync build`.", ""))])
     for guess in guesses:
-        console.add_result(guess)
+        console.add(guess)
     return console.end(Exit.IN_STEP)

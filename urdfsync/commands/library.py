@@ -45,5 +45,5 @@ def run(_args: argparse.Namespace, console: Console) -> int:
         console.print([line((folder, "")), line((command, ""))])
     elif not console.is_document:
         sys.stdout.write(f"{command}\n")  # as it is: a shell reads it
-    console.add_result(LibraryDocument(folder, command))
+    console.add(LibraryDocument(folder, command))
     return console.end(Exit.IN_STEP)

@@ -13,7 +13,7 @@ from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.engine.result import Exit
 from urdfsync.files import shown
 from urdfsync.output.console import Console, line
-from urdfsync.output.phrases import counted
+from urdfsync.spelling import counted
 
 _MARKER_SIZE = 7
 """Length of markers, unless another one is given."""

@@ -16,18 +16,7 @@ from urdfsync.engine.result import Exit
 from urdfsync.files import normalised, shown
 from urdfsync.modelica.names import is_class_name
 from urdfsync.output.console import Console, line
-from urdfsync.output.documents import fill
 from urdfsync.simulation.files import check_file, write_file
-
-
-class RecordDocument(msgspec.Struct, rename={"class_": "class"}):
-    """A record: its text, or the file that has it, and whether that did not have it already."""
-
-    class_: str
-    within: str
-    text: str | None
-    file: Path | None
-    written: bool
 
 
 def add(commands: arguments.Commands) -> None:
@@ -65,14 +54,13 @@ def run(args: argparse.Namespace, console: Console) -> int:
     console.warnings(written.diagnostics)
     if file is not None:
         is_written = _write(written.text, named[0], file, force=args.force)
-        console.tell([line((f"{file} {'written' if is_written else 'unchanged'}: record {written.class_}", ""))])
-        console.add_result(fill(RecordDocument, written, text=None, file=file, written=is_written))
-        return console.end(Exit.IN_STEP)
-    console.add_result(fill(RecordDocument, written, file=None, written=False))
-    if not console.is_document:
+        console.tell([line((f"{file} {'written' if is_written else 'unchanged'}: record {written.name}", ""))])
+        written = msgspec.structs.replace(written, file=file, is_written=is_written)
+    elif not console.is_document:
         if hasattr(sys.stdout, "reconfigure") and not sys.stdout.isatty():
             sys.stdout.reconfigure(encoding="utf-8", newline="\n")  # a file is what Modelica tools read
         sys.stdout.write(written.text)
+    console.add(written)
     return console.end(Exit.IN_STEP)
 
 

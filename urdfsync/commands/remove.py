@@ -13,10 +13,8 @@ from urdfsync.engine.actions import Action, Reason
 from urdfsync.engine.build import build
 from urdfsync.engine.result import Result, exit_code
 from urdfsync.files import shown
-from urdfsync.output.conflicts import shown_path
 from urdfsync.output.console import Console, first_lines
-from urdfsync.output.phrases import action_counts
-from urdfsync.output.results import action_word, file_line, headline, show_result
+from urdfsync.output.results import action_line, headline, show_result
 from urdfsync.state.transaction import save
 
 _STAYS = (Reason.ORPHAN, Reason.NEEDED)
@@ -68,9 +66,9 @@ def _show(console: Console, result: Result, words: str) -> None:
         show_result(console, result)
         return
     console.findings(result.diagnostics)
-    console.tell([headline(result, "; ".join([words, *action_counts(result, _STAYS)]), is_fine=True)])
+    console.tell([headline(result, "; ".join([words, *result.counts(_STAYS)]), is_fine=True)])
     decided = [action for action in result.actions.decided if action.writes or action.reason in _STAYS]
-    files = [file_line(shown_path(result, action.path), *action_word(action), _reason(action)) for action in decided]
+    files = [action_line(result, action, _reason(action)) for action in decided]
     console.tell(first_lines(files, _FILES, "file", verbose=console.verbose))
 
 

@@ -15,8 +15,8 @@ from urdfsync.engine.result import Exit, exit_code
 from urdfsync.files import failure, shown
 from urdfsync.output.conflicts import difference_lines
 from urdfsync.output.console import Console, StyledLine, line
-from urdfsync.output.phrases import counted
 from urdfsync.output.results import show_result
+from urdfsync.spelling import counted
 from urdfsync.state.transaction import save
 
 

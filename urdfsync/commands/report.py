@@ -49,9 +49,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     from urdfsync.pages.content import gather  # with numpy 100 ms, which `urdfsync --help` does without
     from urdfsync.pages.page import check_page, is_page, page
 
-    configuration = arguments.configuration(args)
-    robots = arguments.select_robots(args, configuration, console)
-    robot = configuration.select_one([robot.name for robot in robots], "report")
+    configuration, robot = arguments.select_robot(args, console)
     file = args.output or working_folder() / f"{robot.name}.html"
     if args.output is None and (file.is_symlink() or (file.exists() and not is_page(file))):
         hint = "name a file with `--output`, this one to replace it"
@@ -61,7 +59,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     text = page(content, check=known_check(configuration, robot))
     write_file(file, text)
     section, place = content.section, shown(file)
-    console.add_result(PageDocument(robot.name, place, len(text), section.summary))
+    console.add(PageDocument(robot.name, place, len(text), section.summary))
     console.tell([line((robot.name, "bold"), (f": {section.summary}", "")), line((f"  page: {place}", ""))])
     return console.end(Exit.IN_STEP)
 

@@ -10,30 +10,30 @@ from typing import Any, Literal
 
 import msgspec
 
-from urdfsync.checks.report import CheckDocument
+from urdfsync.api import WholeRecord
+from urdfsync.checks.results import CheckResult
 from urdfsync.commands import arguments
 from urdfsync.commands.init import Guess
 from urdfsync.commands.library import LibraryDocument
-from urdfsync.commands.record import RecordDocument
 from urdfsync.commands.report import PageDocument
 from urdfsync.config import schema
-from urdfsync.engine.result import Exit
+from urdfsync.engine.edits import RobotEdits
+from urdfsync.engine.result import Exit, Result
 from urdfsync.output.console import Console
-from urdfsync.output.documents import Document
-from urdfsync.output.edits import EditsDocument
-from urdfsync.output.results import RobotDocument
-from urdfsync.simulation.report import FmuDocument, SimulationDocument
-from urdfsync.versions.report import ComparisonDocument
+from urdfsync.output.documents import Document, document_type
+from urdfsync.simulation.fmu import WrittenFmu
+from urdfsync.simulation.results import SimulateResult
+from urdfsync.versions.comparison import Comparison
 
 _RESULTS: dict[str, tuple[Any, ...]] = {
-    **dict.fromkeys(("build", "status", "resolve", "remove", "adopt", "hook"), (RobotDocument,)),
+    **dict.fromkeys(("build", "status", "resolve", "remove", "adopt", "hook"), (Result,)),
     **dict.fromkeys(("init", "add"), (Guess,)),
-    "diff": (ComparisonDocument, EditsDocument),
+    "diff": (Comparison, RobotEdits),
     "report": (PageDocument,),
-    "check": (CheckDocument,),
-    "simulate": (SimulationDocument,),
-    "fmu": (FmuDocument,),
-    "record": (RecordDocument,),
+    "check": (CheckResult,),
+    "simulate": (SimulateResult,),
+    "fmu": (WrittenFmu,),
+    "record": (WholeRecord,),
     "library": (LibraryDocument,),
     **dict.fromkeys(("merge-driver", "watch"), (None,)),
 }
@@ -64,22 +64,15 @@ def run(args: argparse.Namespace, _console: Console) -> int:
 
 def document_schema(name: str) -> dict[str, Any]:
     """Return the schema of a command's document, of `watch` that of each line."""
-    kinds: list[Any] = [Document[kind] for kind in _RESULTS[name]]  # type: ignore[valid-type]
-    kinds += _event_types() if name == "watch" else []
+    kinds: list[Any] = [Document[document_type(kind)] for kind in _RESULTS[name]]  # type: ignore[misc]
+    if name == "watch":
+        from urdfsync.watch.events import Event, RobotEvent  # the other commands do without
+
+        for kind in (*Event.__subclasses__(), *RobotEvent.__subclasses__()):
+            head = {"version": Literal[3], "event": Literal[kind.__struct_config__.tag], "time": datetime.datetime}
+            fields = {field.name: field.type for field in msgspec.structs.fields(document_type(kind))}
+            kinds.append(msgspec.defstruct(kind.__name__, (head | fields).items()))
     schemas, parts = msgspec.json.schema_components(
         kinds, schema_hook=lambda _: {"type": "string"}, ref_template="#/$defs/{name}"
     )
     return {"$schema": schema.DRAFT, "title": name, "anyOf": [*schemas], "$defs": parts}
-
-
-def _event_types() -> list[type[msgspec.Struct]]:
-    """Return the events of `watch` as it writes them."""
-    from urdfsync.watch.events import Event, RobotEvent  # the other commands do without
-
-    types = []
-    for kind in (*Event.__subclasses__(), *RobotEvent.__subclasses__()):
-        fields = {field.name: field.type for field in msgspec.structs.fields(kind)}
-        head = [("version", Literal[3]), ("event", Literal[kind.__struct_config__.tag]), ("time", datetime.datetime)]
-        bases = (RobotDocument,) if fields.pop("result", None) else ()
-        types.append(msgspec.defstruct(kind.__name__, [*head, *fields.items()], bases=bases, kw_only=True))
-    return types

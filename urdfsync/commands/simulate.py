@@ -5,6 +5,8 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+import msgspec
+
 from urdfsync.api import simulate
 from urdfsync.checks.compilers import COMPILERS
 from urdfsync.commands import arguments
@@ -12,7 +14,7 @@ from urdfsync.commands.report import prepare_report
 from urdfsync.diagnostics import Severity
 from urdfsync.engine.result import Exit
 from urdfsync.output.console import Console
-from urdfsync.simulation.report import result_lines, to_document
+from urdfsync.simulation.report import result_lines
 from urdfsync.simulation.results import STEPS, STOP, TOLERANCE, SimulateOptions
 
 FILES = ("csv", "parquet", "plot")
@@ -62,10 +64,10 @@ def run(args: argparse.Namespace, console: Console) -> int:
     extra = {"files": files, "tool": args.tool, "trusted": args.trusted}
     result = arguments.call(simulate, SimulateOptions, args, console, **extra)
     if write_report:
-        files["report"] = args.report
         write_report(simulation=result)
-    console.add_result(to_document(result, files))
-    console.tell(result_lines(result, files))
+        result = msgspec.structs.replace(result, files=files | {"report": args.report})
+    console.add(result)
+    console.tell(result_lines(result))
     console.findings(result.diagnostics)
     stopped = any(finding.severity is Severity.ERROR for finding in result.diagnostics)
     return console.end(Exit.ERROR if stopped else Exit.IN_STEP)

@@ -10,7 +10,7 @@ from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Result, exit_code
 from urdfsync.output.build_section import build_section
 from urdfsync.output.console import Console
-from urdfsync.output.results import robot_document, show_lines
+from urdfsync.output.results import show_lines
 from urdfsync.output.status import lines
 
 
@@ -31,7 +31,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     """Show how each robot's package stands."""
 
     def show(result: Result) -> None:
-        console.add(result, robot_document, build_section)
+        console.add(result, build_section)
         show_lines(console, result, lines(result, verbose=console.verbose), result.diagnostics)
 
     results = arguments.call(status, BuildOptions, args, console, on_result=show)

@@ -38,52 +38,53 @@ class FileStatus(enum.StrEnum):
     IN_STEP = "in step"
 
 
-class Reason(enum.Enum):
+class Reason(enum.StrEnum):
     """Why something happens to a file. What happens, and all words about it, follow."""
 
-    # Kind, status (None where there is no file any more), text: the end of a sentence about the path.
+    # Word, kind, status (None where there is no file any more), text: the end of a sentence about the path.
     # Then what a dry run says of n such files, and a build if it says something else: in this order.
     # fmt: off
-    UPDATE = Kind.WRITE, FileStatus.STALE, "its generated text changed", "{n} file{s} to write", "{n} file{s} written"
-    CREATE = Kind.WRITE, FileStatus.STALE, "new"
-    RESTORE = (Kind.WRITE, FileStatus.MISSING, "you deleted it",
+    UPDATE = ("update", Kind.WRITE, FileStatus.STALE, "its generated text changed",
+              "{n} file{s} to write", "{n} file{s} written")
+    CREATE = "create", Kind.WRITE, FileStatus.STALE, "new"
+    RESTORE = ("restore", Kind.WRITE, FileStatus.MISSING, "you deleted it",
                "{n} to restore", "{n} restored because you deleted {them}")
-    DELETE = Kind.DELETE, FileStatus.STALE, "no longer generated", "{n} to delete", "{n} deleted"
-    ADOPT = (Kind.LEAVE, FileStatus.IN_STEP, "it already equals the generated text",
+    DELETE = "delete", Kind.DELETE, FileStatus.STALE, "no longer generated", "{n} to delete", "{n} deleted"
+    ADOPT = ("adopt", Kind.LEAVE, FileStatus.IN_STEP, "it already equals the generated text",
              "{n} already equal to the generated text")
-    MERGE = (Kind.WRITE, FileStatus.STALE, "your edits and what is new, merged",
+    MERGE = ("merge", Kind.WRITE, FileStatus.STALE, "your edits and what is new, merged",
              "{n} to merge with your edits", "{n} merged with your edits")
-    UNDO = (Kind.WRITE, FileStatus.STALE, "it is as you had it before the last build",
+    UNDO = ("undo", Kind.WRITE, FileStatus.STALE, "it is as you had it before the last build",
             "{n} to give back as you had {them}", "{n} given back as you had {them}")
-    MOVE = (Kind.WRITE, FileStatus.STALE, "its path is new; your edits move here",
+    MOVE = ("move", Kind.WRITE, FileStatus.STALE, "its path is new; your edits move here",
             "{n} to move with your edits", "{n} moved with your edits")
-    INCLUDED = (Kind.LEAVE, FileStatus.EDITED, "you edited it, and it already has what is new",
+    INCLUDED = ("included", Kind.LEAVE, FileStatus.EDITED, "you edited it, and it already has what is new",
                 "{n} that you edited already {have} what is new")
-    KEEP = (Kind.LEAVE, FileStatus.EDITED, "you edited it; there is nothing new for it",
+    KEEP = ("keep", Kind.LEAVE, FileStatus.EDITED, "you edited it; there is nothing new for it",
             "{n} kept because you edited {them}")
-    ORPHAN = (Kind.LEAVE, FileStatus.ORPHAN, "no longer generated, but you edited it; kept",
+    ORPHAN = ("orphan", Kind.LEAVE, FileStatus.ORPHAN, "no longer generated, but you edited it; kept",
               "{n} no longer generated but kept because you edited {them}")
-    NEEDED = (Kind.LEAVE, FileStatus.ORPHAN, "no longer generated, but your files need it; kept",
+    NEEDED = ("needed", Kind.LEAVE, FileStatus.ORPHAN, "no longer generated, but your files need it; kept",
               "{n} no longer generated but kept because your files need {them}")
-    CONFLICT = (Kind.CONFLICT, FileStatus.CONFLICT, "you edited it, and its generated text changed too",
+    CONFLICT = ("conflict", Kind.CONFLICT, FileStatus.CONFLICT, "you edited it, and its generated text changed too",
                 "{n} conflict{s}")
-    UNOWNED = Kind.CONFLICT, FileStatus.CONFLICT, "urdfsync did not write the file that is there"
-    UNCHANGED = Kind.LEAVE, FileStatus.IN_STEP, "nothing to do"
-    MOVED_AWAY = Kind.DELETE, FileStatus.STALE, "its path is new; your edits move there"
-    FORGET = Kind.LEAVE, None, "no longer generated, and already gone"
+    UNOWNED = "unowned", Kind.CONFLICT, FileStatus.CONFLICT, "urdfsync did not write the file that is there"
+    UNCHANGED = "unchanged", Kind.LEAVE, FileStatus.IN_STEP, "nothing to do"
+    MOVED_AWAY = "moved-away", Kind.DELETE, FileStatus.STALE, "its path is new; your edits move there"
+    FORGET = "forget", Kind.LEAVE, None, "no longer generated, and already gone"
     # fmt: on
 
-    def __init__(self, kind: Kind, status: FileStatus | None, text: str, to_do: str = "", done: str = "") -> None:
+    def __new__(cls, word: str, *_: object) -> Self:
+        """Return the reason with its word as the value."""
+        reason = str.__new__(cls, word)
+        reason._value_ = word
+        return reason
+
+    def __init__(
+        self, _word: str, kind: Kind, status: FileStatus | None, text: str, to_do: str = "", done: str = ""
+    ) -> None:
         self.kind, self.status, self.text = kind, status, text
         self.to_do, self.done = to_do, done or to_do
-
-    @property
-    def word(self) -> str:
-        """Its name in JSON."""
-        return self.name.lower().replace("_", "-")
-
-    def __deepcopy__(self, _memo: object) -> Self:
-        return self
 
 
 DISPUTED = frozenset({Reason.CONFLICT, Reason.UNOWNED, Reason.MOVE})
@@ -96,6 +97,8 @@ USERS = frozenset(
 
 class Action(msgspec.Struct, frozen=True):
     """The decision about one file, and the hashes that it rests on; `path` is the file's key."""
+
+    KEYS = ("path", "origin", "status", "kind", "reason", "held", "owner", "role", "text")
 
     path: str
     reason: Reason
@@ -118,6 +121,16 @@ class Action(msgspec.Struct, frozen=True):
     def kind(self) -> Kind:
         """The effect on the file, once it waits for nothing."""
         return self.reason.kind
+
+    @property
+    def status(self) -> FileStatus | None:
+        """How the file stands before the build; None where there is no file any more."""
+        return self.reason.status
+
+    @property
+    def text(self) -> str:
+        """Why it happens, and what it waits for, as the end of a sentence that begins with the path."""
+        return "; ".join(filter(None, (self.reason.text, self.waits_for)))
 
     @property
     def writes(self) -> bool:

@@ -16,10 +16,13 @@ from urdfsync.engine.decide import decide_package
 from urdfsync.engine.generation import Generation, generate_robot
 from urdfsync.engine.inputs import inspect
 from urdfsync.engine.options import BuildOptions
+from urdfsync.merge import edits as merge_edits
 
 
 class EditedFile(msgspec.Struct, frozen=True):
     """A text file that is not as it was written."""
+
+    KEYS = ("path", "owner", "edits")
 
     path: str
     """Where it is: a path from the configuration's folder, POSIX."""
@@ -29,9 +32,16 @@ class EditedFile(msgspec.Struct, frozen=True):
     """The generated text that it last took into account; None if that is lost, or if urdfsync never wrote it."""
     mine: str
 
+    @property
+    def edits(self) -> Sequence[merge_edits.Edit] | None:
+        """The edits by the elements of its class; None if they can't be told so."""
+        return None if self.base is None else merge_edits.find_edits(self.base, self.mine)
+
 
 class RobotEdits(msgspec.Struct, frozen=True):
     """What the user edited in the package of one robot."""
+
+    KEYS = ("robot", "failed", "files")
 
     robot: str
     root: Path

@@ -1,20 +1,25 @@
-"""Results of commands, for `output` to show and for the exit code."""
+"""Results of builds: plain data, the words about it, and the exit code."""
 
 from __future__ import annotations
 
 import enum
-from collections.abc import Iterable
+import os
+from collections import Counter
+from collections.abc import Container, Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import msgspec
 
-from urdfsync.diagnostics import Diagnostic, SourceError
+from urdfsync.changes import Changes
+from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.engine.actions import Action, Actions, Kind, Reason
+from urdfsync.engine.conflicts import Conflict, conflict_files
+from urdfsync.files import shown
+from urdfsync.spelling import counted
+from urdfsync.state.record import Choice
 
-if TYPE_CHECKING:
-    from urdfsync.changes import Changes
-    from urdfsync.engine.conflicts import Conflict
+_NAMED = 3
+"""So many contradictions of a file are named in its sentence."""
 
 
 class Exit(enum.IntEnum):
@@ -37,8 +42,68 @@ class Checked(enum.StrEnum):
     WRONG = "wrong"
 
 
+class DisputedFile(msgspec.Struct, frozen=True):
+    """A file in conflict."""
+
+    KEYS = ("action", "merges", "relation", "saved")
+
+    result: Result
+    action: Action
+    texts: Conflict | None = None
+    """None if the versions are no texts that could be compared."""
+
+    @property
+    def shown(self) -> str:
+        """Where the user's file is, as the user would type it."""
+        return self.result.shown(self.action.origin or self.action.path)
+
+    @property
+    def merges(self) -> bool:
+        """Whether `--merge` settles it."""
+        return self.offers(Choice.MERGE)
+
+    @property
+    def relation(self) -> str:
+        """How the sides stand to each other, as a clause."""
+        texts = self.texts
+        if texts is None:
+            return "it is not a text, so it can't be merged"
+        if texts.merge is None:
+            is_unowned = self.action.reason is Reason.UNOWNED
+            lost = "its merge base, the text that urdfsync wrote last, is not recorded"
+            return texts.rejected or f"{'there is no base' if is_unowned else lost}, so it can't be merged"
+        if self.merges:
+            return "the changes fit together: --merge takes both"
+        if texts.rejected:
+            return f"--merge would not be right: {texts.rejected}"
+        contradictions = texts.merge.contradictions
+        if not all(contradictions):
+            places = f" in {len(contradictions)} places" if len(contradictions) > 1 else ""
+            return f"the changes contradict each other{places}"
+        more = f"; and {len(contradictions) - _NAMED} more" if len(contradictions) > _NAMED else ""
+        return f"{'; '.join(contradictions[:_NAMED])}{more}"
+
+    @property
+    def saved(self) -> Mapping[str, str]:
+        """Where a build saves the versions, from the configuration's folder: `base`, `generated`, `merge`."""
+        if self.texts is None:
+            return {}
+        folder = Path(os.path.relpath(self.result.folder, self.result.root)).as_posix()
+        aside = f".urdfsync/conflicts/{self.result.robot}"
+        return {name: f"{aside}/{path}" for name, (path, _) in conflict_files(self.texts, folder).items()}
+
+    def offers(self, choice: Choice) -> bool:
+        """Return whether a choice to merge settles it."""
+        return self.texts is not None and self.texts.merged(choice) is not None
+
+
 class Result(msgspec.Struct, frozen=True):
     """Result of a build, or of a dry run, for one robot."""
+
+    KEYS = (
+        *("robot", "package", "folder", "failed", "locked", "is_built", "in_step", "is_broken", "writes", "summary"),
+        *("drawing", "checked", "stale", "changes", "actions", "disputed", "diagnostics"),
+    )
 
     robot: str
     package: str
@@ -76,6 +141,12 @@ class Result(msgspec.Struct, frozen=True):
         return [action for action in self.actions.decided if action.kind is Kind.CONFLICT]
 
     @property
+    def disputed(self) -> Sequence[DisputedFile]:
+        """The same with their texts, in the order of their paths."""
+        texts = {conflict.path: conflict for conflict in self.conflict_texts}
+        return [DisputedFile(self, action, texts.get(action.path)) for action in self.conflicts]
+
+    @property
     def in_step(self) -> bool:
         """Whether the package is in step now: a build would write nothing, and nothing is in conflict or broken.
 
@@ -102,6 +173,62 @@ class Result(msgspec.Struct, frozen=True):
     def is_first(self) -> bool:
         """Whether no build has written any file of the package before."""
         return not self.is_built and any(action.reason is Reason.CREATE for action in self.actions)
+
+    @property
+    def summary(self) -> str:
+        """What happened to the package, or would in a dry run, as the rest of a line that names the robot."""
+        if self.failed:
+            end = "the next build finishes it" if self.unfinished else "nothing was changed"
+            return f"{error_count(self.diagnostics)}, {end}"
+        parts = [*(["inputs changed since the last build"] if self.stale else []), *self.counts()]
+        if self.in_step and not any(action.writes or action.reason is Reason.ADOPT for action in self.actions.decided):
+            fine = (Reason.UNCHANGED, Reason.KEEP, Reason.INCLUDED)
+            total = sum(action.reason in fine for action in self.actions)
+            parts.insert(0, f"in step, {counted(total, 'file')}")
+        if self.is_broken:
+            parts.insert(0, "broken: a file that you edited does not fit")
+        checked = [check_result(self.checked, self.diagnostics)] if self.checked else []
+        return "; ".join([", ".join(parts), *checked])
+
+    def shown(self, path: str) -> str:
+        """Return a path of the record as the user would type it."""
+        return shown(Path(os.path.normpath(self.root / path)))
+
+    def counts(self, silent: Container[Reason] = ()) -> list[str]:
+        """Return a phrase for each reason that is not `silent`, with the number of files, and for what waits."""
+        reasons = Counter(action.reason for action in self.actions.decided if not action.held)
+        reasons[Reason.UPDATE] += reasons.pop(Reason.CREATE, 0)
+        reasons[Reason.CONFLICT] += reasons.pop(Reason.UNOWNED, 0)
+        phrases = []
+        for reason in Reason:  # in the order in which they are told
+            if (number := reasons[reason]) and reason not in silent and reason.done:
+                them, have, s = ("them", "have", "s") if number > 1 else ("it", "has", "")
+                phrase = reason.to_do if self.dry else reason.done
+                phrases.append(phrase.format(n=number, them=them, have=have, s=s))
+        if (
+            self.dry
+            and self.writes
+            and all(reason.kind is Kind.LEAVE and reason is not Reason.ADOPT for reason in +reasons)
+        ):
+            phrases.append("recorded state to write")
+        if waiting := sum(action.held for action in self.actions.decided):
+            what = "the conflict is" if reasons[Reason.CONFLICT] == 1 else "all conflicts are"
+            phrases.append(f"{counted(waiting, 'file')} wait{'s' if waiting == 1 else ''} until {what} resolved")
+        return phrases
+
+
+def error_count(diagnostics: Sequence[Diagnostic]) -> str:
+    """`2 errors`."""
+    return counted(sum(diagnostic.severity is Severity.ERROR for diagnostic in diagnostics), "error")
+
+
+def check_result(checked: Checked, diagnostics: Sequence[Diagnostic]) -> str:
+    """Return what the check after a build said, as the rest of a line that names the robot."""
+    return {
+        Checked.RIGHT: "checked: compiles",
+        Checked.INCOMPLETE: "checked in part",
+        Checked.WRONG: f"checked: {error_count(diagnostics)}",
+    }[checked]
 
 
 def exit_code(results: Iterable[Result], check: bool = False) -> Exit:

@@ -59,7 +59,7 @@ def find_edits(base: str, mine: str) -> list[Edit] | None:
     except UnreadableError:
         return None
     if comments(base) != comments(mine):
-        edits.append(Edit("comments", "", base, mine))
+        edits.append(Edit("comments", "", None, None))
     return list(dict.fromkeys(edits))
 
 

@@ -4,17 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-import msgspec
-
 from urdfsync.changes import Changes
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import ChangeClass
-from urdfsync.engine.actions import Actions, Kind, Reason
-from urdfsync.engine.result import Checked, Result
+from urdfsync.engine.actions import Kind, Reason
+from urdfsync.engine.result import Checked, DisputedFile, Result
 from urdfsync.files import shown
-from urdfsync.output.conflicts import DisputedFile, describe, find_conflicts, settle_hint, shown_path
+from urdfsync.output.conflicts import settle_hint
 from urdfsync.output.outline import outline
-from urdfsync.output.phrases import change_counts, generator_change, reason, summary
+from urdfsync.output.phrases import change_counts, generator_change, reason
 from urdfsync.output.sections import Mark, Section, Table
 from urdfsync.spelling import same_count
 
@@ -31,7 +29,7 @@ def build_section(result: Result) -> Section:
     points, tables = change_parts(changes)
     return Section(
         result.robot,
-        summary(result),
+        result.summary,
         mark_of(result),
         points,
         (*tables, file_table(result)),
@@ -52,16 +50,16 @@ def out_of_step(result: Result) -> Diagnostic | None:
     if result.in_step:
         return None
     hint = _SETTLE if result.conflicts else _BUILD if not result.are_files_in_step else _FIT
-    message = f"the package {result.package} is out of step: {summary(result)}"
+    message = f"the package {result.package} is out of step: {result.summary}"
     return Diagnostic(Severity.WARNING, "out-of-step", message, shown(result.folder / "package.mo"), hint=hint)
 
 
 def _conflicts(result: Result) -> Iterable[Diagnostic]:
     """Yield each file that conflicts as a finding."""
-    for target in find_conflicts([result]):
-        message = f"{reason(target.action, result.changes, brief=True)}: {describe(target)}"
-        settle = settle_hint(msgspec.structs.replace(result, actions=Actions([target.action]))).strip()
-        yield Diagnostic(Severity.ERROR, "conflict", message, target.shown, _edited_line(target), hint=settle)
+    for target in result.disputed:
+        message = f"{reason(target.action, result.changes, brief=True)}: {target.relation}"
+        place, hint = (target.shown, _edited_line(target)), settle_hint([target])
+        yield Diagnostic(Severity.ERROR, "conflict", message, *place, hint=hint)
 
 
 def _edited_line(target: DisputedFile) -> int:
@@ -89,7 +87,7 @@ def file_table(result: Result) -> Table:
     """Return what happens to the files of a package, without those that stay."""
     actions = [action for action in result.actions if action.reason not in _SILENT]
     actions.sort(key=lambda action: (action.kind is Kind.LEAVE, action.path.rpartition("/")))
-    words = ["waiting" if action.held else action.reason.word for action in actions]
+    words = ["waiting" if action.held else action.reason for action in actions]
     reasons = [reason(action, result.effective_changes, brief=True) for action in actions]
-    paths = [shown_path(result, action.path) for action in actions]
+    paths = [result.shown(action.path) for action in actions]
     return Table("Files", ("File", "", "Why"), list(zip(paths, words, reasons, strict=True)))

@@ -5,17 +5,15 @@ from __future__ import annotations
 import difflib
 import os
 import shlex
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-import msgspec
-
-from urdfsync.engine.actions import Action, Reason
-from urdfsync.engine.conflicts import Conflict, conflict_files
-from urdfsync.engine.result import Result
-from urdfsync.files import shown
+from urdfsync.engine.actions import Reason
+from urdfsync.engine.conflicts import Conflict
+from urdfsync.engine.result import DisputedFile, Result
 from urdfsync.output.console import Console, StyledLine, line
-from urdfsync.output.phrases import counted, reason
+from urdfsync.output.phrases import reason
+from urdfsync.spelling import counted
 from urdfsync.state.record import Choice
 
 FULL = 3
@@ -28,82 +26,13 @@ _WIDTH = 240
 """Characters of a line that are shown."""
 _ELEMENTS = 5
 """So many changes of each side are listed."""
-_NAMED = 3
-"""So many contradictions of a file are named in its sentence."""
 _SIGNS = {"+": "green", "-": "red", "@": "cyan"}
 """Styles of the lines of a difference, by how they begin."""
 
 
-class DisputedFile(msgspec.Struct, frozen=True):
-    """A file in conflict."""
-
-    result: Result
-    action: Action
-    texts: Conflict | None = None
-    """None if the versions are no texts that could be compared."""
-
-    @property
-    def shown(self) -> str:
-        """Return where the user's file is, as the user would type it."""
-        return shown_path(self.result, self.action.origin or self.action.path)
-
-    @property
-    def merges(self) -> bool:
-        """Return whether `--merge` settles it."""
-        return self.offers(Choice.MERGE)
-
-    def offers(self, choice: Choice) -> bool:
-        """Return whether a choice to merge settles it."""
-        return self.texts is not None and self.texts.merged(choice) is not None
-
-
-def find_conflicts(results: Iterable[Result]) -> list[DisputedFile]:
-    """Return the files that conflict, in the order of robots and paths."""
-    files = []
-    for result in results:
-        by_path = {texts.path: texts for texts in result.conflict_texts}
-        files += [DisputedFile(result, action, by_path.get(action.path)) for action in result.conflicts]
-    return files
-
-
-def describe(target: DisputedFile) -> str:
-    """Return how the sides stand to each other, as a clause."""
-    texts = target.texts
-    if texts is None:
-        return "it is not a text, so it can't be merged"
-    if texts.merge is None:
-        is_unowned = target.action.reason is Reason.UNOWNED
-        lost = "its merge base, the text that urdfsync wrote last, is not recorded"
-        return texts.rejected or f"{'there is no base' if is_unowned else lost}, so it can't be merged"
-    if target.merges:
-        return "the changes fit together: --merge takes both"
-    if texts.rejected:
-        return f"--merge would not be right: {texts.rejected}"
-    contradictions = texts.merge.contradictions
-    if not all(contradictions):
-        places = f" in {len(contradictions)} places" if len(contradictions) > 1 else ""
-        return f"the changes contradict each other{places}"
-    more = f"; and {len(contradictions) - _NAMED} more" if len(contradictions) > _NAMED else ""
-    return f"{'; '.join(contradictions[:_NAMED])}{more}"
-
-
-def saved_texts(target: DisputedFile) -> dict[str, str]:
-    """Return where a build saves the versions, from the configuration's folder: `base`, `generated`, `merge`."""
-    if target.texts is None:
-        return {}
-    folder = Path(os.path.relpath(target.result.folder, target.result.root)).as_posix()
-    aside = f".urdfsync/conflicts/{target.result.robot}"
-    return {name: f"{aside}/{path}" for name, (path, _) in conflict_files(target.texts, folder).items()}
-
-
-def shown_path(result: Result, path: str) -> str:
-    """Return a path of the record as the user would type it."""
-    return shown(Path(os.path.normpath(result.root / path)))
-
-
 def conflict_lines(result: Result, console: Console) -> Iterator[StyledLine]:
     """Yield all conflicts of one robot: the first ones in full, the others on a line each, and the command for all."""
-    conflicts = find_conflicts([result])
+    conflicts = result.disputed
     full = len(conflicts) if console.verbose else 0 if console.quiet else FULL
     for target in conflicts[:full]:
         yield line(("", ""))
@@ -111,7 +40,7 @@ def conflict_lines(result: Result, console: Console) -> Iterator[StyledLine]:
     if full and conflicts[full:]:
         yield line(("", ""))
     for target in conflicts[full:]:
-        yield line(("  conflict   ", "bold red"), (target.shown, ""), (f"  {describe(target)}", "dim"))
+        yield line(("  conflict   ", "bold red"), (target.shown, ""), (f"  {target.relation}", "dim"))
     if len(conflicts) == 1 and full:
         return
     mergeable = sum(target.merges for target in conflicts)
@@ -130,11 +59,11 @@ def _full_lines(target: DisputedFile, console: Console) -> Iterator[StyledLine]:
     """Yield one conflict: what happened, the lines at issue, where the versions are saved, and what to do."""
     result, action, name = target.result, target.action, target.shown
     yield line(("  conflict   ", "bold red"), (name, "bold"), (f"  {action.owner}", "dim"))
-    clauses = [reason(action, result.changes, brief=True), describe(target)]
-    clauses += [f"it will be moved to {shown_path(result, action.path)}"] if action.origin else []
+    clauses = [reason(action, result.changes, brief=True), target.relation]
+    clauses += [f"it will be moved to {result.shown(action.path)}"] if action.origin else []
     yield from (line((f"    {_sentence(clause)}", "")) for clause in clauses)
     if target.texts:
-        saved = {kind: shown_path(result, path) for kind, path in saved_texts(target).items()}
+        saved = {kind: result.shown(path) for kind, path in target.saved.items()}
         lines = [] if console.verbose else _element_lines(target.texts)
         lines = lines or list(_text_lines(target.texts))
         most = len(lines) if console.verbose else LINES
@@ -154,14 +83,13 @@ def _full_lines(target: DisputedFile, console: Console) -> Iterator[StyledLine]:
         yield line((f"      {choice:<{width}}  {words}", "dim"))
 
 
-def settle_hint(result: Result) -> str:
-    """Return what settles the conflicts of a robot: the options that do so for each of them."""
-    conflicts = find_conflicts([result])
+def settle_hint(conflicts: Sequence[DisputedFile]) -> str:
+    """Return what settles conflicts of a robot: the options that do so for each of them."""
     first, *others = map(_choices, conflicts)
     best, *more = [choice for choice in first if all(choice in choices for choices in others)]
     what, file = ("each conflict", "FILE") if others else ("the conflict", conflicts[0].shown)
     or_more = f" (or {', '.join(more)})" if more else ""
-    return f"  settle {what} with `urdfsync resolve {file} {best}`{or_more}"
+    return f"settle {what} with `urdfsync resolve {file} {best}`{or_more}"
 
 
 def _choices(target: DisputedFile) -> dict[str, str]:

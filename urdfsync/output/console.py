@@ -20,7 +20,7 @@ import msgspec
 
 from urdfsync import streams
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.output.documents import Document
+from urdfsync.output.documents import Document, plain
 from urdfsync.spelling import visible
 
 if TYPE_CHECKING:
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
     from urdfsync.output.sections import Section
 
-R = TypeVar("R")
+R = TypeVar("R", bound=msgspec.Struct)
 FEW = 5
 """So many warnings of one code are shown; of more, only the first ones and their number."""
 BAR_AFTER = 0.5
@@ -186,17 +186,12 @@ class Console:
         self._warnings = diagnostics
         self.findings(diagnostics)
 
-    def add_result(self, result: msgspec.Struct) -> None:
-        """Add a result to the JSON document; those of a command that fails later are in its document, too."""
+    def add(self, result: R, to_section: Callable[[R], Section] | None = None) -> None:
+        """Add a result to the document; those of a command that fails later are in its document, too."""
         self.stop_progress()
-        self._results.append(result)
-
-    def add(self, result: R, to_document: Callable[[R], msgspec.Struct], to_section: Callable[[R], Section]) -> None:
-        """Add the result of a robot to the document of whichever format, likewise."""
         if self.format is Format.JSON:
-            self.add_result(to_document(result))
-        elif self.is_document:
-            self.stop_progress()
+            self._results.append(result)
+        elif self.is_document and to_section:
             self._sections.append(to_section(result))
 
     def end(self, code: int, diagnostics: Sequence[Diagnostic] = ()) -> int:
@@ -220,7 +215,7 @@ class Console:
             return log(self._sections, diagnostics, code)
         document = Document(command=self._command, exit=int(code), results=self._results, diagnostics=diagnostics)
         indent = None if self._command == "watch" else 2  # its output is one object per line
-        return json.dumps(msgspec.to_builtins(document, enc_hook=str), indent=indent) + "\n"
+        return json.dumps(plain(document), indent=indent) + "\n"
 
     def progress(self, what: str, done: int, total: int) -> None:
         """Show a step of the work, once the work takes long enough for anybody to wonder."""

@@ -1,8 +1,16 @@
-"""The types of JSON documents and their parts (docs/json.md); `urdfsync schema` prints their schemas."""
+"""JSON documents (docs/json.md): results as plain data, under the names of their fields and properties.
+
+A class of results may have `KEYS`: the names of those of its fields and properties that documents have. Of any other
+struct they have all fields. `urdfsync schema` prints their schemas, of the same types.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import functools
+import math
+import types
+import typing
+from collections.abc import Mapping, Sequence
 from typing import Any, Generic, Literal, TypeVar
 
 import msgspec
@@ -10,18 +18,8 @@ import msgspec
 from urdfsync.diagnostics import Diagnostic
 
 Item = TypeVar("Item")
-Part = TypeVar("Part", bound=msgspec.Struct)
 JSON_VERSION: Literal[3] = 3
 """Version of the JSON documents and events; raised when a key changes its meaning or goes away."""
-
-KEYS = {
-    "change_class": "class",
-    "is_built": "built",
-    "is_broken": "broken",
-    "is_known": "known",
-    "stale": "not_expanded",
-}
-"""Keys of documents by the names of fields that are called otherwise."""
 
 
 class Document(msgspec.Struct, Generic[Item], kw_only=True):
@@ -37,8 +35,43 @@ class Document(msgspec.Struct, Generic[Item], kw_only=True):
     """Those about no robot."""
 
 
-def fill(kind: type[Part], source: object, /, **given: Any) -> Part:
-    """Return a part of a document: its fields are `given`, or they are attributes of these names of `source`."""
-    fields = kind.__struct_fields__, kind.__struct_encode_fields__
-    values = {key: given[name] if name in given else getattr(source, name) for name, key in zip(*fields, strict=True)}
-    return msgspec.convert(values, kind, from_attributes=True)
+def plain(value: Any) -> Any:
+    """Return a value as plain data; an infinite number, or one that is none, as None."""
+    match value:
+        case msgspec.Struct():
+            return {name: plain(getattr(value, name)) for name in _keys(type(value))}
+        case Mapping():
+            return {str(key): plain(item) for key, item in value.items()}
+        case list() | tuple():
+            return list(map(plain, value))
+        case float():
+            return value if math.isfinite(value) else None
+        case str() | int() | None:
+            return value
+    return str(value)  # of a path
+
+
+@functools.cache
+def document_type(kind: Any) -> Any:
+    """Return the type that values of a type have in documents, which msgspec makes schemas of."""
+    if kind is float:
+        return float | None
+    if not isinstance(kind, type):  # such as `Sequence[Action]`
+        origin, parts = typing.get_origin(kind), tuple(map(document_type, typing.get_args(kind)))
+        origin = typing.Union if origin is types.UnionType else origin
+        return origin[parts] if origin and parts else kind
+    if issubclass(kind, tuple):
+        return document_type(*kind.__orig_bases__)  # type: ignore[attr-defined]
+    if not issubclass(kind, msgspec.Struct):
+        return kind
+    hints = typing.get_type_hints(kind)
+    fields = [(name, document_type(hints.get(name) or _property_type(kind, name))) for name in _keys(kind)]
+    return kind if dict(fields) == hints else msgspec.defstruct(kind.__name__, fields)
+
+
+def _property_type(kind: type, name: str) -> Any:
+    return typing.get_type_hints(getattr(kind, name).fget)["return"]
+
+
+def _keys(kind: type[msgspec.Struct]) -> Sequence[str]:
+    return getattr(kind, "KEYS", kind.__struct_fields__)

@@ -1,21 +1,18 @@
-"""What the user edited in generated files, by the elements of their classes: lines for people, and plain data."""
+"""What the user edited in generated files, by the elements of their classes: lines for people, and a section."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from pathlib import Path
-
-import msgspec
 
 from urdfsync.engine.edits import EditedFile, RobotEdits
 from urdfsync.files import shown
-from urdfsync.merge.edits import Edit, find_edits, in_words
+from urdfsync.merge.edits import in_words
 from urdfsync.output.conflicts import difference_lines
 from urdfsync.output.console import StyledLine, first_lines, line
-from urdfsync.output.documents import fill
-from urdfsync.output.phrases import counted
 from urdfsync.output.sections import Mark, Section, Table
+from urdfsync.spelling import counted
 
 _EDITS = 20
 """So many edits of a file are listed at most, without --verbose."""
@@ -30,27 +27,6 @@ def robot_lines(edited: RobotEdits, *, verbose: bool = False) -> Iterator[Styled
         yield from edit_lines(file, edited.root, verbose)
 
 
-class FileDocument(msgspec.Struct):
-    """A file that the user edited; `edits` is None if they can't be told by element."""
-
-    path: str
-    owner: str
-    edits: Sequence[Edit] | None
-
-
-class EditsDocument(msgspec.Struct):
-    """What the user edited in a package."""
-
-    robot: str
-    failed: bool
-    files: Sequence[FileDocument]
-
-
-def to_document(edited: RobotEdits) -> EditsDocument:
-    """Return the edits of a robot as a part of a document."""
-    return fill(EditsDocument, edited, files=list(map(_document, edited.files)))
-
-
 def to_section(edited: RobotEdits) -> Section:
     """Return the edits of a robot for a comment."""
     if edited.failed:
@@ -62,12 +38,6 @@ def to_section(edited: RobotEdits) -> Section:
 
 def _summary(edited: RobotEdits) -> str:
     return f"{counted(len(edited.files), 'file')} edited" if edited.files else "nothing is edited"
-
-
-def _document(file: EditedFile) -> FileDocument:
-    edits = None if file.base is None else find_edits(file.base, file.mine)
-    told = None if edits is None else [edit for edit in edits if edit.element != "comments"]
-    return fill(FileDocument, file, edits=told)
 
 
 def edit_lines(file: EditedFile, root: Path, verbose: bool, most: int = _EDITS) -> Iterator[StyledLine]:
@@ -93,8 +63,7 @@ def _told(file: EditedFile) -> list[tuple[str, str]]:
     """Return the elements that are edited, and what of each; the element is empty for the file as a whole."""
     if file.base is None:
         return [("", "its base, the text that urdfsync wrote last, is lost: nothing to compare with")]
-    edits = find_edits(file.base, file.mine)
-    if edits is None:
+    if (edits := file.edits) is None:
         return [("", "edited; it is no single class, so only its lines can be compared: --verbose shows them")]
     return in_words(edits) or [("", "only blanks, or the order of things")]
 

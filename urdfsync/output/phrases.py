@@ -3,23 +3,14 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Container, Sequence
-from typing import TYPE_CHECKING
 
-from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.changes import Changes
 from urdfsync.domain import ChangeClass, ChangeKind, Role
 from urdfsync.engine.actions import Action, Kind, Reason
-from urdfsync.engine.result import Checked, Result
 from urdfsync.output.outline import change_row, outline
+from urdfsync.spelling import counted
 from urdfsync.state.record import Choice
 
-if TYPE_CHECKING:
-    from urdfsync.changes import Changes
-
-NOT_EXPANDED = "inputs changed since the last build"
-"""Words for a source that xacro, or a command, would have to make again."""
-BROKEN = "broken: a file that you edited does not fit"
-"""Words for a package in which a name means nothing, or a file is no Modelica."""
 _NAMED = {
     Reason.UPDATE: "{}",
     Reason.MERGE: "{}; merged with your edits",
@@ -37,64 +28,6 @@ _CHOSEN = {
     Choice.UNDO: "as you had it before",
 }
 """The text that a choice of the user's gives a file."""
-
-
-def counted(count: int, noun: str) -> str:
-    """`1 file`, `2 files`."""
-    return f"{count} {noun}{'' if count == 1 else 's'}"
-
-
-def error_count(diagnostics: Sequence[Diagnostic]) -> str:
-    """`2 errors`."""
-    return counted(sum(diagnostic.severity is Severity.ERROR for diagnostic in diagnostics), "error")
-
-
-def summary(result: Result) -> str:
-    """Return what happened to a package, or would in a dry run, as the rest of a line that names the robot."""
-    if result.failed:
-        end = "the next build finishes it" if result.unfinished else "nothing was changed"
-        return f"{error_count(result.diagnostics)}, {end}"
-    parts = [NOT_EXPANDED, *action_counts(result)] if result.stale else action_counts(result)
-    if result.in_step and not any(action.writes or action.reason is Reason.ADOPT for action in result.actions.decided):
-        fine = (Reason.UNCHANGED, Reason.KEEP, Reason.INCLUDED)
-        total = sum(action.reason in fine for action in result.actions)
-        parts.insert(0, f"in step, {counted(total, 'file')}")
-    if result.is_broken:
-        parts.insert(0, BROKEN)
-    checked = [check_result(result.checked, result.diagnostics)] if result.checked else []
-    return "; ".join([", ".join(parts), *checked])
-
-
-def check_result(checked: Checked, diagnostics: Sequence[Diagnostic]) -> str:
-    """Return what the check after a build said, as the rest of a line that names the robot."""
-    return {
-        Checked.RIGHT: "checked: compiles",
-        Checked.INCOMPLETE: "checked in part",
-        Checked.WRONG: f"checked: {error_count(diagnostics)}",
-    }[checked]
-
-
-def action_counts(result: Result, silent: Container[Reason] = ()) -> list[str]:
-    """Return a phrase for each reason that is not `silent`, with the number of files, and for what waits."""
-    reasons = Counter(action.reason for action in result.actions.decided if not action.held)
-    reasons[Reason.UPDATE] += reasons.pop(Reason.CREATE, 0)
-    reasons[Reason.CONFLICT] += reasons.pop(Reason.UNOWNED, 0)
-    phrases = []
-    for reason in Reason:  # in the order in which they are told
-        if (number := reasons[reason]) and reason not in silent and reason.done:
-            them, have, s = ("them", "have", "s") if number > 1 else ("it", "has", "")
-            phrase = reason.to_do if result.dry else reason.done
-            phrases.append(phrase.format(n=number, them=them, have=have, s=s))
-    if (
-        result.dry
-        and result.writes
-        and all(reason.kind is Kind.LEAVE and reason is not Reason.ADOPT for reason in +reasons)
-    ):
-        phrases.append("recorded state to write")
-    if waiting := sum(action.held for action in result.actions.decided):
-        what = "the conflict is" if reasons[Reason.CONFLICT] == 1 else "all conflicts are"
-        phrases.append(f"{counted(waiting, 'file')} wait{'s' if waiting == 1 else ''} until {what} resolved")
-    return phrases
 
 
 def reason(action: Action, changes: Changes | None, *, brief: bool = False) -> str:

@@ -15,7 +15,7 @@ from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.engine.result import Result
 from urdfsync.files import Tree, digest, put
 from urdfsync.output.console import Console, line
-from urdfsync.output.phrases import counted
+from urdfsync.spelling import counted
 
 
 def show_findings(console: Console, result: Result, diagnostics: Sequence[Diagnostic]) -> None:

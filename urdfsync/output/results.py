@@ -1,75 +1,20 @@
-"""The result of a build: as lines for people, and as plain data for JSON documents (docs/json.md)."""
+"""The result of a build as lines for people."""
 
 from __future__ import annotations
 
 import sys
 from collections.abc import Container, Iterable, Iterator, Sequence
-from pathlib import Path
 
-import msgspec
-
-from urdfsync.changes import Change, Changes
 from urdfsync.diagnostics import Diagnostic
-from urdfsync.domain import ChangeClass, Role
 from urdfsync.engine.actions import Action, FileStatus, Kind, Reason
 from urdfsync.engine.result import Checked, Result
 from urdfsync.files import shown
 from urdfsync.output.build_section import build_section
-from urdfsync.output.conflicts import DisputedFile, conflict_lines, describe, find_conflicts, saved_texts, shown_path
+from urdfsync.output.conflicts import conflict_lines
 from urdfsync.output.console import Console, StyledLine, first_lines, has_marks, line
-from urdfsync.output.documents import KEYS, fill
-from urdfsync.output.phrases import change_lines, counted, reason, summary
+from urdfsync.output.phrases import change_lines, reason
 from urdfsync.output.repeated import show_findings
-
-
-class ActionDocument(msgspec.Struct, rename={"kind": "action"}):
-    """What happens to a file."""
-
-    path: str
-    origin: str | None
-    status: FileStatus | None
-    kind: Kind
-    reason: str
-    held: bool
-    owner: str
-    role: Role
-    text: str
-
-
-class ConflictDocument(msgspec.Struct):
-    """A file in conflict."""
-
-    path: str
-    origin: str | None
-    merges: bool
-    reason: str
-    base: str | None
-    generated: str | None
-    merge: str | None
-
-
-class RobotDocument(msgspec.Struct, rename=KEYS):
-    """The result of a build of one robot; paths are relative to the configuration's folder."""
-
-    robot: str
-    package: str
-    folder: Path
-    failed: bool
-    locked: bool
-    is_built: bool
-    in_step: bool
-    is_broken: bool
-    writes: bool
-    summary: str
-    drawing: Path | None
-    checked: Checked | None
-    stale: Sequence[str]
-    change_class: ChangeClass
-    changes: Sequence[Change]
-    actions: Sequence[ActionDocument]
-    conflicts: Sequence[ConflictDocument]
-    diagnostics: Sequence[Diagnostic]
-
+from urdfsync.spelling import counted
 
 _STYLES = {Kind.WRITE: "green", Kind.DELETE: "magenta", Kind.CONFLICT: "bold red"}
 _STYLES_LEFT: dict[FileStatus | None, str] = {FileStatus.EDITED: "cyan", FileStatus.ORPHAN: "yellow"}
@@ -84,8 +29,8 @@ def action_word(action: Action) -> tuple[str, str]:
     """Return what happens to a file in a word, and its style."""
     if action.held:
         return "waiting", "yellow"
-    left = _STYLES_LEFT.get(action.reason.status, "dim")
-    return action.reason.word, _STYLES.get(action.kind, left)
+    left = _STYLES_LEFT.get(action.status, "dim")
+    return action.reason, _STYLES.get(action.kind, left)
 
 
 def headline(result: Result, words: str, *, is_fine: bool) -> StyledLine:
@@ -94,6 +39,11 @@ def headline(result: Result, words: str, *, is_fine: bool) -> StyledLine:
     mark = ("✗ ", "bold red") if is_wrong else ("✓ ", "green") if is_fine else ("! ", "yellow")
     marks = [mark] if has_marks(sys.stderr if result.failed else sys.stdout) else []
     return line(*marks, (result.robot, "bold"), (f": {words}", ""))
+
+
+def action_line(result: Result, action: Action, why: str = "") -> StyledLine:
+    """Return a line for what happens to a file."""
+    return file_line(result.shown(action.path), *action_word(action), why)
 
 
 def file_line(path: str, word: str, style: str, why: str = "") -> StyledLine:
@@ -111,7 +61,7 @@ def change_line(text: str) -> StyledLine:
 
 def show_result(console: Console, result: Result, *, explain: bool = False, named: Container[str] = ()) -> None:
     """Show what was done with one robot; `named` files are listed."""
-    console.add(result, robot_document, build_section)
+    console.add(result, build_section)
     show_lines(console, result, build_lines(result, console, explain=explain, named=named), result.diagnostics)
 
 
@@ -131,7 +81,7 @@ def build_lines(
     result: Result, console: Console, *, explain: bool = False, named: Container[str] = ()
 ) -> Iterator[StyledLine]:
     """Yield what was done with one robot, without its findings."""
-    yield headline(result, summary(result), is_fine=not (result.conflicts or result.is_broken))
+    yield headline(result, result.summary, is_fine=not (result.conflicts or result.is_broken))
     if not console.quiet:
         yield from result_lines(result, verbose=console.verbose, explain=explain, named=named)
     if result.conflicts:
@@ -158,37 +108,10 @@ def result_lines(
             or (action.path in named and action.kind is not Kind.CONFLICT)  # conflicts have lines of their own
         ]
     for action in sorted(actions, key=lambda action: action.path.rpartition("/")):
-        why = reason(action, result.effective_changes, brief=True)
-        yield file_line(shown_path(result, action.path), *action_word(action), why)
+        yield action_line(result, action, reason(action, result.effective_changes, brief=True))
     if explain and (rest := len(result.actions) - len(actions)):
         yield line((f"  {counted(rest, 'unchanged file')}; --verbose names each", "dim"))
     if any(action.reason is Reason.ORPHAN for action in actions):
         yield line((_ORPHANS, "dim"))
     if result.drawing:
         yield line((f"  diagram: {shown(result.drawing)}", ""))
-
-
-def robot_document(result: Result) -> RobotDocument:
-    """Return a result as a part of a document."""
-    changes = result.changes
-    return fill(
-        RobotDocument,
-        result,
-        summary=summary(result),
-        change_class=changes.change_class if changes else ChangeClass.NONE,
-        changes=changes.changes if changes else (),
-        actions=[_action_document(action, changes) for action in result.actions],
-        conflicts=list(map(_conflict_document, find_conflicts([result]))),
-    )
-
-
-def _action_document(action: Action, changes: Changes | None) -> ActionDocument:
-    """Return what happens to a file; `changes` tell why, if it is because of them."""
-    why = {"reason": action.reason.word, "text": reason(action, changes)}
-    return fill(ActionDocument, action, status=action.reason.status, **why)
-
-
-def _conflict_document(target: DisputedFile) -> ConflictDocument:
-    texts = dict.fromkeys(("base", "generated", "merge")) | saved_texts(target)
-    action = target.action
-    return fill(ConflictDocument, target, path=action.path, origin=action.origin, reason=describe(target), **texts)

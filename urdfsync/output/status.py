@@ -6,10 +6,9 @@ from collections.abc import Iterator
 
 from urdfsync.engine.actions import Action, FileStatus, Kind, Reason
 from urdfsync.engine.result import Result
-from urdfsync.output.conflicts import describe, find_conflicts, settle_hint, shown_path
+from urdfsync.output.conflicts import settle_hint
 from urdfsync.output.console import StyledLine, first_lines, line
 from urdfsync.output.phrases import change_counts, generator_change, reason
-from urdfsync.output.phrases import summary as build_summary
 from urdfsync.output.results import action_word, file_line, headline
 
 _INPUTS = 5
@@ -32,16 +31,16 @@ def lines(result: Result, *, verbose: bool = False) -> Iterator[StyledLine]:
     elif changes:
         yield line((f"  {change_counts(changes)} in the source", ""))
     silent = set() if verbose else {FileStatus.IN_STEP} | (set() if result.is_built else {FileStatus.STALE})
-    listed = [action for action in result.actions if action.reason.status and action.reason.status not in silent]
-    conflicts = {file.action.path: describe(file) for file in find_conflicts([result])}
+    listed = [action for action in result.actions if action.status and action.status not in silent]
+    conflicts = {file.action.path: file.relation for file in result.disputed}
     stale, others = list[StyledLine](), list[StyledLine]()
     for action in sorted(listed, key=lambda action: _path(action).rpartition("/")):
-        group = stale if action.reason.status is FileStatus.STALE else others
+        group = stale if action.status is FileStatus.STALE else others
         group.append(_file_line(result, action, conflicts.get(action.path)))
     yield from (*others, *first_lines(stale, _STALE, "stale file", verbose=verbose))
     if conflicts:
-        adopts = f"  `urdfsync adopt {result.robot}` takes these files for your edits"
-        yield line((settle_hint(result) if result.is_built else adopts, "dim"))
+        adopts = f"`urdfsync adopt {result.robot}` takes these files for your edits"
+        yield line((f"  {settle_hint(result.disputed) if result.is_built else adopts}", "dim"))
 
 
 def _path(action: Action) -> str:
@@ -52,17 +51,17 @@ def _path(action: Action) -> str:
 
 
 def _file_line(result: Result, action: Action, conflict: str | None) -> StyledLine:
-    status = action.reason.status or FileStatus.IN_STEP
+    status = action.status or FileStatus.IN_STEP
     says_all = action.reason in (Reason.UNCHANGED, Reason.KEEP) and not action.held
     why = "" if says_all else conflict or reason(action, result.effective_changes)
-    return file_line(shown_path(result, _path(action)), status, action_word(action)[1], why)
+    return file_line(result.shown(_path(action)), status, action_word(action)[1], why)
 
 
 def summary(result: Result) -> str:
     """Return what a build would do, as the rest of a line that names the robot."""
     if result.stale and not result.actions:
         return "not expanded, so its files were not compared"
-    words = build_summary(result)
+    words = result.summary
     if result.failed or result.in_step or result.is_broken or result.stale:
         return words
     return f"{'out of step' if result.is_built else 'not built yet'}: {words}"

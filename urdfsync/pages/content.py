@@ -20,8 +20,8 @@ from urdfsync.engine.inputs import inspect
 from urdfsync.engine.last_build import NO_MODEL
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.renames import find_renames
+from urdfsync.engine.result import DisputedFile
 from urdfsync.files import digest, shown
-from urdfsync.output.conflicts import DisputedFile, find_conflicts
 from urdfsync.output.outline import outline
 from urdfsync.output.sections import Section
 from urdfsync.scene import Scene, Triangles
@@ -126,7 +126,7 @@ def gather(
         files=_files(generation),
         diagram=domain.drawing(version[0].snapshot, generation.imported.imports, robot.target, robot.options) or "",
         edits=RobotEdits(robot.name, config.root, tuple(find_edited(generation, actions))),
-        conflicts=find_conflicts([result]),
+        conflicts=result.disputed,
         notes=(
             *now.missing,
             *simplified,

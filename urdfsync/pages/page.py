@@ -21,7 +21,7 @@ from urdfsync import __version__
 from urdfsync.checks.report import to_section as check_section
 from urdfsync.checks.results import CheckResult, relative, tolerance
 from urdfsync.domain import Deviation
-from urdfsync.output.conflicts import describe, difference_lines, settle_hint
+from urdfsync.output.conflicts import difference_lines, settle_hint
 from urdfsync.output.edits import to_section as edits_section
 from urdfsync.output.markdown import html_environment, words
 from urdfsync.output.phrases import reason
@@ -88,13 +88,13 @@ def page(
         section=content.section,
         edits=edits_section(content.edits),
         conflicts=[
-            (conflict, reason(conflict.action, conflict.result.changes, brief=True), describe(conflict))
+            (conflict, reason(conflict.action, conflict.result.changes, brief=True), conflict.relation)
             for conflict in content.conflicts
         ],
         content=content,
         motion=simulation,
         check=check,
-        check_section=check and check_section(check, strict=False),
+        check_section=check and check_section(check),
         compared=_compared(check) if check else (),
         has_curves=bool(curves),
         follows=build is not None,

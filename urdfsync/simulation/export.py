@@ -39,6 +39,8 @@ _MODEL_EXCHANGE = re.compile(rb"[ \t]*<ModelExchange\b[^>]*?(?:/>|>.*?</ModelExc
 class Exported(msgspec.Struct, frozen=True):
     """An FMU, and what it was made of."""
 
+    KEYS = ("model", "tool", "tolerance", "bytes", "seconds")
+
     content: bytes
     model: str
     """The full name of the model."""
@@ -53,6 +55,11 @@ class Exported(msgspec.Struct, frozen=True):
     """The compiler with its version."""
     diagnostics: tuple[Diagnostic, ...]
     seconds: float
+
+    @property
+    def bytes(self) -> int:
+        """Size of the FMU."""
+        return len(self.content)
 
 
 def export(

@@ -52,6 +52,8 @@ class Trial(msgspec.Struct, frozen=True):
 class WrittenFmu(msgspec.Struct, frozen=True):
     """An FMU that was written to a file."""
 
+    KEYS = ("robot", "exported", "kind", "file", "trial", "diagnostics")
+
     robot: str
     exported: Exported
     kind: Export

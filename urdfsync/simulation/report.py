@@ -1,17 +1,12 @@
-"""A simulation in words: what was simulated, a row for each joint, and where the results went; and as JSON."""
+"""A simulation in words: what was simulated, a row for each joint, and where the results went."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from pathlib import Path
+from collections.abc import Iterator
 
-import msgspec
-
-from urdfsync.diagnostics import Diagnostic
 from urdfsync.output.console import StyledLine, findings, html, line
-from urdfsync.output.documents import KEYS, fill
-from urdfsync.simulation.fmu import AGREEMENT, KINDS, Trial, WrittenFmu
-from urdfsync.simulation.results import JointResult, LoopResult, Range, SimulateResult
+from urdfsync.simulation.fmu import AGREEMENT, WrittenFmu
+from urdfsync.simulation.results import JointResult, Range, SimulateResult
 
 _HEADER = ("joint", "position", "limits", "speed/limit", "effort/limit")
 _WORDS = {"me": "model exchange", "cs": "co-simulation"}
@@ -23,10 +18,10 @@ class Simulation(SimulateResult, frozen=True):
     """A simulation, to look at as well."""
 
     def _repr_html_(self) -> str:
-        return html([*result_lines(self, {}), *findings(self.diagnostics)])
+        return html([*result_lines(self), *findings(self.diagnostics)])
 
 
-def result_lines(result: SimulateResult, files: Mapping[str, Path]) -> Iterator[StyledLine]:
+def result_lines(result: SimulateResult) -> Iterator[StyledLine]:
     """Yield the lines about a simulation, without its diagnostics."""
     took = "as simulated before" if result.is_known else f"{result.seconds:.1f} s"
     about = f": {result.model}, {result.stop:g} s in steps of {result.step:g} s; {took}"
@@ -44,7 +39,7 @@ def result_lines(result: SimulateResult, files: Mapping[str, Path]) -> Iterator[
             if loop.robot == robot:
                 amounts = f"open by {1000 * loop.gap:.2g} mm, {loop.force:.3g} N and {_digits(loop.torque)} N·m"
                 yield line((f"  {loop.element}: {amounts} at most", ""))
-    for name, file in files.items():
+    for name, file in result.files.items():
         yield line((f"  {name}: ", ""), (str(file), "bold"))
 
 
@@ -78,49 +73,11 @@ def _digits(number: float) -> str:
     return f"{0 if abs(number) < _NOTHING else number:.3g}"
 
 
-class SimulationDocument(msgspec.Struct, rename=KEYS):
-    """A simulation without its series."""
-
-    robot: str
-    model: str
-    stop: float
-    step: float
-    tolerance: float
-    points: int
-    seconds: float
-    is_known: bool
-    joints: Sequence[JointResult]
-    loops: Sequence[LoopResult]
-    files: Mapping[str, Path]
-    diagnostics: Sequence[Diagnostic]
-
-
-class FmuDocument(msgspec.Struct, rename=KEYS | {"file": "fmu"}):
-    """An FMU that was written."""
-
-    robot: str
-    model: str
-    file: Path
-    tool: str
-    fmi: str
-    kinds: Sequence[str]
-    tolerance: float
-    bytes: int
-    seconds: float
-    trial: Trial | None
-    diagnostics: Sequence[Diagnostic]
-
-
-def to_document(result: SimulateResult, files: Mapping[str, Path]) -> SimulationDocument:
-    """Return a simulation as a part of a document."""
-    return fill(SimulationDocument, result, points=len(result.series["time"]), files=files)
-
-
 def fmu_lines(written: WrittenFmu) -> Iterator[StyledLine]:
     """Yield the lines about an FMU, without its diagnostics."""
     exported, kind, trial = written.exported, written.kind, written.trial
     kinds = " and ".join(name for short, name in _WORDS.items() if short in kind.kind)
-    size = len(exported.content) / 1e6
+    size = exported.bytes / 1e6
     about = (
         f": {exported.model} by {exported.tool}, FMI {kind.version}, {kinds}; {size:.1f} MB; {exported.seconds:.1f} s"
     )
@@ -132,11 +89,3 @@ def fmu_lines(written: WrittenFmu) -> Iterator[StyledLine]:
             verdict = "agree with `simulate` to" if difference <= AGREEMENT else "differ from `simulate` by up to"
             yield line((f"  {_WORDS[short]}: {trial.compared} variables {verdict} {difference:.1e}", ""))
     yield line(("  fmu: ", ""), (str(written.file), "bold"))
-
-
-def fmu_to_document(written: WrittenFmu) -> FmuDocument:
-    """Return an FMU as a part of a document."""
-    exported = {name: getattr(written.exported, name) for name in ("model", "tool", "tolerance", "seconds")}
-    kinds = [short for short in KINDS if short in written.kind.kind]
-    size = len(written.exported.content)
-    return fill(FmuDocument, written, fmi=written.kind.version, kinds=kinds, bytes=size, **exported)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 
 import msgspec
@@ -109,6 +110,11 @@ class LoopResult(msgspec.Struct, frozen=True):
 class SimulateResult(msgspec.Struct, frozen=True):
     """A simulation, which may have stopped before its end: then an error is among the diagnostics."""
 
+    KEYS = (
+        *("robot", "model", "stop", "step", "tolerance", "points", "seconds", "is_known"),
+        *("joints", "loops", "files", "diagnostics"),
+    )
+
     robot: str
     model: str
     """Full name."""
@@ -124,3 +130,10 @@ class SimulateResult(msgspec.Struct, frozen=True):
     is_known: bool
     """Whether it is that of an earlier simulation of the same."""
     loops: tuple[LoopResult, ...] = ()
+    files: Mapping[str, Path] = {}
+    """Those that were written, by the options that named them."""
+
+    @property
+    def points(self) -> int:
+        """Number of instants."""
+        return len(self.series["time"])

@@ -29,11 +29,12 @@ from urdfsync.engine.inputs import inspect
 from urdfsync.engine.last_build import NO_MODEL
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.renames import find_renames
-from urdfsync.engine.result import Exit, Result
+from urdfsync.engine.result import Exit, Result, error_count
 from urdfsync.engine.result import exit_code as exit_code_of
 from urdfsync.engine.source import Source
 from urdfsync.files import shown
 from urdfsync.modelica.names import class_name
+from urdfsync.output.phrases import change_counts, generator_change
 from urdfsync.state import expansion
 from urdfsync.state.store import Store
 from urdfsync.versions.revisions import Revision
@@ -48,6 +49,8 @@ Contents: TypeAlias = tuple[Version, Mapping[str, bytes]]
 
 class Comparison(msgspec.Struct, frozen=True):
     """A source as it is now, compared with an older version of it."""
+
+    KEYS = ("source", "against", "in_step", "summary", "effects", "result")
 
     result: Result
     """Result of a dry run; against another version than the last build, an action for each file that differs."""
@@ -76,6 +79,19 @@ class Comparison(msgspec.Struct, frozen=True):
     def in_step(self) -> bool:
         """Return whether both versions give the same package, and the package on disk needs nothing."""
         return self.result.in_step and self.change_class in (ChangeClass.NONE, ChangeClass.UNMODELLED)
+
+    @property
+    def summary(self) -> str:
+        """What changed since the older version, as the rest of a line that names the robot."""
+        if self.result.failed:
+            return f"{error_count(self.result.diagnostics)}, so nothing can be compared"
+        if self.missing:
+            return self.missing
+        since = f"since {'the last build' if self.against is None else self.against}"
+        changes = self.result.changes
+        if changes is None:
+            return f"nothing changed {since}{'' if self.in_step else ', but files are out of step'}"
+        return f"{change_counts(changes) if changes.changes else generator_change(changes)} {since}"
 
 
 def exit_code(comparisons: Sequence[Comparison]) -> Exit:

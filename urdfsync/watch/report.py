@@ -18,7 +18,7 @@ import msgspec
 
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.engine.actions import Actions, Reason
-from urdfsync.engine.result import Checked, Result
+from urdfsync.engine.result import Checked, Result, check_result
 from urdfsync.files import shown
 from urdfsync.output.conflicts import conflict_lines
 from urdfsync.output.console import (
@@ -30,9 +30,10 @@ from urdfsync.output.console import (
     rich_console,
     write_lines,
 )
-from urdfsync.output.documents import JSON_VERSION
-from urdfsync.output.phrases import action_counts, change_counts, change_lines, check_result, counted, summary
-from urdfsync.output.results import result_lines, robot_document
+from urdfsync.output.documents import JSON_VERSION, plain
+from urdfsync.output.phrases import change_counts, change_lines
+from urdfsync.output.results import result_lines
+from urdfsync.spelling import counted
 from urdfsync.watch import events
 from urdfsync.watch.terminal import StatusArea
 
@@ -109,18 +110,13 @@ def now() -> datetime.datetime:
 
 
 def event_values(event: events.Event, time: datetime.datetime) -> dict[str, Any]:
-    """Return an event as JSON values: its fields under their names, and those of a result among them.
-
-    Of a result's files those are left out that are just unchanged.
-    """
+    """Return an event as JSON values; of a result's files those are left out that are just unchanged."""
     head = {"version": JSON_VERSION, "event": event.__struct_config__.tag, "time": time.isoformat()}
-    fields = msgspec.structs.asdict(event)
+    values: dict[str, Any] = head | plain(event)
     if isinstance(event, events.Built | events.Failed):
-        document = robot_document(fields.pop("result"))
-        document.actions = [action for action in document.actions if action.reason != Reason.UNCHANGED.word]
-        head |= msgspec.to_builtins(document, enc_hook=str)
-    plain: dict[str, Any] = head | msgspec.to_builtins(fields, enc_hook=str)
-    return plain
+        actions = values["result"]["actions"]
+        values["result"]["actions"] = [action for action in actions if action["reason"] != Reason.UNCHANGED]
+    return values
 
 
 def show_json(event: events.Event) -> None:
@@ -193,7 +189,7 @@ class Report:
             case events.Failed(result, again):
                 self._finish(result, clock)
                 if self._console.verbose or not again:
-                    yield self._line(clock, result.robot, summary(result), "bold red", error=True)
+                    yield self._line(clock, result.robot, result.summary, "bold red", error=True)
                     yield from self._findings(result.diagnostics)
             case events.CheckDone():
                 yield from self._checked(event, clock)
@@ -248,11 +244,11 @@ class Report:
         untold = frozenset() if orphans else _KEPT
         words = []
         if event.files or event.recovered or result.effective_changes or conflicts or orphans:
-            words = [*_changes(result), *action_counts(result, {Reason.KEEP} | untold)]
+            words = [*_changes(result), *result.counts({Reason.KEEP} | untold)]
         if not (result.conflicts or result.is_broken) and (event.recovered or not was_in_step):
             words.append("in step again")
         if not words and (verbose or result.effective_changes):
-            words = [summary(result)]
+            words = [result.summary]
         if not words:
             return
         yield self._line(clock, robot, ", ".join(words), "yellow" if result.conflicts else "")

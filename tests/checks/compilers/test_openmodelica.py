@@ -6,6 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from support.checks import status
 from support.modelica import CACHE
 from support.simulation import ARM
 
@@ -53,7 +54,7 @@ def replaced(name: str, old: str, new: str) -> Edit:
 
 def test_two_compilers_and_pinocchio_agree() -> None:
     result = check("both", physics=True)
-    assert (result.status(strict=True), result.diagnostics) == (CheckStatus.RIGHT, ())
+    assert (status(result, strict=True), result.diagnostics) == (CheckStatus.RIGHT, ())
     assert [one.tool.partition(" ")[0] for one in result.tools] == ["rumoca", "OpenModelica"]
     assert [one.model for one in result.tools[1].compiled] == ["Arm", "ArmRun", "ArmTest"]
     found = [*result.deviations, *(result.between or ())]
@@ -94,8 +95,8 @@ def test_what_an_edit_does_is_the_same_by_both(package: Path, edit: Edit, quanti
     assert max(one.relative for one in result.between_edited) < 1e-12
     (effect,) = result.effects
     assert (quantity, element) in [(str(one.quantity), one.element) for one in effect.deviations]
-    assert result.status(strict=False) is CheckStatus.RIGHT
-    assert result.status(strict=True) is CheckStatus.DIFFERS
+    assert status(result, strict=False) is CheckStatus.RIGHT
+    assert status(result, strict=True) is CheckStatus.DIFFERS
 
 
 def test_a_parameter_that_does_not_exist_is_told_with_the_nearest(capsys: pytest.CaptureFixture[str]) -> None:
