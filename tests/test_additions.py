@@ -130,7 +130,7 @@ def differences(content: bytes, work: Path, random: Random, tally: collections.C
         project.save(export)
         result = project.build()
         if result.failed or result.conflicts:
-            yield f"{kind}: {result.diagnostics} {[one.path for one in result.conflicts]}"
+            yield f"{kind}: {result.diagnostics} {[one.action.path for one in result.conflicts]}"
             continue
         merged = texts(project)
         for path, text in fresh.items():

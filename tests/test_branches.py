@@ -174,7 +174,7 @@ def test_an_edit_with_an_ambiguous_base_is_never_kept_in_silence(repository: Rep
     merge_and_settle(repository, "ours")
     edit("ladder.json", "150", "170")
     (found,) = run().conflicts
-    assert found.path == RECORD
+    assert found.action.path == RECORD
     run(choices={RECORD: Choice.TAKE})
     assert "170" in Path(RECORD).read_text()
     assert run().in_step

@@ -83,7 +83,7 @@ def matches(example: Any, real: Any) -> bool:
 def keys(document: Any) -> set[str]:
     """All keys in a document, but those of values of the model."""
     if isinstance(document, dict):
-        of_model = ("old", "new", "parts")
+        of_model = ("old", "new", "worst")
         return set(document).union(*(keys(value) for key, value in document.items() if key not in of_model))
     return set().union(*map(keys, document)) if isinstance(document, list) else set()
 
@@ -158,7 +158,7 @@ def test_commands_that_plan_have_the_document_of_a_build(folder: Path, execute: 
 
 def test_saved_texts_are_where_a_conflict_says(folder: Path, execute: Execute) -> None:
     edited(folder)
-    ((conflict,),) = (robot["disputed"] for robot in printed(execute, folder, "build")["results"])
+    ((conflict,),) = (robot["conflicts"] for robot in printed(execute, folder, "build")["results"])
     assert all((folder / conflict["saved"][name]).is_file() for name in ("base", "generated", "merge"))
 
 

@@ -74,7 +74,7 @@ def kill(project: Path, seconds: tuple[float, float], random: Random) -> None:
 
 def conflicts(result: Result) -> set[str]:
     assert not result.failed, result.diagnostics
-    return {action.path for action in result.conflicts}
+    return {each.action.path for each in result.conflicts}
 
 
 def test_a_build_that_is_killed_at_any_time_is_finished(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

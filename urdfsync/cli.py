@@ -19,7 +19,7 @@ from urdfsync.commands import arguments
 from urdfsync.dependencies import Dependencies
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError, findings_of, internal_error
 from urdfsync.engine.result import Exit
-from urdfsync.output.console import Console, Format
+from urdfsync.output.console import Console
 from urdfsync.spelling import nearest
 
 _COMMANDS = (
@@ -68,12 +68,11 @@ def tell_unwritten(trouble: str) -> int:
 def _main(given: list[str]) -> int:
     """Run a command. This is the one place that turns exceptions into exit codes."""
     command = _command(given)
-    console = Console(command, format=Format.JSON if arguments.wants_json(given) else Format.TEXT)
+    console = Console(command, format="json" if arguments.wants_json(given) else "text")
     try:
         args = _arguments(given)
         config = str(args.config or "")
-        written = Format(args.format)
-        console = Console(command, format=written, quiet=args.quiet, verbose=args.verbose, config=config)
+        console = Console(command, format=args.format, quiet=args.quiet, verbose=args.verbose, config=config)
         return _call(args, console)
     except SystemExit as stop:  # --help and --version
         return stop.code if isinstance(stop.code, int) else Exit.ERROR

@@ -18,7 +18,6 @@ from support.loops import UNIVERSAL, to_options, to_urdf
 from support.modelica import URDFSYNC
 from support.urdfs import dynamics, joint, limit, link, links, mimic, robot
 
-from urdfsync.checks.results import agrees
 from urdfsync.domain import Deviation, Part
 
 pytestmark = pytest.mark.slow
@@ -189,7 +188,7 @@ def prepared(fault: Fault, name: str, **options: str) -> physics.Case:
 
 
 def is_seen(fault: Fault, deviations: Sequence[Deviation]) -> bool:
-    return any(each.part is fault.part for each in deviations if not agrees(each))
+    return any(each.part is fault.part for each in deviations if not each.agrees)
 
 
 def test_without_a_fault_all_is_right(modelica_library: Path, tmp_path: Path) -> None:

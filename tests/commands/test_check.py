@@ -65,7 +65,8 @@ def test_all_options_reach_the_checker(checker: Checker, tmp_path: Path, monkeyp
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path))
     limits = ["--jobs", "3", "--timeout", "12.5", "--memory", "4", "--wait", "7"]
     assert cli.main(["check", "ladder", "--physics", "--strict", "--tool", "omc", *limits]) == 0
-    assert checker.options == CheckOptions(True, True, (Tool("omc"),), 3, 12.5, 4.0, 7.0, (tmp_path,))  # noqa: FBT003 - in the order of the fields
+    chosen = CheckOptions(physics=True, strict=True, tools=(Tool("omc"),), jobs=3, package_paths=(tmp_path,))
+    assert checker.options == msgspec.structs.replace(chosen, timeout=12.5, memory=4.0, wait=7.0)
 
 
 def test_robots_are_chosen_by_name(checker: Checker, project: Path, capsys: Capture) -> None:

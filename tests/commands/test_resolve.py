@@ -211,7 +211,7 @@ def several(clean: Path) -> Path:
 def conflicts(execute: Execute) -> list[str]:
     """The conflicts that a dry build finds."""
     robots = execute("build", "--dry-run", "--json", code=None).json["results"]
-    return [found["action"]["path"].removeprefix(f"{LADDER}/") for robot in robots for found in robot["disputed"]]
+    return [found["action"]["path"].removeprefix(f"{LADDER}/") for robot in robots for found in robot["conflicts"]]
 
 
 def test_a_folder_stands_for_all_below_it(several: Path, execute: Execute) -> None:

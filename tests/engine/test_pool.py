@@ -164,5 +164,5 @@ def test_a_save_while_the_others_plan_is_seen(robots: Path) -> None:
         results.append(result)
         if result.robot == "n3":  # the plans of those that follow are under way, or wait to be carried out
             edit(record, "220.5", "221")
-    assert [action.path for action in results[5].conflicts] == [record.relative_to(robots).as_posix()]
+    assert [each.action.path for each in results[5].conflicts] == [record.relative_to(robots).as_posix()]
     assert "221" in record.read_text()

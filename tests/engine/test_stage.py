@@ -111,7 +111,7 @@ def test_a_record_that_was_renewed_moves_with_its_package(conflict: str) -> None
     assert kinds(run())[R2_RECORD] is Reason.UPDATE
     edit(R2_RECORD, "end R2", "  // mine\nend R2")
     move_package()
-    run(choices={one.path: Choice.TAKE for one in run().conflicts})
+    run(choices={one.action.path: Choice.TAKE for one in run().conflicts})
     assert "// mine" in Path(R2_RECORD.replace(LADDER, OTHER)).read_text()
     assert not Path(LADDER).exists()
 

@@ -106,8 +106,8 @@ def build_twice(project: Path) -> Wanted:
     """Build, and see that the next build has nothing to write."""
     result = run(project)
     assert not result.failed, result.diagnostics
-    found = [action.path for action in result.conflicts], contents(project)
-    assert ([action.path for action in run(project).conflicts], contents(project)) == found
+    found = [each.action.path for each in result.conflicts], contents(project)
+    assert ([each.action.path for each in run(project).conflicts], contents(project)) == found
     return found
 
 

@@ -140,4 +140,4 @@ def inner_kinds(result: Result) -> dict[str, Reason]:
 
 
 def conflicts(**request: Any) -> list[str]:
-    return [action.path for action in run(**request).conflicts]
+    return [each.action.path for each in run(**request).conflicts]

@@ -13,7 +13,6 @@ from support.modelica import URDFSYNC, Run, Task, simulate
 from support.packages import Package, generate
 from urdfsync.checks import compilation
 from urdfsync.checks.flags import flagged
-from urdfsync.checks.results import agrees, relative
 from urdfsync.domain import Deviation, Experiment, Target
 from urdfsync.urdf.domain import DOMAIN
 from urdfsync.urdf.options import Options
@@ -81,5 +80,5 @@ def compare(library: Path, folder: Path, cases: Sequence[Case], own: Path = URDF
 
 def fault(deviations: Sequence[Deviation]) -> Deviation | None:
     """The difference that is greatest against its kind, if one is beyond the tolerance."""
-    faults = [deviation for deviation in deviations if not agrees(deviation)]
-    return max(faults, key=relative, default=None)
+    faults = [deviation for deviation in deviations if not deviation.agrees]
+    return max(faults, key=lambda each: each.relative, default=None)

@@ -212,7 +212,7 @@ def _compare(project: Path, fresh: Path, tags: set[str]) -> Iterator[str]:
     shutil.copytree(project, fresh, ignore=shutil.ignore_patterns("modelica", ".urdfsync"))
     _urdfsync(fresh, "build", "-q")
     for robot in document["results"]:
-        disputed = [one["action"] for one in robot["disputed"]]
+        disputed = [one["action"] for one in robot["conflicts"]]
         edited = (_is_edited(project / (one["origin"] or one["path"])) for one in disputed)
         yield from (f"not resolved: {one['path']}" for one, is_edited in zip(disputed, edited, strict=True)
                     if not is_edited)  # fmt: skip

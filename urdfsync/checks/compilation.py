@@ -36,7 +36,6 @@ from urdfsync.checks.results import (
     EditEffect,
     ToolResult,
     TrialTime,
-    agrees,
     listed,
 )
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError, findings_of
@@ -147,7 +146,7 @@ class Compilation:
         whole = compare_all(trials[:1], self.edited, without_edits)
         # what else changes follows from that, but for files that change nothing there
         others = compare_all(trials[1:], self.edited, without_edits)
-        changes = tuple(deviation for deviation in others if not agrees(deviation))
+        changes = tuple(deviation for deviation in others if not deviation.agrees)
         self.result.effects = tuple(
             effect if effect.deviations else msgspec.structs.replace(effect, deviations=changes)
             for effect in edit_effects(package.edits, package.files.owners, whole, single)
@@ -327,9 +326,9 @@ def edit_effects(
     def effect(files: Sequence[str], deviations: Sequence[Deviation]) -> EditEffect:
         return EditEffect(tuple(files), tuple(deviations), tuple(dict.fromkeys(owners[file] for file in files)))
 
-    changes = [deviation for deviation in whole if not agrees(deviation)]
+    changes = [deviation for deviation in whole if not deviation.agrees]
     apart = {
-        file: [deviation for deviation in deviations if not agrees(deviation)] for file, deviations in single.items()
+        file: [deviation for deviation in deviations if not deviation.agrees] for file, deviations in single.items()
     }
     explained = {deviation.key for deviations in apart.values() for deviation in deviations}
     rest = [deviation for deviation in changes if deviation.key not in explained]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
+import sys
 from collections.abc import Collection, Iterator, Sequence
 
 from urdfsync.checks.results import (
@@ -11,15 +12,13 @@ from urdfsync.checks.results import (
     CheckResult,
     CheckStatus,
     EditEffect,
-    agrees,
     listed,
     part_word,
-    relative,
     worst,
 )
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Deviation, Part, Quantity
-from urdfsync.output.console import StyledLine, line
+from urdfsync.output.console import StyledLine, has_marks, line
 from urdfsync.output.sections import Mark, Section, Table
 from urdfsync.spelling import counted
 
@@ -38,10 +37,10 @@ _STATED = {
 """Differences that are no amounts."""
 
 
-def robot_lines(result: CheckResult, *, verbose: bool = False, marks: bool = False) -> Iterator[StyledLine]:
+def robot_lines(result: CheckResult, *, verbose: bool = False) -> Iterator[StyledLine]:
     """Yield all lines about one robot alone."""
     mark, style = _STYLES[result.verdict]
-    sign = f"{mark} " if marks else ""
+    sign = f"{mark} " if has_marks(sys.stdout) else ""
     yield line((sign, style), (result.robot, "bold"), (f": {result.summary}", ""))
     sentences = _sentences(result)
     if verbose:
@@ -73,7 +72,7 @@ def _differences(result: CheckResult) -> Iterator[tuple[str, str]]:
     advice = "; your edits are not the cause: check your own `templates`, or report a bug, with the source"
     reference = result.reference or "the reference"
     deviations = next((tool.deviations for tool in result.tools if tool.deviations), ())
-    for deviation, others in _by_kind([deviation for deviation in deviations if not agrees(deviation)]):
+    for deviation, others in _by_kind([deviation for deviation in deviations if not deviation.agrees]):
         what, amount = _amount(deviation)
         by = "its own numbers" if deviation.part is Part.CONTACTS else reference
         fault = f"{what} differs from {by} by {amount}"
@@ -123,22 +122,22 @@ def _two_tools(result: CheckResult) -> Iterator[tuple[str, str]]:
             if deviation.key not in by_second or deviation.key not in between:
                 continue  # by one compiler alone, or without any
             three = deviation, by_second[deviation.key], between[deviation.key]
-            if not all(map(agrees, three)):
+            if not all(each.agrees for each in three):
                 outlier = _outlier(first.tool, second.tool, reference, *three)
-                outliers.setdefault(outlier, []).append(max(three, key=relative))
+                outliers.setdefault(outlier, []).append(max(three, key=lambda each: each.relative))
         for name, deviations in outliers.items():
             for deviation, others in _by_kind(deviations):
                 what, amount = _amount(deviation)
                 who = f"{name} stands alone, by {amount}" if name else f"all three differ, by up to {amount}"
                 yield f"{deviation.element}: {what}: {who}{others}", "bold red"
-        for deviation, others in _by_kind([deviation for deviation in result.between_edited if not agrees(deviation)]):
+        for deviation, others in _by_kind([deviation for deviation in result.between_edited if not deviation.agrees]):
             what, amount = _amount(deviation)
             sentence = (
                 f"{deviation.element}: with your edits, the {what} by {second.tool} differs from that by {first.tool}"
             )
             yield f"{sentence} by {amount}{others}", "bold red"
-        largest_difference = max(map(relative, result.between), default=0.0)
-        if all(map(agrees, result.between)):
+        largest_difference = max((each.relative for each in result.between), default=0.0)
+        if all(each.agrees for each in result.between):
             agreement = f"to {largest_difference:.1e}" if largest_difference else "exactly"
             yield f"{first.tool} and {second.tool} agree {agreement}", ""
     yield "; ".join(f"{tool.tool}: {tool.seconds:.1f} s, {tool.megabytes:.0f} MB" for tool in result.tools), "dim"
@@ -150,7 +149,7 @@ def _outlier(first: str, second: str, reference: str, *deviations: Deviation) ->
     The deviations are those of the first and of the second from the reference, then of the second from the first.
     """
     for name, agreeing in ((second, deviations[0]), (first, deviations[1]), (reference, deviations[2])):
-        if agrees(agreeing):
+        if agreeing.agrees:
             return name
     return ""
 

@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import enum
-import math
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Literal
 
 import msgspec
 
@@ -16,15 +14,6 @@ from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Deviation, Part, Quantity
 from urdfsync.engine.result import Exit
 from urdfsync.spelling import counted
-
-TOLERANCE = 1e-10
-"""The greatest difference that counts as agreement, relative to the greatest value of its kind or 1."""
-_ITERATED = 1e-7
-"""The same for robots with loops, which compilers close by iteration."""
-_TOLERANCES = {
-    Quantity.ACCELERATION: 1e-7,  # equations are solved for them, where digits are lost
-    Quantity.GROUND: 1e-2,  # without a reference, and stiff: 1 % of the depth makes 1 % of the force
-}
 
 MOST_SINGLE_EDITS = 6
 """The most edited files that are tried one by one; the effects of more are measured together."""
@@ -38,7 +27,20 @@ KINDS = (
 """Quantities that are told together."""
 
 
-class CheckOptions(msgspec.Struct, frozen=True):
+class RunOptions(msgspec.Struct, frozen=True, kw_only=True):
+    """What compilers may take for one robot, and what they wait for."""
+
+    timeout: float = 600.0
+    """Seconds."""
+    memory: float | None = None
+    """Gigabytes for all processes together; None for what is free."""
+    wait: float = 60.0
+    """Seconds to wait for a build that is writing."""
+    package_paths: tuple[Path, ...] = msgspec.field(default_factory=ros_package_path)
+    """Where to look for packages after the configured folders: where ROS looks."""
+
+
+class CheckOptions(RunOptions, frozen=True):
     """How to check."""
 
     physics: bool = False
@@ -49,14 +51,6 @@ class CheckOptions(msgspec.Struct, frozen=True):
     """The compilers, one or both."""
     jobs: int | None = None
     """How many robots may be checked at the same time; None for what cores and memory allow."""
-    timeout: float = 600.0
-    """Seconds per robot."""
-    memory: float | None = None
-    """Gigabytes for all processes together; None for what is free."""
-    wait: float = 60.0
-    """Seconds to wait for a build that is writing."""
-    package_paths: tuple[Path, ...] = msgspec.field(default_factory=ros_package_path)
-    """Where to look for packages after the configured folders: where ROS looks."""
     compilers: int = 1
     """How many compilers may run at the same time for one robot."""
     executor: str = ""
@@ -146,7 +140,7 @@ class CheckResult(msgspec.Struct):
 
     KEYS = (
         *("robot", "package", "folder", "failed", "built", "in_step", "conflicting", "strict", "status", "summary"),
-        *("freedoms", "reference", "tolerance", "agrees", "parts", "worst", "tools", "between", "between_edited"),
+        *("freedoms", "reference", "agrees", "worst", "tools", "between", "between_edited"),
         *("notes", "unchecked", "gaps", "diagnostics", "seconds", "megabytes"),
     )
 
@@ -183,8 +177,6 @@ class CheckResult(msgspec.Struct):
     """The reference of `deviations`, for example `Pinocchio 3.4`; empty if nothing was compared."""
     strict: bool = False
     """Whether a difference that comes from an edit counts as one, and a check that is incomplete."""
-    tolerance: float = TOLERANCE
-    """Up to this relative difference most quantities agree, see `tolerance`."""
 
     @property
     def failed(self) -> bool:
@@ -209,7 +201,7 @@ class CheckResult(msgspec.Struct):
     @property
     def differs(self) -> bool:
         """Whether the generated package is not as the reference says, whoever edited it, or two compilers disagree."""
-        return not all(map(agrees, (*self.deviations, *(self.between or ()), *self.between_edited)))
+        return not all(each.agrees for each in (*self.deviations, *(self.between or ()), *self.between_edited))
 
     @property
     def is_changed_by_edits(self) -> bool:
@@ -249,18 +241,13 @@ class CheckResult(msgspec.Struct):
                 facts.append(f"{counted(self.freedoms, 'degree')} of freedom")
         elif not errors:
             facts.append("syntax and layout")
-        facts += [f"{part} {part_word(deviation)}" for part, deviation in worst(self.deviations).items()]
+        facts += [f"{part} {part_word(deviation)}" for part, deviation in self.worst.items()]
         return f"{self.verdict}: {'; '.join(facts)}; {self.seconds:.1f} s"
 
     @property
-    def parts(self) -> Mapping[Part, Literal["right", "differ"]]:
-        """The parts that were compared with the reference, and whether they agree with it."""
-        return {part: "right" if agrees(each) else "differ" for part, each in worst(self.deviations).items()}
-
-    @property
-    def worst(self) -> Sequence[Deviation]:
-        """The greatest deviation of each of these."""
-        return [*worst(self.deviations).values()]
+    def worst(self) -> Mapping[Part, Deviation]:
+        """The deviation of each part from the reference that is greatest against its tolerance."""
+        return worst(self.deviations)
 
     @property
     def agrees(self) -> bool | None:
@@ -272,28 +259,13 @@ class CheckResult(msgspec.Struct):
         self.diagnostics = tuple(dict.fromkeys((*self.diagnostics, *diagnostics)))
 
 
-def agrees(deviation: Deviation) -> bool:
-    """Whether a difference is within the tolerance; one that is no number is not."""
-    return deviation.relative <= tolerance(deviation)
-
-
-def tolerance(deviation: Deviation) -> float:
-    """Return the greatest relative difference that counts as agreement."""
-    return max(_TOLERANCES.get(deviation.quantity, TOLERANCE), _ITERATED if deviation.is_iterated else 0.0)
-
-
-def relative(deviation: Deviation) -> float:
-    """Return the relative difference; what is no number is infinitely far."""
-    return math.inf if math.isnan(deviation.relative) else deviation.relative
-
-
 def worst(deviations: Iterable[Deviation]) -> dict[Part, Deviation]:
     """Return the deviation of each part that is greatest against its tolerance, in the order of the parts."""
     greatest = dict[Part, Deviation]()
     for part in Part:
         own = [deviation for deviation in deviations if deviation.part is part]
         if own:
-            greatest[part] = max(own, key=lambda deviation: relative(deviation) / tolerance(deviation))
+            greatest[part] = max(own, key=lambda deviation: deviation.relative / deviation.tolerance)
     return greatest
 
 
@@ -315,6 +287,6 @@ def listed(names: Sequence[str]) -> str:
 
 def part_word(deviation: Deviation) -> str:
     """Return the verdict on a part of the model by its greatest deviation."""
-    if agrees(deviation):
+    if deviation.agrees:
         return "plausible" if deviation.part is Part.CONTACTS else "right"
     return f"differ ({deviation.element})"

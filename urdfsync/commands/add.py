@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 
 from urdfsync import config, registry
+from urdfsync.api import load
 from urdfsync.commands import arguments
 from urdfsync.commands.init import guess_robots, robot_table, show_guesses, write_errors, write_schema
 from urdfsync.diagnostics import ConfigError
@@ -30,7 +31,7 @@ def add(commands: arguments.Commands) -> None:
 
 def run(args: argparse.Namespace, console: Console) -> int:
     """Write the new tables behind all others, and show what was guessed. Raises ConfigError, SourceError."""
-    loaded, domain = arguments.configuration(args), registry.domain(args.domain)
+    loaded, domain = load(args.config), registry.domain(args.domain)
     taken = {name for robot in loaded.robots for name in (robot.name, robot.target.package)}
     named, given = arguments.split_sources(args.sources, args.parser)
     guesses, warnings = guess_robots(domain, loaded.root, named, given, taken)

@@ -6,6 +6,7 @@ import argparse
 from collections.abc import Iterator
 from pathlib import Path
 
+from urdfsync.api import load
 from urdfsync.commands import arguments
 from urdfsync.config import Config, RobotConfig
 from urdfsync.engine.build import build
@@ -42,7 +43,7 @@ def add(commands: arguments.Commands) -> None:
 
 def run(args: argparse.Namespace, console: Console) -> int:
     """Build the robots for the first time, and show what differs from the generated package."""
-    configuration = arguments.configuration(args)
+    configuration = load(args.config)
     robots = {robot.name: robot for robot in configuration.select(args.robots)}
     request = arguments.request(args, console, dry=args.dry_run, adopts=True)
     looking = arguments.request(args, console, dry=True, adopts=args.dry_run)

@@ -8,7 +8,7 @@ import math
 import sys
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, NoReturn, TypeAlias, TypeVar
+from typing import Any, NoReturn, TypeAlias, TypeVar, get_args
 
 import msgspec
 
@@ -123,15 +123,15 @@ def add_command(commands: Commands, name: str, shared: str = "", *, formats: boo
         "--json",
         dest="format",
         action="store_const",
-        const=Format.JSON,
-        default=Format.TEXT,
+        const="json",
+        default="text",
         help="one JSON document on the standard output",
     )
     if formats:
         output.add_argument(
             "--format",
-            choices=[each.value for each in Format],
-            default=Format.TEXT,
+            choices=get_args(Format),
+            default="text",
             help="text, json as --json, markdown for a comment, or sarif for findings at their lines",
         )
     group.add_argument("-q", "--quiet", action="store_true", help="only errors and conflicts")
@@ -155,11 +155,6 @@ def add_tool(parser: Parser, tools: Sequence[str]) -> None:
     parser.add_argument("--tool", choices=tools, help=f"{which} (default: as configured, else rumoca)")
 
 
-def configuration(args: argparse.Namespace) -> Config:
-    """Return the configuration that the arguments name, or the nearest one. Raises ConfigError."""
-    return load(args.config)
-
-
 def select_robots(args: argparse.Namespace, configuration: Config, console: Console) -> Sequence[RobotConfig]:
     """Return the robots that the arguments name, or all; warn of settings without effect."""
     from urdfsync.config import warnings
@@ -171,7 +166,7 @@ def select_robots(args: argparse.Namespace, configuration: Config, console: Cons
 
 def select_robot(args: argparse.Namespace, console: Console) -> tuple[Config, RobotConfig]:
     """Return the configuration, and the robot that the arguments of a command name that takes one, likewise."""
-    loaded = configuration(args)
+    loaded = load(args.config)
     robots = select_robots(args, loaded, console)
     return loaded, loaded.select_one([robot.name for robot in robots], args.command)
 
@@ -183,7 +178,7 @@ def call(
 
     The options of a `kind` are arguments of the same names, or `given`.
     """
-    loaded = configuration(args)
+    loaded = load(args.config)
     robots = select_robots(args, loaded, console)
     given = {**chosen(kind, args), **given, "config": loaded, "progress": console.progress}
     return function(*(robot.name for robot in robots), **given)

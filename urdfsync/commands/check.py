@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from pathlib import Path
 
 from urdfsync.api import check
@@ -12,8 +11,8 @@ from urdfsync.checks.report import closing_lines, robot_lines, to_section
 from urdfsync.checks.results import CheckOptions, CheckResult, CheckStatus, exit_code
 from urdfsync.checks.tools import BOTH
 from urdfsync.commands import arguments
-from urdfsync.commands.report import prepare_report
-from urdfsync.output.console import Console, has_marks, line
+from urdfsync.commands.report import prepare_page
+from urdfsync.output.console import Console, line
 
 
 def add(commands: arguments.Commands) -> None:
@@ -42,7 +41,7 @@ def add(commands: arguments.Commands) -> None:
 def run(args: argparse.Namespace, console: Console) -> int:
     """Check the packages of the robots, and show each as soon as it is checked; then what holds for all."""
     results = list[CheckResult]()
-    write_report = prepare_report(args, console) if args.report else None
+    write_report = prepare_page(args, console, args.report) if args.report else None
 
     def show(result: CheckResult) -> None:
         results.append(result)
@@ -64,6 +63,5 @@ def show_result(console: Console, result: CheckResult) -> None:
     if console.is_document:
         console.add(result, to_section)
     elif not console.quiet or result.status is not CheckStatus.RIGHT:
-        marks = has_marks(sys.stdout)
-        console.print(robot_lines(result, verbose=console.verbose, marks=marks))
+        console.print(robot_lines(result, verbose=console.verbose))
     console.findings(result.diagnostics)

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 from urdfsync.api import diff, edits
 from urdfsync.commands import arguments
-from urdfsync.engine.findings import CONNECTORS
 from urdfsync.engine.result import Exit
 from urdfsync.output.console import Console
 from urdfsync.output.results import show_lines
@@ -53,10 +52,9 @@ def run(args: argparse.Namespace, console: Console) -> int:
 
 
 def _show_changes(console: Console, compared: Comparison) -> None:
-    told = [diagnostic for diagnostic in compared.result.diagnostics if diagnostic.code != CONNECTORS]
     lines = report.robot_lines(compared, verbose=console.verbose)
     console.add(compared, report.to_section)
-    show_lines(console, compared.result, lines, told)
+    show_lines(console, compared.result, lines, compared.diagnostics)
 
 
 def _show_edits(console: Console, edited: RobotEdits) -> None:

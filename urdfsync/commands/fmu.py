@@ -13,8 +13,8 @@ from urdfsync.diagnostics import ConfigError
 from urdfsync.engine.result import Exit
 from urdfsync.extras import install_command
 from urdfsync.output.console import Console
-from urdfsync.simulation.export import TOLERANCE, Exported, export, is_exported
-from urdfsync.simulation.files import check_file, input_files, not_writable, write_file
+from urdfsync.simulation.export import TOLERANCE, export, is_exported
+from urdfsync.simulation.files import check_file, default_file, input_files, not_writable, write_file
 from urdfsync.simulation.fmu import KINDS, WrittenFmu, find_faults, try_out
 from urdfsync.simulation.report import fmu_lines
 from urdfsync.simulation.results import STOP, SimulateOptions
@@ -69,22 +69,13 @@ def run(args: argparse.Namespace, console: Console) -> int:
     options = SimulateOptions(tool=tool, **arguments.chosen(SimulateOptions, args))
     kind = Export(_VERSIONS[args.fmi], _EXPORTED[args.kind])
     exported = export(configuration, robot, options, kind, console.progress, for_trial=args.check)
-    file = args.output or _default_file(exported)
+    file = args.output or default_file(f"{exported.model.rpartition('.')[2]}.fmu", is_exported)
     kinds = [name for name in KINDS if name in kind.kind]
     trial = try_out(configuration, robot, options, exported, kinds, console.progress) if args.check else None
     write_file(file, exported.content)
     warnings = robot.without_ignored(find_faults(trial, file)) if trial else ()
-    written = WrittenFmu(robot.name, exported, kind, file, trial, warnings)
+    written = WrittenFmu(robot.name, exported, kind, file, trial, (*exported.diagnostics, *warnings))
     console.add(written)
     console.tell(fmu_lines(written))
     console.findings(written.diagnostics)
     return console.end(Exit.OUT_OF_STEP if warnings else Exit.IN_STEP)
-
-
-def _default_file(exported: Exported) -> Path:
-    """Return the file that has the model's name. Raises OutputError for one that is not an FMU of urdfsync's."""
-    file = Path(f"{exported.model.rpartition('.')[2]}.fmu")
-    if file.is_symlink() or (file.exists() and not is_exported(file)):
-        hint = "name a file with `--output`, this one to replace it"
-        raise not_writable(file, "it is there, and urdfsync did not write it", hint)
-    return file

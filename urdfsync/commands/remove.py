@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 
 from urdfsync import tomlfile
+from urdfsync.api import load
 from urdfsync.commands import arguments
 from urdfsync.commands.init import write_errors
 from urdfsync.config import Config
@@ -42,7 +43,7 @@ def add(commands: arguments.Commands) -> None:
 
 def run(args: argparse.Namespace, console: Console) -> int:
     """Show what goes, ask, and take it away: package and recorded state first, then the table."""
-    configuration = arguments.configuration(args)
+    configuration = load(args.config)
     robots = configuration.select([args.robot])
     if len(robots) > 1:
         raise arguments.UsageError(args.parser, f"{args.robot!r} means {len(robots)} robots: name one")

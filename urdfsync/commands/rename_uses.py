@@ -6,7 +6,7 @@ import argparse
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
-from urdfsync.api import build_and_check
+from urdfsync.api import build_and_check, load
 from urdfsync.commands import arguments
 from urdfsync.config.trust import find_untrusted_file, find_untrusted_output
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
@@ -23,7 +23,7 @@ from urdfsync.state.transaction import save
 def run(args: argparse.Namespace, console: Console) -> int:
     """Show the lines that change; if the user agrees, write them and build the robots whose names are new by that."""
     given = dict(_pair(args.parser, text) for text in args.rename_uses)
-    loaded = arguments.configuration(args)
+    loaded = load(args.config)
     robots = loaded.select(args.robot or [])
     renamed = rename_uses(loaded, robots, arguments.request(args, console, dry=True), given)
     if renamed.unknown:

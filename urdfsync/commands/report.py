@@ -9,12 +9,13 @@ from typing import Any
 
 import msgspec
 
+from urdfsync.api import load
 from urdfsync.commands import arguments
 from urdfsync.config import working_folder
 from urdfsync.engine.result import Exit
 from urdfsync.files import shown
 from urdfsync.output.console import Console, line
-from urdfsync.simulation.files import input_files, not_writable, write_file
+from urdfsync.simulation.files import default_file, input_files, write_file
 
 
 class PageDocument(msgspec.Struct):
@@ -46,38 +47,33 @@ def add(commands: arguments.Commands) -> None:
 def run(args: argparse.Namespace, console: Console) -> int:
     """Write the page of one robot, and say where it is."""
     from urdfsync.checks.robot import known_check
-    from urdfsync.pages.content import gather  # with numpy 100 ms, which `urdfsync --help` does without
-    from urdfsync.pages.page import check_page, is_page, page
+    from urdfsync.pages.page import is_page  # with numpy 100 ms, which `urdfsync --help` does without
 
     configuration, robot = arguments.select_robot(args, console)
-    file = args.output or working_folder() / f"{robot.name}.html"
-    if args.output is None and (file.is_symlink() or (file.exists() and not is_page(file))):
-        hint = "name a file with `--output`, this one to replace it"
-        raise not_writable(file, "it is there, and urdfsync did not write it", hint)
-    check_page(file, input_files(configuration, robot, None))
-    content = gather(configuration, robot, args.against, arguments.request(args, console), working_folder())
-    text = page(content, check=known_check(configuration, robot))
-    write_file(file, text)
-    section, place = content.section, shown(file)
-    console.add(PageDocument(robot.name, place, len(text), section.summary))
-    console.tell([line((robot.name, "bold"), (f": {section.summary}", "")), line((f"  page: {place}", ""))])
+    file = args.output or default_file(f"{robot.name}.html", is_page)
+    written = prepare_page(args, console, file)(check=known_check(configuration, robot))
+    console.add(written)
+    console.tell([line((robot.name, "bold"), (f": {written.summary}", "")), line((f"  page: {written.file}", ""))])
     return console.end(Exit.IN_STEP)
 
 
-def prepare_report(args: argparse.Namespace, console: Console, motion: Path | None = None) -> Callable[..., None]:
-    """Return a function that writes the `--report` of a command with its results, as `page` takes them.
+def prepare_page(args: argparse.Namespace, console: Console, file: Path) -> Callable[..., PageDocument]:
+    """Return a function that writes the page of one robot, with the results that `page` takes.
 
-    Raises an error for one that can't be written, before what it shows is worked out.
+    Raises an error for a file that can't be written, before what it shows is worked out.
     """
     from urdfsync.pages.content import gather  # see above
     from urdfsync.pages.page import check_page, page
 
-    configuration = arguments.configuration(args)
+    configuration = load(args.config)
     robot = configuration.select_one([*args.robots, *(args.robot or [])], args.command)
-    check_page(args.report, input_files(configuration, robot, motion))
+    check_page(file, input_files(configuration, robot, getattr(args, "motion", None)))
+    against = getattr(args, "against", None)
 
-    def write(**results: Any) -> None:
-        content = gather(configuration, robot, None, arguments.request(args, console), working_folder())
-        write_file(args.report, page(content, **results))
+    def write(**results: Any) -> PageDocument:
+        content = gather(configuration, robot, against, arguments.request(args, console), working_folder())
+        text = page(content, **results)
+        write_file(file, text)
+        return PageDocument(robot.name, shown(file), len(text), content.section.summary)
 
     return write

@@ -11,7 +11,7 @@ from pathlib import Path
 import msgspec
 
 from urdfsync import config
-from urdfsync.api import build_and_check
+from urdfsync.api import build_and_check, load
 from urdfsync.commands import arguments, editor
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Role
@@ -66,14 +66,14 @@ def run(args: argparse.Namespace, console: Console) -> int:
 
         return rename_uses.run(args, console)
     choice = _choice(args)
-    configuration = arguments.configuration(args)
+    configuration = load(args.config)
     selected = configuration.select(args.robot or [])
     planned = list(build(configuration, selected, arguments.request(args, console, dry=True)))
     named = {text: list(_find_named(planned, text, choice)) for text in args.paths}
     if unknown := [text for text, targets in named.items() if not targets]:
         return _refuse(console, planned, unknown)
     if args.all:
-        named = {"": [(result, action) for result in planned for action in result.conflicts]}
+        named = {"": [(result, each.action) for result in planned for each in result.conflicts]}
     targets = {action.path: (result, action) for pairs in named.values() for result, action in pairs}
     concerned = {result.robot for result, _ in targets.values()}
     concerned |= {result.robot for result in planned if args.all and not result.in_step}

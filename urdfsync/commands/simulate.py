@@ -10,7 +10,7 @@ import msgspec
 from urdfsync.api import simulate
 from urdfsync.checks.compilers import COMPILERS
 from urdfsync.commands import arguments
-from urdfsync.commands.report import prepare_report
+from urdfsync.commands.report import prepare_page
 from urdfsync.diagnostics import Severity
 from urdfsync.engine.result import Exit
 from urdfsync.output.console import Console
@@ -60,7 +60,7 @@ def add(commands: arguments.Commands) -> None:
 def run(args: argparse.Namespace, console: Console) -> int:
     """Simulate one robot, write what was asked for, and show what came out."""
     files = {kind: file for kind in FILES if (file := getattr(args, kind)) is not None}
-    write_report = prepare_report(args, console, args.motion) if args.report else None
+    write_report = prepare_page(args, console, args.report) if args.report else None
     extra = {"files": files, "tool": args.tool, "trusted": args.trusted}
     result = arguments.call(simulate, SimulateOptions, args, console, **extra)
     if write_report:

@@ -13,7 +13,6 @@ from urdfsync.config.paths import templates_folder as templates_folder
 from urdfsync.config.paths import working_folder as working_folder
 from urdfsync.config.settings import FILE_NAME as FILE_NAME
 from urdfsync.config.settings import STATE_FOLDER as STATE_FOLDER
-from urdfsync.config.settings import CheckConfig as CheckConfig
 from urdfsync.config.settings import Config as Config
 from urdfsync.config.settings import Keys as Keys
 from urdfsync.config.settings import RobotConfig as RobotConfig

@@ -102,7 +102,7 @@ class Result(msgspec.Struct, frozen=True):
 
     KEYS = (
         *("robot", "package", "folder", "failed", "locked", "is_built", "in_step", "is_broken", "writes", "summary"),
-        *("drawing", "checked", "stale", "changes", "actions", "disputed", "diagnostics"),
+        *("drawing", "checked", "stale", "changes", "actions", "conflicts", "diagnostics"),
     )
 
     robot: str
@@ -136,15 +136,11 @@ class Result(msgspec.Struct, frozen=True):
     """Verdict of a check of the package; None if there was none. Its findings are among the diagnostics."""
 
     @property
-    def conflicts(self) -> list[Action]:
-        """The files that were left alone although they should be otherwise."""
-        return [action for action in self.actions.decided if action.kind is Kind.CONFLICT]
-
-    @property
-    def disputed(self) -> Sequence[DisputedFile]:
-        """The same with their texts, in the order of their paths."""
-        texts = {conflict.path: conflict for conflict in self.conflict_texts}
-        return [DisputedFile(self, action, texts.get(action.path)) for action in self.conflicts]
+    def conflicts(self) -> Sequence[DisputedFile]:
+        """The files that were left alone although they should be otherwise, in the order of their paths."""
+        texts = {each.path: each for each in self.conflict_texts}
+        actions = (action for action in self.actions.decided if action.kind is Kind.CONFLICT)
+        return [DisputedFile(self, action, texts.get(action.path)) for action in actions]
 
     @property
     def in_step(self) -> bool:

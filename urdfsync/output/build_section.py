@@ -56,7 +56,7 @@ def out_of_step(result: Result) -> Diagnostic | None:
 
 def _conflicts(result: Result) -> Iterable[Diagnostic]:
     """Yield each file that conflicts as a finding."""
-    for target in result.disputed:
+    for target in result.conflicts:
         message = f"{reason(target.action, result.changes, brief=True)}: {target.relation}"
         place, hint = (target.shown, _edited_line(target)), settle_hint([target])
         yield Diagnostic(Severity.ERROR, "conflict", message, *place, hint=hint)

@@ -32,7 +32,7 @@ _SIGNS = {"+": "green", "-": "red", "@": "cyan"}
 
 def conflict_lines(result: Result, console: Console) -> Iterator[StyledLine]:
     """Yield all conflicts of one robot: the first ones in full, the others on a line each, and the command for all."""
-    conflicts = result.disputed
+    conflicts = result.conflicts
     full = len(conflicts) if console.verbose else 0 if console.quiet else FULL
     for target in conflicts[:full]:
         yield line(("", ""))

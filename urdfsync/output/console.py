@@ -6,7 +6,6 @@ quotes from files can command a terminal: `visible` escapes it.
 
 from __future__ import annotations
 
-import enum
 import io
 import json
 import os
@@ -14,7 +13,7 @@ import sys
 import time
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
-from typing import IO, TYPE_CHECKING, Any, Literal, TypeVar
+from typing import IO, TYPE_CHECKING, Any, Literal, TypeAlias, TypeVar
 
 import msgspec
 
@@ -31,20 +30,13 @@ if TYPE_CHECKING:
     from urdfsync.output.sections import Section
 
 R = TypeVar("R", bound=msgspec.Struct)
+Format: TypeAlias = Literal["text", "json", "markdown", "sarif"]
+"""What a command writes on the output stream."""
 FEW = 5
 """So many warnings of one code are shown; of more, only the first ones and their number."""
 BAR_AFTER = 0.5
 """Seconds of work before a progress bar appears."""
 _SEVERITIES = {Severity.ERROR: "bold red", Severity.WARNING: "yellow", Severity.NOTE: "cyan"}
-
-
-class Format(enum.StrEnum):
-    """What a command writes on the output stream."""
-
-    TEXT = "text"
-    JSON = "json"
-    MARKDOWN = "markdown"
-    SARIF = "sarif"
 
 
 class StyledLine(msgspec.Struct, frozen=True):
@@ -147,7 +139,7 @@ class Console:
         self,
         command: str = "",
         *,
-        format: Format = Format.TEXT,  # noqa: A002 - its option's name
+        format: Format = "text",  # noqa: A002 - its option's name
         quiet: bool = False,
         verbose: bool = False,
         config: str = "",
@@ -164,7 +156,7 @@ class Console:
     @property
     def is_document(self) -> bool:
         """Whether a document takes the place of lines on the output stream."""
-        return self.format is not Format.TEXT
+        return self.format != "text"
 
     def print(self, lines: Iterable[StyledLine], *, error: bool = False) -> None:
         """Write lines on the output stream; with `error` on the error stream."""
@@ -189,7 +181,7 @@ class Console:
     def add(self, result: R, to_section: Callable[[R], Section] | None = None) -> None:
         """Add a result to the document; those of a command that fails later are in its document, too."""
         self.stop_progress()
-        if self.format is Format.JSON:
+        if self.format == "json":
             self._results.append(result)
         elif self.is_document and to_section:
             self._sections.append(to_section(result))
@@ -205,11 +197,11 @@ class Console:
 
     def _document(self, code: int, diagnostics: Sequence[Diagnostic]) -> str:
         """Return the document that takes the place of lines; `diagnostics` belong to no robot."""
-        if self.format is Format.MARKDOWN:
+        if self.format == "markdown":
             from urdfsync.output.markdown import comment  # most commands write none
 
             return comment(self._sections, diagnostics)
-        if self.format is Format.SARIF:
+        if self.format == "sarif":
             from urdfsync.output.sarif import log
 
             return log(self._sections, diagnostics, code)

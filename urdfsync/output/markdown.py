@@ -23,6 +23,7 @@ MOST_ROWS = 200
 """So many rows of a table are written; those that are left out are counted."""
 LONGEST = 50_000
 """Characters of what a comment says of robots in detail; GitHub takes 65,536 in all."""
+_TOO_LONG = " (the rest is too long for a comment: the command without `--format` shows it)"
 _CODE = re.compile("`([^`]+)`")
 
 
@@ -34,14 +35,12 @@ def comment(sections: Iterable[Section], findings: Sequence[Diagnostic] = ()) ->
     parts: Any = environment.get_template("comment.jinja").module
     text, order, brief = str(parts.rows(findings_table(findings))), list(Mark), []
     for section in sorted(sections, key=lambda section: order.index(section.mark)):
-        line = f"{section.mark}{section.robot}: {section.summary}"
         details = str(parts.robot(section)) if section.has_details else ""
-        if len(text) + len(details) > LONGEST:
-            brief.append(f"{line} (the rest is too long for a comment: the command without `--format` shows it)")
-        elif details:
+        is_long = len(text) + len(details) > LONGEST
+        if details and not is_long:
             text += details
         else:
-            brief.append(line)
+            brief.append(f"{section.mark}{section.robot}: {section.summary}{_TOO_LONG if is_long else ''}")
     return re.sub("\n+", "\n", f"{text}{parts.robots(brief)}").lstrip()
 
 

@@ -32,7 +32,7 @@ def lines(result: Result, *, verbose: bool = False) -> Iterator[StyledLine]:
         yield line((f"  {change_counts(changes)} in the source", ""))
     silent = set() if verbose else {FileStatus.IN_STEP} | (set() if result.is_built else {FileStatus.STALE})
     listed = [action for action in result.actions if action.status and action.status not in silent]
-    conflicts = {file.action.path: file.relation for file in result.disputed}
+    conflicts = {file.action.path: file.relation for file in result.conflicts}
     stale, others = list[StyledLine](), list[StyledLine]()
     for action in sorted(listed, key=lambda action: _path(action).rpartition("/")):
         group = stale if action.status is FileStatus.STALE else others
@@ -40,7 +40,7 @@ def lines(result: Result, *, verbose: bool = False) -> Iterator[StyledLine]:
     yield from (*others, *first_lines(stale, _STALE, "stale file", verbose=verbose))
     if conflicts:
         adopts = f"`urdfsync adopt {result.robot}` takes these files for your edits"
-        yield line((f"  {settle_hint(result.disputed) if result.is_built else adopts}", "dim"))
+        yield line((f"  {settle_hint(result.conflicts) if result.is_built else adopts}", "dim"))
 
 
 def _path(action: Action) -> str:

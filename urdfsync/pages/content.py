@@ -126,7 +126,7 @@ def gather(
         files=_files(generation),
         diagram=domain.drawing(version[0].snapshot, generation.imported.imports, robot.target, robot.options) or "",
         edits=RobotEdits(robot.name, config.root, tuple(find_edited(generation, actions))),
-        conflicts=result.disputed,
+        conflicts=result.conflicts,
         notes=(
             *now.missing,
             *simplified,

@@ -19,7 +19,7 @@ import msgspec
 
 from urdfsync import __version__
 from urdfsync.checks.report import to_section as check_section
-from urdfsync.checks.results import CheckResult, relative, tolerance
+from urdfsync.checks.results import CheckResult
 from urdfsync.domain import Deviation
 from urdfsync.output.conflicts import difference_lines, settle_hint
 from urdfsync.output.edits import to_section as edits_section
@@ -163,8 +163,9 @@ def _motion(result: SimulateResult) -> dict[str, Any]:
 
 def _compared(result: CheckResult) -> list[tuple[Deviation, float, float]]:
     """Return all that was compared, the worst first, each with the logarithms of its error and of what is allowed."""
-    deviations = sorted(result.deviations, key=lambda each: relative(each) / tolerance(each), reverse=True)
-    logs = [[math.log10(min(max(of(each), _LEAST), 1.0)) for of in (relative, tolerance)] for each in deviations]
+    deviations = sorted(result.deviations, key=lambda each: each.relative / each.tolerance, reverse=True)
+    sizes = ((each.relative, each.tolerance) for each in deviations)
+    logs = [[math.log10(min(max(size, _LEAST), 1.0)) for size in pair] for pair in sizes]
     return [(each, round(log, 2), round(most, 2)) for each, (log, most) in zip(deviations, logs, strict=True)]
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import importlib.util
 import io
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -58,6 +58,15 @@ def check_file(file: Path, inputs: Mapping[str, Path]) -> None:
     for what, other in inputs.items():
         if file.exists() and file.samefile(other):
             raise not_writable(file, f"{what} has this name", "name another file")
+
+
+def default_file(name: str, is_ours: Callable[[Path], bool]) -> Path:
+    """Return the file of a name, here. Raises OutputError if one is there that `is_ours` says is not urdfsync's."""
+    file = Path(name)
+    if file.is_symlink() or (file.exists() and not is_ours(file)):
+        hint = "name a file with `--output`, this one to replace it"
+        raise not_writable(file, "it is there, and urdfsync did not write it", hint)
+    return file
 
 
 def write_file(file: Path, content: bytes) -> None:

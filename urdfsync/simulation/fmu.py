@@ -52,21 +52,14 @@ class Trial(msgspec.Struct, frozen=True):
 class WrittenFmu(msgspec.Struct, frozen=True):
     """An FMU that was written to a file."""
 
-    KEYS = ("robot", "exported", "kind", "file", "trial", "diagnostics")
-
     robot: str
     exported: Exported
     kind: Export
     file: Path
     trial: Trial | None
     """None if it was not tried out."""
-    warnings: tuple[Diagnostic, ...]
-    """Findings of the trial."""
-
-    @property
-    def diagnostics(self) -> tuple[Diagnostic, ...]:
-        """All findings, of the export and of the trial."""
-        return (*self.exported.diagnostics, *self.warnings)
+    diagnostics: tuple[Diagnostic, ...]
+    """All findings, of the export and of the trial."""
 
 
 def find_faults(trial: Trial, file: Path) -> list[Diagnostic]:

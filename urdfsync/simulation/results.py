@@ -9,7 +9,7 @@ import msgspec
 
 from urdfsync.checks.compilers.compiler import Series as Series
 from urdfsync.checks.compilers.compiler import Tool
-from urdfsync.config import ros_package_path
+from urdfsync.checks.results import RunOptions
 from urdfsync.diagnostics import Diagnostic
 
 STOP = 1.0
@@ -20,7 +20,7 @@ TOLERANCE = 1e-6
 """Of the integration, where neither the annotation nor the user names one."""
 
 
-class SimulateOptions(msgspec.Struct, frozen=True):
+class SimulateOptions(RunOptions, frozen=True):
     """How to simulate; None leaves a number to the model."""
 
     model: str = ""
@@ -37,13 +37,6 @@ class SimulateOptions(msgspec.Struct, frozen=True):
     variables: tuple[str, ...] = ()
     """Patterns of further variables whose series are wanted."""
     tool: Tool = Tool()
-    timeout: float = 600.0
-    """Seconds."""
-    memory: float | None = None
-    """Gigabytes; None for what is free."""
-    wait: float = 60.0
-    """Seconds to wait for a build that is writing."""
-    package_paths: tuple[Path, ...] = msgspec.field(default_factory=ros_package_path)
     as_exported: bool = False
     """Whether it is simulated as its FMU would be: filters of drives stay, inputs change at each step, or stay at 0."""
 

@@ -24,6 +24,7 @@ from urdfsync.engine import imports
 from urdfsync.engine import source as source_files
 from urdfsync.engine.actions import Action, Actions, Reason
 from urdfsync.engine.build import build
+from urdfsync.engine.findings import CONNECTORS
 from urdfsync.engine.generate import Package, generate
 from urdfsync.engine.inputs import inspect
 from urdfsync.engine.last_build import NO_MODEL
@@ -67,18 +68,14 @@ class Comparison(msgspec.Struct, frozen=True):
 
     @property
     def diagnostics(self) -> tuple[Diagnostic, ...]:
-        """The findings of the comparison."""
-        return self.result.diagnostics
-
-    @property
-    def change_class(self) -> ChangeClass:
-        """Return how far the changes reach."""
-        return self.result.changes.change_class if self.result.changes else ChangeClass.NONE
+        """The findings, without those that the effects tell."""
+        return tuple(finding for finding in self.result.diagnostics if finding.code != CONNECTORS)
 
     @property
     def in_step(self) -> bool:
         """Return whether both versions give the same package, and the package on disk needs nothing."""
-        return self.result.in_step and self.change_class in (ChangeClass.NONE, ChangeClass.UNMODELLED)
+        changes = self.result.changes or Changes()
+        return self.result.in_step and changes.change_class in (ChangeClass.NONE, ChangeClass.UNMODELLED)
 
     @property
     def summary(self) -> str:

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-import msgspec
-
 from urdfsync.engine.actions import USERS, Kind, Reason
 from urdfsync.engine.findings import CONNECTORS
 from urdfsync.output.build_section import build_section, change_parts
@@ -33,10 +31,9 @@ def to_section(compared: Comparison) -> Section:
     effects = Table("Effects", ("Property", "Change", "By"), effect_rows(compared.effects))
     tables += [effects, section.tables[-1]]
     told = [finding for finding in section.findings if finding.code != CONNECTORS]  # effects tell them
-    texts = {"summary": compared.summary, "points": points, "tables": tables, "findings": told}
-    if compared.against is None or result.failed:
-        return msgspec.structs.replace(section, **texts)
-    return msgspec.structs.replace(section, **texts, mark=Mark.NONE, verdict=None)
+    is_judged = compared.against is None or result.failed
+    mark, verdict = (section.mark, section.verdict) if is_judged else (Mark.NONE, None)
+    return Section(result.robot, compared.summary, mark, points, tables, told, verdict)
 
 
 def robot_lines(compared: Comparison, *, verbose: bool = False) -> Iterator[StyledLine]:
@@ -67,4 +64,4 @@ def _files(compared: Comparison, verbose: bool) -> Iterator[StyledLine]:
     edited = sum(action.reason in _EDITED for action in actions)
     yield from first_lines(lines, max(_FILES, edited + 1), "file", verbose=verbose)
     if any(action.kind is Kind.CONFLICT for action in actions):
-        yield line((f"  {settle_hint(result.disputed)}", "dim"))
+        yield line((f"  {settle_hint(result.conflicts)}", "dim"))

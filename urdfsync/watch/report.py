@@ -229,9 +229,7 @@ class Report:
         errors = [finding for finding in result.diagnostics if finding.severity is Severity.ERROR]
         new = self._new(robot, "findings", map(_key, result.diagnostics))
         new_errors = self._new(robot, "broken", map(_key, errors))
-        conflicts = self._new(
-            robot, "conflicts", ((conflict.path, conflict.mine, conflict.generated) for conflict in result.conflicts)
-        )
+        conflicts = self._new(robot, "conflicts", ((each.action.path, each.action.sides) for each in result.conflicts))
         orphans = self._new(robot, "kept", (action.path for action in result.actions.decided if action.reason in _KEPT))
         yield from self._findings(
             [finding for finding in result.diagnostics if verbose or (_key(finding) in new and finding not in errors)]
@@ -299,7 +297,7 @@ class Report:
             words = Activity.ERROR if result.failed else "broken"
             status = RobotStatus(Activity.ERROR, _with_error(words, result.diagnostics))
         elif result.conflicts:
-            files = [(action.origin or action.path).rpartition("/")[2] for action in result.conflicts]
+            files = [(each.action.origin or each.action.path).rpartition("/")[2] for each in result.conflicts]
             where = files[0] if len(files) == 1 else f"{len(files)} files"
             text = f"{Activity.CONFLICT} in {where}: waiting for `urdfsync resolve`"
             status = RobotStatus(Activity.CONFLICT, text)

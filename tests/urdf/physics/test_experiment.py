@@ -11,9 +11,8 @@ from support.loops import FOUR_BAR, to_options, to_urdf
 from support.urdfs import dynamics, joint, link, links, robot
 
 from urdfsync.checks.compilation import compare_all
-from urdfsync.checks.results import TOLERANCE
 from urdfsync.diagnostics import SourceError
-from urdfsync.domain import Experiment, Part, Quantity, Target
+from urdfsync.domain import TOLERANCE, Experiment, Part, Quantity, Target
 from urdfsync.urdf.domain import DOMAIN
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.physics.reference import read

@@ -9,7 +9,6 @@ from support.loops import FOUR_BAR
 from support.packages import Package, generate, generate_robot
 from support.urdfs import joint, links, robot
 
-from urdfsync.checks.results import agrees
 from urdfsync.domain import Target
 from urdfsync.urdf.physics.wiring import wiring
 
@@ -31,7 +30,7 @@ def faults_of(package: Package, old: str, new: str) -> list[tuple[str, str]]:
     assert any(old in text for text in package.texts.values()), old
     texts = {path: (text.replace(old, new) if old else text).encode() for path, text in package.texts.items()}
     found = wiring(texts, package.skeleton, package.target, package.options)
-    return [(each.element, each.detail) for each in found if not agrees(each)]
+    return [(each.element, each.detail) for each in found if not each.agrees]
 
 
 @pytest.mark.parametrize("options", [{}, {"inputs": "vector"}, {"base": "floating"}, {"driven": ("slide",)}])
