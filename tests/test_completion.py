@@ -201,7 +201,8 @@ def test_bash(command: Path, line: str) -> None:
 @pytest.mark.parametrize("line", LINES)
 def test_zsh(command: Path, line: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("ZDOTDIR", str(command))
-    (command / ".zshrc").write_text("PS1='$ '\n")
+    # else zsh takes the slash of a completed folder away when the line ends
+    (command / ".zshrc").write_text("PS1='$ '\nunsetopt AUTO_REMOVE_SLASH\n")
     setup = 'autoload -U compinit && compinit -u -D && eval "$(urdfsync completion zsh)"'
     assert typed([shell("zsh"), "-d", "-i"], setup, line) == LINES[line]
 

@@ -15,9 +15,7 @@ from urdfsync import uptodate
 from urdfsync.dependencies import read_unrecorded
 
 SHELLS = ("bash", "zsh", "fish")
-FILES = [(":files", "")]
-"""An answer that leaves it to the shell to complete a file."""
-_FOLDER = os.path.join(os.path.dirname(__file__), "shells")
+_SHELLS = os.path.join(os.path.dirname(__file__), "shells")
 _STATE = ".urdfsync/robots"
 _LARGEST = 500_000
 """Bytes of a configuration that are read in a fifth of a second; hundreds of robots have fewer."""
@@ -29,7 +27,7 @@ def answer(arguments: list[str]) -> bool:
     if not arguments or arguments[0] not in SHELLS or arguments[1:2] not in ([], ["--"]):
         return False
     if len(arguments) == 1:
-        sys.stdout.write(_read(f"completion.{arguments[0]}"))
+        sys.stdout.write(read_unrecorded(f"{_SHELLS}/completion.{arguments[0]}").decode())
     else:
         sys.stdout.writelines(f"{name}\t{meaning}".rstrip() + "\n" for name, meaning in complete(arguments[2:]))
     return True
@@ -38,7 +36,7 @@ def answer(arguments: list[str]) -> bool:
 def complete(words: list[str]) -> list[tuple[str, str]]:
     """Return what the last word may become, each with its meaning."""
     *before, current = words or [""]
-    table = [line.split("\t") for line in _read("options.tsv").splitlines()]
+    table = [line.split("\t") for line in read_unrecorded(f"{_SHELLS}/options.tsv").decode().splitlines()]
     rows = [row for row in table if row[0] == (before[0] if before else "")]  # those of a command, or all commands
     values = {name: values for _, name, values, _ in rows if name}
     option, begin = before[-1] if before else "", ""
@@ -52,7 +50,7 @@ def complete(words: list[str]) -> list[tuple[str, str]]:
         kinds = kinds or "|".join(values for _, name, values, _ in rows if not name).split("|")
         names = {name: "" for kind in kinds for name in _names(kind, words) if name not in before[1:]}
     fitting = [(begin + name, meaning) for name, meaning in names.items() if name.startswith(current)]
-    return FILES if "FILE" in kinds and not fitting else fitting
+    return fitting or ([(":files", "")] if "FILE" in kinds else [])  # which leaves it to the shell to complete a file
 
 
 def _names(kind: str, words: list[str]) -> list[str]:
@@ -87,8 +85,3 @@ def _joints(words: list[str]) -> list[str]:
         return []
     names = (line.partition('"')[0] for line in text.split('["joints","')[1:])
     return [name for name in names if name.isidentifier() and name.isascii()]
-
-
-def _read(name: str) -> str:
-    with open(os.path.join(_FOLDER, name), encoding="utf-8") as file:
-        return file.read()

@@ -17,9 +17,6 @@ from urdfsync.output.console import Console
 from urdfsync.simulation.report import result_lines
 from urdfsync.simulation.results import STEPS, STOP, TOLERANCE, SimulateOptions
 
-FILES = ("csv", "parquet", "plot")
-"""The options that name a file to write."""
-
 
 def add(commands: arguments.Commands) -> None:
     """Add the command's parser."""
@@ -59,7 +56,7 @@ def add(commands: arguments.Commands) -> None:
 
 def run(args: argparse.Namespace, console: Console) -> int:
     """Simulate one robot, write what was asked for, and show what came out."""
-    files = {kind: file for kind in FILES if (file := getattr(args, kind)) is not None}
+    files = {kind: file for kind in ("csv", "parquet", "plot") if (file := getattr(args, kind)) is not None}
     write_report = prepare_page(args, console, args.report) if args.report else None
     extra = {"files": files, "tool": args.tool, "trusted": args.trusted}
     result = arguments.call(simulate, SimulateOptions, args, console, **extra)
