@@ -157,7 +157,7 @@ def read_file(path: str | os.PathLike[str]) -> bytes:
 
 
 def read_unrecorded(path: str | os.PathLike[str]) -> bytes:
-    """Read a file as `read_file` does, without recording it: where `read_mode` has, or no answer depends on it."""
+    """Read a file as `read_file` does, without recording it: where `read_stat` has, or no answer depends on it."""
     # a pipe would wait for somebody who writes to it
     with open(path, "rb", buffering=0, opener=lambda path, flags: os.open(path, flags | _NONBLOCK)) as file:
         status = os.fstat(file.fileno())
@@ -172,13 +172,11 @@ def read_unrecorded(path: str | os.PathLike[str]) -> bytes:
 
 
 def read_stat(path: str | os.PathLike[str]) -> tuple[int, ...]:
-    """Return the stat values of a path, before its content is read; `(0,)` for none. Raises OSError."""
+    """Return the stat values of a path before its content is read, links not followed; `(0,)` for none.
+
+    Raises OSError.
+    """
     return _look(LSTAT, path)
-
-
-def read_mode(path: str | os.PathLike[str]) -> int:
-    """Return the mode of a path, links not followed, before its content is read; 0 for none. Raises OSError."""
-    return read_stat(path)[0]
 
 
 def list_folder(folder: str | os.PathLike[str]) -> list[str]:

@@ -10,7 +10,7 @@ import stat
 from collections.abc import Sequence
 from pathlib import Path
 
-from urdfsync.dependencies import file_type, read_file, read_mode, read_unrecorded, walk_files
+from urdfsync.dependencies import file_type, read_file, read_stat, read_unrecorded, walk_files
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 
 TEMPORARY = ".urdfsync-tmp"
@@ -128,7 +128,7 @@ class Tree:
         if not self.check_folder(path.rpartition(os.sep)[0]):
             return None
         try:
-            mode = read_mode(path)
+            mode = read_stat(path)[0]
             if not mode or stat.S_ISREG(mode):
                 return read_unrecorded(path) if mode else None
         except (FileNotFoundError, NotADirectoryError):

@@ -90,12 +90,6 @@ def _bound(status: os.stat_result) -> str:
     return "\0".join([_FORMAT, str(status.st_ino), str(status.st_mtime_ns), _program()])
 
 
-def saved_answer(arguments: list[str]) -> list[str] | None:
-    """Return the saved answer of a command; None if there is none, or if it does not hold any more."""
-    config_file = find_config(arguments)
-    return find_answer(config_file, arguments[0], answer_key(arguments, config_file)) if config_file else None
-
-
 def print_answer(arguments: list[str]) -> str | None:
     """Print the saved answer of a command; None if there is none, so that the command runs.
 
@@ -103,7 +97,8 @@ def print_answer(arguments: list[str]) -> str | None:
     """
     if not arguments or arguments[0] not in COMMANDS or sys.stdout is None or sys.stderr is None:
         return None
-    answer = saved_answer(arguments)
+    config_file = find_config(arguments)
+    answer = find_answer(config_file, arguments[0], answer_key(arguments, config_file)) if config_file else None
     if answer is None:
         return None
     with streams.SafeStreams() as output:

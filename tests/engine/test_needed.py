@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from pathlib import Path
+from types import SimpleNamespace
+from typing import cast
 
 from support.networks import (
     C1,
@@ -18,7 +21,10 @@ from support.networks import (
     source,
 )
 
-from urdfsync.engine.actions import Reason
+from urdfsync.domain import Role
+from urdfsync.engine.actions import Action, Reason
+from urdfsync.engine.generation import Generation
+from urdfsync.engine.needed import keep_needed
 from urdfsync.state.record import Choice
 
 
@@ -69,3 +75,18 @@ def test_an_edited_model_that_is_no_longer_generated_keeps_its_record(project: P
     gone = {"Elements/R2.mo": Reason.FORGET, "Elements/R2Parameters.mo": Reason.DELETE}
     assert inner_kinds(run()) == {**gone, "Elements/package.order": Reason.UPDATE}
     assert inner_kinds(run()) == {}
+
+
+def test_a_package_stays_for_the_one_inside_that_stays() -> None:
+    packages = ("P/package.mo", "P/Q/package.mo", "P/R/package.mo")
+    inside = {"P/package.mo": {"P/A.mo", *packages[1:]}, "P/Q/package.mo": {"P/Q/Mine.mo"}, "P/R/package.mo": set()}
+
+    def has_classes(path: str, gone: Collection[str]) -> bool:
+        return bool(inside[path] - set(gone))
+
+    files = SimpleNamespace(has_classes=has_classes)
+    generation = cast("Generation", SimpleNamespace(inputs=SimpleNamespace(files=files)))
+    actions = [Action(path, Reason.DELETE, Role.PACKAGE) for path in packages]
+    actions.append(Action("P/A.mo", Reason.DELETE, Role.MODEL))
+    kept = keep_needed(generation, actions, {})
+    assert [one.path for one in kept if one.reason is Reason.NEEDED] == ["P/package.mo", "P/Q/package.mo"]

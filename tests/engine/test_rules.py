@@ -20,7 +20,6 @@ from urdfsync.engine.rules import (
     decide_file,
     files_after,
     hold,
-    keep_needed,
     pending_choices,
     valid_choices,
 )
@@ -220,17 +219,6 @@ def test_choices_wait_with_their_actions_but_not_those_to_undo() -> None:
     texts: dict[str, str] = {Choice.TAKE: "generated", Choice.EDIT: "both"}
     pending = {path: choice.text for path, choice in pending_choices(actions, texts).items()}
     assert pending == {Choice.TAKE: None, Choice.EDIT: "both"}
-
-
-def test_a_package_stays_for_the_one_inside_that_stays() -> None:
-    packages = ("P/package.mo", "P/Q/package.mo", "P/R/package.mo")
-    actions = [Action(path, Reason.DELETE, Role.PACKAGE) for path in packages]
-    actions.append(Action("P/A.mo", Reason.DELETE, Role.RECORD))
-    inside = {"P/package.mo": {"P/A.mo", *packages[1:]}, "P/Q/package.mo": {"P/Q/Mine.mo"}, "P/R/package.mo": set()}
-    kept = keep_needed(actions, lambda path, gone: bool(inside[path] - set(gone)), used=())
-    assert [one.path for one in kept if one.reason is Reason.NEEDED] == ["P/package.mo", "P/Q/package.mo"]
-    kept = keep_needed(actions[3:], lambda *_: False, used=["P/A.mo", "P/Gone.mo"])
-    assert [one.reason for one in kept] == [Reason.NEEDED]
 
 
 def test_an_edited_file_that_cant_move_blocks_all_that_would_follow_it() -> None:

@@ -123,5 +123,5 @@ def test_of_a_text_without_end_no_names_are_looked_at(project: Path) -> None:
 
 def test_of_classes_with_one_name_nobody_knows_which_is_meant() -> None:
     paths = map(Path, ("a/Cell.mo", "b/Cell.mo", "Plant/package.mo", "Plant/Line.mo", "One.mo"))
-    tops = users_files.UsersFiles(dict.fromkeys(paths, b""), {}).tops()
+    tops = users_files.UsersFiles(dict.fromkeys(paths, b""), {}).tops
     assert tops == {"Plant": Path("Plant"), "One": Path("One.mo")}

@@ -80,7 +80,8 @@ def save(*arguments: str) -> None:
 
 def saved(*arguments: str) -> list[str] | None:
     """The saved answer of a command, if it holds."""
-    return uptodate.saved_answer(list(arguments))
+    file = uptodate.find_config(list(arguments))
+    return uptodate.find_answer(file, arguments[0], uptodate.answer_key(list(arguments), file)) if file else None
 
 
 def _write(path: Path, text: str) -> None:

@@ -21,7 +21,7 @@ from urdfsync.config import FILE_NAME, STATE_FOLDER, Config, RobotConfig
 from urdfsync.dependencies import VARIABLE, Dependencies
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError, UrdfsyncError
 from urdfsync.engine import parents
-from urdfsync.engine.actions import Reason
+from urdfsync.engine.actions import ORPHANS, Reason
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Exit, Result, exit_code
@@ -33,7 +33,7 @@ from urdfsync.state.store import Store
 
 _FEW = 4
 """So many files to add are named one by one."""
-_UNNEEDED = (Reason.ORPHAN, Reason.NEEDED, Reason.FORGET)
+_UNNEEDED = ORPHANS | {Reason.FORGET}
 """Actions on files that a clone can do without."""
 
 

@@ -10,7 +10,7 @@ from urdfsync.commands import arguments
 from urdfsync.commands.init import write_errors
 from urdfsync.config import Config
 from urdfsync.diagnostics import ConfigError
-from urdfsync.engine.actions import Action, Reason
+from urdfsync.engine.actions import ORPHANS, Action, Reason
 from urdfsync.engine.build import build
 from urdfsync.engine.result import Result, exit_code
 from urdfsync.files import shown
@@ -18,7 +18,6 @@ from urdfsync.output.console import Console, first_lines
 from urdfsync.output.results import action_line, headline, show_result
 from urdfsync.state.transaction import save
 
-_STAYS = (Reason.ORPHAN, Reason.NEEDED)
 _FILES = 20
 """So many files that go are listed at most, without --verbose."""
 
@@ -67,8 +66,8 @@ def _show(console: Console, result: Result, words: str) -> None:
         show_result(console, result)
         return
     console.findings(result.diagnostics)
-    console.tell([headline(result, "; ".join([words, *result.counts(_STAYS)]), is_fine=True)])
-    decided = [action for action in result.actions.decided if action.writes or action.reason in _STAYS]
+    console.tell([headline(result, "; ".join([words, *result.counts(ORPHANS)]), is_fine=True)])
+    decided = [action for action in result.actions.decided if action.writes or action.reason in ORPHANS]
     files = [action_line(result, action, _reason(action)) for action in decided]
     console.tell(first_lines(files, _FILES, "file", verbose=console.verbose))
 
@@ -77,7 +76,7 @@ def _reason(action: Action) -> str:
     """Return why a file stays; empty if it does not."""
     if action.reason is Reason.ORPHAN and action.mine == action.base:
         return "its text is not stored, and could not be given back"
-    return action.reason.text if action.reason in _STAYS else ""
+    return action.reason.text if action.reason in ORPHANS else ""
 
 
 def _take_out(configuration: Config, robot: str) -> None:

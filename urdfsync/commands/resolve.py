@@ -15,7 +15,7 @@ from urdfsync.api import build_and_check, load
 from urdfsync.commands import arguments, editor
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Role
-from urdfsync.engine.actions import USERS, Action, Kind, Reason
+from urdfsync.engine.actions import USERS, Action, Reason
 from urdfsync.engine.build import build
 from urdfsync.engine.package_files import key_of
 from urdfsync.engine.result import Exit, Result, exit_code
@@ -135,9 +135,9 @@ def _find_named(planned: Sequence[Result], text: str, choice: Choice) -> Iterato
         is_found = False
         for action in result.actions:
             files = {Path(os.path.normpath(root / key)) for key in (action.origin or action.path, action.path)}
-            is_user = action.kind is Kind.CONFLICT or action.reason in USERS or action.choice is not None
+            is_user = action.is_conflict or action.reason in USERS or action.choice is not None
             is_named = not places.isdisjoint(files) and (is_user or choice is Choice.UNDO)
-            is_below = action.kind is Kind.CONFLICT and any(not places.isdisjoint(file.parents) for file in files)
+            is_below = action.is_conflict and any(not places.isdisjoint(file.parents) for file in files)
             if is_named or is_below:
                 is_found = True
                 yield result, action
@@ -174,9 +174,9 @@ def _compare(
             message = "the file or its generated text changed after they were read, so your choice was not applied"
             hint = "look at it, then choose again"
             problems.append(Diagnostic(Severity.WARNING, "changed-meanwhile", message, place, hint=hint))
-        elif after is None or (after.choice is not choice and before.kind is not Kind.CONFLICT):
+        elif after is None or (after.choice is not choice and not before.is_conflict):
             problems.append(_without_effect(choice, before, place))
-        elif after.kind is not Kind.CONFLICT:
+        elif not after.is_conflict:
             accepted.add(path)
     return accepted, problems
 

@@ -112,11 +112,6 @@ def in_words(kind: Any) -> str:
     return _WORDS.get(kind, f"of the type {kind}")
 
 
-def argument_texts(arguments: Mapping[str, str | float | bool]) -> dict[str, str]:
-    """Return arguments as xacro gets them on its command line."""
-    return {name: value if isinstance(value, str) else json.dumps(value) for name, value in arguments.items()}
-
-
 class _Table(NamedTuple):
     """A table to be read: how messages call it, its values, and the line of each key; that of the table for `""`."""
 
@@ -247,14 +242,16 @@ class _Reader:
                 self._report("wrong-value", lines["output"], message, "name another folder")
         if len(self.problems) > before:
             return None
-        source = Path(table.values["source"])
+        source, given = Path(table.values["source"]), keys.arguments or {}
+        # as xacro gets them on its command line
+        arguments = {key: value if isinstance(value, str) else json.dumps(value) for key, value in given.items()}
         shared: dict[str, Any] = {field.name: getattr(keys, field.name) for field in _fields(SharedKeys)}
         return RobotConfig(
             **shared | {"output": output},
             name=name,
             source_text=source.name if source.is_absolute() else Path(os.path.normpath(source)).as_posix(),
             target=Target(keys.package, model_class(keys.package, keys.class_)),
-            arguments=None if keys.arguments is None else argument_texts(keys.arguments),
+            arguments=None if keys.arguments is None else arguments,
             options=options,
             lines=lines,
         )

@@ -95,10 +95,6 @@ class RobotConfig(SharedKeys, frozen=True, kw_only=True):
         """The folder of the generated package."""
         return self.output.joinpath(*self.target.package.split("."))
 
-    def is_at(self, place: Path) -> bool:
-        """Whether a path is the robot's source, or is in its package or around it."""
-        return place == self.source or place.is_relative_to(self.folder) or self.folder.is_relative_to(place)
-
     def without_ignored(self, diagnostics: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
         """Leave out the warnings and notes that are ignored; errors never are."""
         return tuple(
@@ -136,7 +132,15 @@ class Config(msgspec.Struct, frozen=True):
         robot_names, chosen = [robot.name for robot in self.robots], set[str]()
         for name in names:
             place = Path(os.path.normpath(working_folder() / name))
-            meant = [name] if name in robot_names else [robot.name for robot in self.robots if robot.is_at(place)]
+            meant = (
+                [name]
+                if name in robot_names
+                else [
+                    robot.name
+                    for robot in self.robots
+                    if place == robot.source or place.is_relative_to(robot.folder) or robot.folder.is_relative_to(place)
+                ]
+            )
             if not meant:
                 near = nearest(name, robot_names)
                 hint = f"did you mean `{near}`?" if near else f"name one of {', '.join(robot_names)}"

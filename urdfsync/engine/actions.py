@@ -13,7 +13,7 @@ from urdfsync.state.record import Choice, sides_hash
 
 
 class Kind(enum.StrEnum):
-    """An effect on a file."""
+    """An effect on a file. What follows from it stands in the properties of an action."""
 
     WRITE = "write"
     DELETE = "delete"
@@ -87,6 +87,9 @@ class Reason(enum.StrEnum):
         self.to_do, self.done = to_do, done or to_do
 
 
+ORPHANS = frozenset(reason for reason in Reason if reason.status is FileStatus.ORPHAN)
+"""Actions that leave a file although nothing generates it any longer."""
+CONFLICTS = frozenset(reason for reason in Reason if reason.kind is Kind.CONFLICT)
 DISPUTED = frozenset({Reason.CONFLICT, Reason.UNOWNED, Reason.MOVE})
 """Actions that the texts, or the user, decide on."""
 USERS = frozenset(
@@ -135,7 +138,22 @@ class Action(msgspec.Struct, frozen=True):
     @property
     def writes(self) -> bool:
         """Whether a file changes now."""
-        return self.kind not in (Kind.LEAVE, Kind.CONFLICT) and not self.held
+        return self.kind in (Kind.WRITE, Kind.DELETE) and not self.held
+
+    @property
+    def is_deletion(self) -> bool:
+        """Whether there is no file any more, once the action waits for nothing."""
+        return self.kind is Kind.DELETE
+
+    @property
+    def is_conflict(self) -> bool:
+        """Whether a file stays although other content is wanted."""
+        return self.kind is Kind.CONFLICT
+
+    @property
+    def keeps_text(self) -> bool:
+        """Whether the text on disk stays, and need not be the generated one."""
+        return self.held or (self.kind in (Kind.LEAVE, Kind.CONFLICT) and self.reason.status is not FileStatus.IN_STEP)
 
     @property
     def sides(self) -> str:

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Iterator, Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import msgspec
@@ -40,9 +39,10 @@ from urdfsync.state.transaction import Transactions, UnfinishedError, is_interru
 if TYPE_CHECKING:
     from urdfsync.engine.pool import Pool
 
-
 WAITING = "waiting for"
 """Words of progress while another process builds, before the name of that one."""
+_LEAST_ROBOTS = 6
+"""With fewer robots, importing urdfsync in each worker takes longer than it saves."""
 _ATTEMPTS = 5
 """Plans of one robot, if each is overtaken by another build or by somebody who saves a file."""
 
@@ -52,10 +52,10 @@ def build(config: Config, robots: Sequence[RobotConfig], options: BuildOptions) 
     with contextlib.ExitStack() as stack:
         lock = stack.enter_context(build_lock(config.root / STATE_FOLDER, options.wait))
         pool = None
-        if options.executor or (len(robots) > 1 and (options.jobs or machine.cores()) > 1):
-            from urdfsync.engine.pool import Pool  # multiprocessing takes 15 ms to import
+        if options.executor or (len(robots) >= _LEAST_ROBOTS and (options.jobs or machine.cores()) > 1):
+            from urdfsync.engine.pool import start_pool  # multiprocessing takes 15 ms to import
 
-            pool = stack.enter_context(Pool(config, robots, options))
+            pool = stack.enter_context(start_pool(config, robots, options))
         builder = _Builder(config, options, lock, pool)
         for count, robot in enumerate(robots):
             options.progress(robot.name, count, len(robots))
@@ -71,44 +71,35 @@ class _Builder:
     def __init__(self, config: Config, options: BuildOptions, lock: Lock, pool: Pool | None) -> None:
         self._config, self._options, self._lock, self._pool = config, options, lock, pool
         self._state_folder = config.root / STATE_FOLDER
-        outputs = list(dict.fromkeys(robot.output for robot in config.robots))
+        outputs = {robot.output for robot in config.robots}
         self._transactions = Transactions(config.root, self._state_folder, outputs)
         self.notes: list[Diagnostic] = []
         """Findings that belong to no robot of this command."""
 
     def build(self, robot: RobotConfig) -> Result:
         """Build one robot. Whatever is wrong comes back as diagnostics."""
-        result = Result(robot.name, robot.target.package, robot.folder, self._config.root, dry=self._options.dry)
         try:
             untrusted = None if self._options.trusted else find_untrusted_output(self._config, robot)
             if untrusted and not self._options.dry:
                 raise ConfigError(untrusted)
-            plan = self._plan_and_write(robot)
-        except UrdfsyncError as error:
-            return msgspec.structs.replace(
-                result,
-                diagnostics=error.diagnostics,
+            result = self._plan_and_write(robot)
+        except (UrdfsyncError, OSError) as error:
+            return Result(
+                robot.name,
+                robot.target.package,
+                robot.folder,
+                self._config.root,
+                diagnostics=findings_of(error),
                 failed=True,
                 locked=isinstance(error, LockedError),
                 unfinished=isinstance(error, UnfinishedError),
                 source_error=error if isinstance(error, SourceError) else None,
+                dry=self._options.dry,
             )
-        except OSError as error:
-            return msgspec.structs.replace(result, diagnostics=findings_of(error), failed=True)
         warnings = [msgspec.structs.replace(untrusted, severity=Severity.WARNING)] if untrusted else []
-        return msgspec.structs.replace(
-            result,
-            actions=plan.actions,
-            diagnostics=(*warnings, *plan.diagnostics),
-            changes=plan.changes,
-            conflict_texts=plan.conflicts,
-            stale=plan.stale,
-            is_broken=plan.is_broken,
-            drawing=plan.drawing,
-            writes=not plan.is_noop,
-        )
+        return msgspec.structs.replace(result, diagnostics=(*warnings, *result.diagnostics))
 
-    def _plan_and_write(self, robot: RobotConfig) -> Plan:
+    def _plan_and_write(self, robot: RobotConfig) -> Result:
         """Plan, and write unless the run is dry; again if another build or a save overtook the plan."""
         saved = robot.folder
         for _ in range(_ATTEMPTS):
@@ -116,30 +107,24 @@ class _Builder:
             plan = self._pool.plan(robot) if self._pool else plan_robot(self._config, robot, self._options)
             if self._options.dry:
                 if self._is_current(plan):
-                    return plan
+                    return plan.result
                 continue
-            if plan.is_noop and not plan.writes and not self._transactions.is_pending():
-                return plan
+            if not (plan.result.writes or plan.writes or self._transactions.is_pending()):
+                return plan.result
             dependencies.mark_incomplete()  # what was read is about to change
             self._lock.acquire(self._wait)
             if not self._is_current(plan):
                 continue
-            overtaken = self._write(robot, plan)
-            if not overtaken:
-                return plan
-            saved = overtaken[0]
+            files = PackageFiles(self._config, robot)
+            shared = [change for file in plan.shared if (change := file.change(files)) is not None]
+            applied = self._transactions.apply(robot.name, [*shared, *plan.writes], plan.emptied)
+            self.notes += applied.diagnostics
+            if not applied.not_done:  # else somebody saved a file in between
+                return plan.result
+            saved = applied.not_done[0]
         message = "it keeps changing during the build"
         hint = "close the program that writes it, then build again"
         raise OutputError.of("restless", message, shown(saved), hint=hint)
-
-    def _write(self, robot: RobotConfig, plan: Plan) -> tuple[Path, ...]:
-        """Carry out a plan. Returns the files that are not as planned, since somebody saved one in between."""
-        files = PackageFiles(self._config, robot)
-        shared = [change for file in plan.shared if (change := file.change(files)) is not None]
-        changes = [*shared, *plan.writes]
-        applied = self._transactions.apply(robot.name, changes, plan.emptied)
-        self.notes += applied.diagnostics
-        return applied.not_done
 
     def _is_current(self, plan: Plan) -> bool:
         """Return whether no other build wrote, or began to, since the plan was made.

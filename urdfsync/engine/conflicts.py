@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
-from urdfsync.engine.actions import Action, Kind, Reason
+from urdfsync.engine.actions import Action, Reason
 from urdfsync.engine.package_files import text_hash
 from urdfsync.state.record import Choice, UsersChoice
 
@@ -132,7 +132,7 @@ def _outcome(
     if action.reason is Reason.MOVE and conflict:
         text = None if choice is Choice.TAKE else conflict.kept if choice is Choice.KEEP else merged
         return Reason.CONFLICT if text is None and choice is not Choice.TAKE else Reason.MOVE, choice, text
-    if action.reason is not Reason.KEEP and action.kind is not Kind.CONFLICT:
+    if action.reason is not Reason.KEEP and not action.is_conflict:
         return action.reason, action.choice, None
     if choice is Choice.TAKE and action.is_on_disk:
         return Reason.UPDATE, choice, None

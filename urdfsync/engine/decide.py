@@ -3,20 +3,22 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 import msgspec
 
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.domain import ChangeClass, Role
-from urdfsync.engine.actions import DISPUTED, Action, Actions, Kind, Reason
+from urdfsync.engine.actions import DISPUTED, ORPHANS, Action, Actions, Reason
 from urdfsync.engine.conflicts import MERGES, PREFERENCES, Conflict, find_conflict, resolve
 from urdfsync.engine.fit import Misfit, Package, find_misfits
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import Inputs
+from urdfsync.engine.needed import keep_needed
 from urdfsync.engine.package_files import PackageFiles
+from urdfsync.engine.package_names import renamed_names
 from urdfsync.engine.parents import SharedFile, merge_order
-from urdfsync.engine.rules import File, decide, hold, keep_needed, valid_choices
+from urdfsync.engine.rules import File, decide, hold, valid_choices
 from urdfsync.engine.undo import apply_undo, former_names
 from urdfsync.files import shown
 from urdfsync.modelica.files import class_parts
@@ -45,13 +47,13 @@ class Decision(msgspec.Struct, frozen=True):
     @property
     def conflicts(self) -> tuple[Conflict, ...]:
         """The texts of the files in conflict."""
-        keys = [action.path for action in self.actions if action.kind is Kind.CONFLICT]
+        keys = [action.path for action in self.actions if action.is_conflict]
         return tuple(self.disputed[key] for key in keys if key in self.disputed)
 
     @property
     def is_complete(self) -> bool:
         """Whether nothing conflicts and nothing waits."""
-        return not any(action.held or action.kind is Kind.CONFLICT for action in self.actions)
+        return not any(action.held or action.is_conflict for action in self.actions)
 
 
 def decide_package(generation: Generation) -> Decision:
@@ -65,7 +67,7 @@ def decide_package(generation: Generation) -> Decision:
     actions, undone = apply_undo(inputs, actions, chosen)
 
     disputed = [action for action in actions if action.reason in DISPUTED and action.role is not Role.IMPORT]
-    names = renamed(generation) if disputed else {}
+    names = _renamed(generation) if disputed else {}
     conflicts = {one.path: _conflict(generation, one, names) for one in disputed}
     pending = last.record.open.choices if last.record.open else {}
     # what is in a former folder has its key there
@@ -74,11 +76,11 @@ def decide_package(generation: Generation) -> Decision:
     conflicts, choices = _without_misfits(generation, actions, conflicts, choices)
     actions, merged = resolve(actions, conflicts, choices, inputs.robot.merging)
     merged |= undone
-    actions = _keep_needed(generation, actions, merged)
+    actions = keep_needed(generation, actions, merged)
 
     order_actions, orders, shared = _decide_orders(generation, actions)
     _refuse_markers(files, actions, orders.keys())
-    has_conflicts = any(action.kind is Kind.CONFLICT for action in actions)
+    has_conflicts = any(action.is_conflict for action in actions)
     numbers = _renumbered(generation, actions, merged, conflicts) if has_conflicts else ()
     held = Actions(hold((*actions, *order_actions), numbers, set(generation.moves.values()), inputs.has_moved))
     waiting = {action.path for action in held if action.held}
@@ -118,15 +120,13 @@ def _limit(inputs: Inputs, action: Action) -> Action:
     return action
 
 
-def renamed(generation: Generation) -> Mapping[str, str]:
+def _renamed(generation: Generation) -> Mapping[str, str]:
     """Return new names by the old ones, of all that has got another one since the last complete build."""
     changes = generation.changes
     # no name is gone if only numbers changed
     is_structural = changes is None or changes.change_class.rank >= ChangeClass.STRUCTURAL.rank
     if not generation.inputs.last.files or not is_structural:
         return {}
-    from urdfsync.engine.package_names import renamed_names
-
     return renamed_names(generation)
 
 
@@ -190,7 +190,7 @@ def _bad_merges(
     planned, merged = resolve(actions, conflicts, choices, merging=True)
     if not merged:
         return {}
-    package = Package(generation, _keep_needed(generation, planned, merged), merged, is_open=True)
+    package = Package(generation, keep_needed(generation, planned, merged), merged, is_open=True)
     new = package.misfits(merged.keys())
     if not new:
         return {}
@@ -204,16 +204,6 @@ def _bad_merges(
         if misfits and text == merged.get(key) != conflict.mine:
             reasons[key] = f"in the merge, {misfits[0].finding.message} (line {misfits[0].finding.line})"
     return reasons
-
-
-def _keep_needed(generation: Generation, actions: Sequence[Action], merged: Mapping[str, str]) -> tuple[Action, ...]:
-    """Keep what texts of the user's need."""
-    used: Collection[str] = ()
-    if any(action.reason is Reason.DELETE and action.role is Role.RECORD for action in actions):
-        from urdfsync.engine.needed import mentioned_files
-
-        used = mentioned_files(generation, actions, merged)
-    return keep_needed(actions, generation.inputs.files.has_classes, used)
 
 
 def _renumbered(
@@ -287,19 +277,11 @@ def _removable_lines(owned: Mapping[str, tuple[str, ...]], actions: Iterable[Act
         names = lines.get(f"{folder}/package.order")
         if names is None or action.generated is not None:
             continue
-        if action.reason in (Reason.ORPHAN, Reason.NEEDED) or action.handed_to_user:
+        if action.reason in ORPHANS or action.handed_to_user:
             names[:] = [line for line in names if line != name]
         elif action.reason is not Reason.UNDO:
             names.append(name)
     return lines
-
-
-def _users_classes(files: PackageFiles, order: str, names: Collection[str]) -> list[str]:
-    """Return the classes beside a new `package.order` that are not generated: it would hide them from tools."""
-    folder = order.removesuffix("package.order")
-    paths = (key.removeprefix(folder).removesuffix("/package.mo") for key in files.classes(folder))
-    classes = {path.removesuffix(".mo") for path in paths if "/" not in path}
-    return sorted(name for name in classes.difference(names) if is_identifier(name))
 
 
 def _dangling_lines(files: PackageFiles, order: str, text: str) -> list[str]:
@@ -310,12 +292,11 @@ def _dangling_lines(files: PackageFiles, order: str, text: str) -> list[str]:
     return [name for name in names if is_identifier(name) and not files.has_class(folder, name)]
 
 
-def _returning_classes(actions: Iterable[Action], order: str) -> list[str]:
-    """Return the classes beside a `package.order` that a build deleted, and that are given back now."""
-    paths = (action.path for action in actions if action.reason is Reason.UNDO and action.generated is None)
+def _classes_beside(order: str, keys: Iterable[str]) -> list[str]:
+    """Return the classes beside a `package.order` that some of these files are for."""
     folder = order.removesuffix("package.order")
-    names = (path.removeprefix(folder).removesuffix(".mo") for path in paths if path.startswith(folder))
-    return [name for name in names if is_identifier(name)]
+    paths = (key.removeprefix(folder).removesuffix("/package.mo") for key in keys if key.startswith(folder))
+    return sorted(filter(is_identifier, (path.removesuffix(".mo") for path in paths)))
 
 
 def _decide_orders(
@@ -332,15 +313,17 @@ def _decide_orders(
         desired[files.key(robot.folder.parent / "package.order")] = (robot.folder.name,)
     removable = _removable_lines(recorded, actions)
     inside = (inputs.folder.key(""), inputs.last.folder.key(""))
+    given_back = [action.path for action in actions if action.reason is Reason.UNDO and action.generated is None]
     decided, texts, shared = list[Action](), dict[str, str](), list[SharedFile]()
     for key in sorted(recorded.keys() | desired.keys()):
         old, names, owned = files.text(key), desired.get(key, ()), removable.get(key, [])
         if old is not None and inputs.last.record.is_united:
             # the file may be that of one branch, with a class that the other one has renamed
             owned = [*owned, *_dangling_lines(files, key, old)]
-        if inputs.options.adopts and old is None:
-            names = (*names, *_users_classes(files, key, names))
-        names = (*names, *_returning_classes(actions, key))
+        if inputs.options.adopts and old is None:  # a new file would hide classes of the user's from tools
+            users = _classes_beside(key, files.classes(key.removesuffix("package.order")))
+            names = (*names, *(name for name in users if name not in names))
+        names = (*names, *_classes_beside(key, given_back))
         new = texts[key] = merge_order(old, names, owned)
         if old is None:
             reason = Reason.FORGET if not new else Reason.RESTORE if key in recorded else Reason.CREATE

@@ -9,7 +9,7 @@ import msgspec
 from urdfsync.config import Config
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import ChangeClass, brings_back
-from urdfsync.engine.actions import Actions, Kind
+from urdfsync.engine.actions import Actions
 from urdfsync.engine.decide import Decision
 from urdfsync.engine.fit import Misfit
 from urdfsync.engine.generation import Generation
@@ -119,7 +119,7 @@ def _left_behind(inputs: Inputs, actions: Actions) -> Iterator[Diagnostic]:
     files, old, new = inputs.files, inputs.files.path(inputs.last.folder), inputs.files.path(inputs.folder)
     if not inputs.has_moved or any(action.held for action in actions):
         return
-    gone = {files.path(action.path) for action in actions if action.kind is Kind.DELETE}
+    gone = {files.path(action.path) for action in actions if action.is_deletion}
     # a record may be a stranger's: no look into a folder elsewhere, and no command that deletes it
     is_inside = files.is_inside(f"{inputs.last.folder}/package.mo")
     below = sorted(path for path in old.rglob("*") if not path.is_dir()) if is_inside else [old]
@@ -165,9 +165,7 @@ def _outdated(inputs: Inputs, actions: Actions) -> Iterator[Diagnostic]:
     """A warning of a package that an older urdfsync wrote, that does not fit the library, and waits for conflicts."""
     if inputs.last.version is None or inputs.last.record.generator.revision >= inputs.domain.fits_since:
         return
-    conflicts = [
-        shown(inputs.files.path(action.origin or action.path)) for action in actions if action.kind is Kind.CONFLICT
-    ]
+    conflicts = [shown(inputs.files.path(action.origin or action.path)) for action in actions if action.is_conflict]
     if conflicts and any(action.held for action in actions):
         named = conflicts[0] if len(conflicts) == 1 else f"each of {len(conflicts)} conflicts"
         command = conflicts[0] if len(conflicts) == 1 else f"--all --robot {inputs.robot.name}"

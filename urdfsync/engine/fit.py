@@ -21,7 +21,7 @@ from urdfsync.config import find_own_library
 from urdfsync.dependencies import is_file
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Role
-from urdfsync.engine.actions import Action, Kind, Reason
+from urdfsync.engine.actions import Action, Reason
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.package_files import encode, text_hash
 from urdfsync.engine.package_names import class_of, declared_names
@@ -48,17 +48,12 @@ from urdfsync.modelica.statements import (
     parse_without,
     plain_statements,
 )
-from urdfsync.modelica.syntax import StoredText, declared
+from urdfsync.modelica.syntax import declared
 from urdfsync.modelica.unresolved import Unresolved, UnresolvedKind, unresolved
 
 _LEGAL = (UnresolvedKind.NESTED_REDECLARE, UnresolvedKind.DOTTED_MODIFIER)
 _KINDS = {"model": ("model", "block", "class"), "record": ("record", "operator record")}
 """The kinds of class that can take the place of one of this kind."""
-_ON_DISK = frozenset(one for one in Reason if one.kind in (Kind.LEAVE, Kind.CONFLICT)) - {
-    Reason.UNCHANGED,
-    Reason.ADOPT,
-}
-"""Actions that leave the file on disk."""
 _TOO_LONG = Diagnostic(
     Severity.WARNING,
     "too-long",
@@ -153,15 +148,15 @@ class Package(Mapping[str, bytes]):
             if not action.held and key in merged:
                 is_edited = text_hash(merged[key]) != action.generated
                 found[inputs.folder.path(key)] = file._replace(text=merged[key], is_edited=is_edited)
-            elif is_open and action.kind is Kind.CONFLICT:
+            elif is_open and action.is_conflict:
                 found[inputs.folder.path(key)] = file._replace(text="")
-            elif action.held or action.reason in _ON_DISK:
+            elif action.keeps_text:
                 is_forgotten = action.reason is Reason.FORGET and not action.handed_to_user
                 if (sha256 := files.hash(key, action.role)) and not is_forgotten:
                     record = inputs.last.files.get(key)
                     is_edited = sha256 not in (action.generated, *(record.hashes if record else ()))
                     found[inputs.folder.path(key)] = file._replace(is_edited=is_edited)
-            elif action.kind is not Kind.DELETE:
+            elif not action.is_deletion:
                 found[inputs.folder.path(key)] = file._replace(is_generated=True)
         for key in sorted(filter(files.can_read, files.classes(inputs.folder) - keys)):
             is_expected = _as_file(key) in classes
@@ -219,11 +214,9 @@ class Package(Mapping[str, bytes]):
         parents = {one.path: one.content for one in inputs.parents.shared if one.content is not None}
         former = inputs.last.target.package if inputs.last.target.package != target.package else ""
         folder, around = inputs.files.path(inputs.folder), {**self.around, **parents}
-        return StoredClasses(target.package, folder, self, around, self._find, self._read, former)
-
-    @cached_property
-    def _tops(self) -> dict[str, Path]:
-        return self._inputs.users_files.tops()
+        return StoredClasses(
+            target.package, folder, self, around, self._find, lambda content: self._reading(content).stored, former
+        )
 
     def _find(self, name: str) -> Path | None:
         """Return the folder or file of a top-level class that is not in the package."""
@@ -233,10 +226,7 @@ class Package(Mapping[str, bytes]):
         for path in (robot.output / name, robot.output / f"{name}.mo"):
             if is_file(path / "package.mo" if path.suffix != ".mo" else path):
                 return path
-        return self._tops.get(name)
-
-    def _read(self, content: bytes) -> StoredText:
-        return self._reading(content).stored
+        return self._inputs.users_files.tops.get(name)
 
     def _reading(self, content: bytes) -> Reading:
         """Parse a file; of generated ones only what others see."""

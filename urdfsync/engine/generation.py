@@ -16,7 +16,7 @@ from urdfsync.engine import imports, source
 from urdfsync.engine.generate import Package, generate
 from urdfsync.engine.imports import Imported
 from urdfsync.engine.inputs import Inputs
-from urdfsync.engine.last_build import NO_MODEL
+from urdfsync.engine.last_build import NO_MODEL, option_values
 from urdfsync.engine.renames import check_declared, find_renames_since
 from urdfsync.files import shown
 
@@ -63,10 +63,11 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
             differences = changes.compare(last.version, self.now, self.inputs.domain, robot.options, self.renames)
         except NO_MODEL:
             return None
-        if self.inputs.has_same_generator:
+        is_same = last.record.generator == self.inputs.generator and last.target == robot.target
+        if is_same and last.record.options == option_values(robot.options):
             return differences
         options: list[str] = []
-        if last.options is not None and last.record.generator == self.inputs.generator and last.target == robot.target:
+        if is_same and last.options is not None:
             names = robot.options.__struct_fields__
             options = [name for name in names if getattr(last.options, name) != getattr(robot.options, name)]
         return msgspec.structs.replace(differences, generator=True, options=tuple(options))
@@ -111,15 +112,7 @@ def _generate(inputs: Inputs) -> Generation:
     ]
     lookup = Lookup(robot.source, robot.package_paths + options.package_paths)
     dependencies = imports.find_dependencies(domain, snapshot, lookup, robot.options, reading.lines)
-    imported = imports.import_files(
-        domain,
-        dependencies,
-        last.imports,
-        file,
-        lambda done, total: options.progress(f"{robot.name}: imports", done, total),
-        is_anew=options.full,
-        has_moved=inputs.has_moved,
-    )
+    imported = imports.import_files(robot, options, dependencies, last.imports, file, has_moved=inputs.has_moved)
     lines = {dependency.key: dependency.line for dependency in dependencies}
     findings += imported.diagnostics
     for key, finding in domain.import_findings(imported.imports):

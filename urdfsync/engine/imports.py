@@ -12,10 +12,13 @@ from typing import Any
 
 import msgspec
 
+from urdfsync import registry
+from urdfsync.config import RobotConfig
 from urdfsync.dependencies import MAX_FILE, file_type, read_file
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError, StateError
 from urdfsync.domain import Dependency, Domain, Import, Lookup, Snapshot, further_key
 from urdfsync.engine import ros_packages
+from urdfsync.engine.options import BuildOptions
 from urdfsync.files import digest
 from urdfsync.state.record import FileRecord
 
@@ -115,38 +118,33 @@ def _further_target(target: str, number: int) -> str:
     return str(path.with_stem(f"{path.stem}_{number}"))
 
 
-def _plural(noun: str) -> str:
-    return f"{noun}es" if noun.endswith(("s", "sh", "ch", "x")) else f"{noun}s"
-
-
 def import_files(
-    domain: Domain,
+    robot: RobotConfig,
+    options: BuildOptions,
     dependencies: Sequence[Dependency],
     recorded: RecordedImports,
     source: str,
-    progress: Callable[[int, int], None],
     *,
-    is_anew: bool,
-    has_moved: bool,
+    has_moved: bool = False,
 ) -> Imported:
     """Import every dependency; `source` is how diagnostics name the file that refers to them.
 
-    A conversion of the last build serves again if it has the same input, unless all `is_anew` or the package
+    A conversion of the last build serves again if it has the same input, unless the build is a full one or the package
     `has_moved`. What can't be found or read is left out, or its recorded copy serves.
     Raises StateError if a copy must serve of which the recorded facts are lost.
     """
-    result = Imported()
+    domain, result = registry.domain(robot.domain), Imported()
     failed: dict[tuple[str, ...], list[tuple[Dependency, Diagnostic]]] = {}
     guessed: dict[tuple[str, str], list[Dependency]] = {}
     for count, dependency in enumerate(dependencies):
-        progress(count, len(dependencies))
+        options.progress(f"{robot.name}: imports", count, len(dependencies))
         noun = dependency.noun
         content = _find(dependency)
         if dependency.guessed and isinstance(content, tuple):
             package = dependency.uri.partition("://")[2].partition("/")[0]
             guessed.setdefault((noun, package), []).append(dependency)
         # no copy of a former folder serves: it may be the user's
-        before = [] if is_anew or has_moved else recorded.find(dependency)
+        before = [] if options.full or has_moved else recorded.find(dependency)
         trouble = _import(domain, dependency, content, before, source, result)
         if trouble is not None:
             trouble = _keep_copy(dependency, recorded, has_moved, result, trouble)
@@ -240,7 +238,8 @@ def _needed(dependency: Dependency, recorded: Import) -> Mapping[str, Any] | Non
 def _named(dependencies: Sequence[Dependency]) -> str:
     """Files of one noun in words: the only one, or their number and the first."""
     first, count = dependencies[0], len(dependencies)
-    return f"{first.noun} `{first.uri}`" if count == 1 else f"{count} {_plural(first.noun)} (such as `{first.uri}`)"
+    plural = f"{first.noun}es" if first.noun.endswith(("s", "sh", "ch", "x")) else f"{first.noun}s"
+    return f"{first.noun} `{first.uri}`" if count == 1 else f"{count} {plural} (such as `{first.uri}`)"
 
 
 def _not_found(dependencies: Sequence[Dependency], source: str, line: int = 0) -> Diagnostic:

@@ -51,13 +51,6 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
         """Whether the package has another folder than in the last build."""
         return self.folder != self.last.folder
 
-    @property
-    def has_same_generator(self) -> bool:
-        """Whether what turned the model into files is what it was in the last complete build."""
-        record, target = self.last.record, self.robot.target
-        is_same = record.generator == self.generator and self.last.target == target
-        return is_same and record.options == option_values(self.robot.options)
-
     @cached_property
     def users_files(self) -> UsersFiles:
         """The user's models outside of the package, by whether they mention it, as it is or as it was."""

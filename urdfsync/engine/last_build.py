@@ -16,7 +16,7 @@ from urdfsync.engine.imports import RecordedImports
 from urdfsync.engine.package_files import Folder, PackageFiles
 from urdfsync.engine.rules import NEVER_WRITTEN, OnDisk
 from urdfsync.state.record import FileRecord, Record
-from urdfsync.state.store import Replaced, Store
+from urdfsync.state.store import PutAside, Store
 
 NO_MODEL = (KeyError, TypeError, AttributeError, ValueError)
 """Errors that a domain raises for a recorded snapshot that is none of its own."""
@@ -107,9 +107,9 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
         return self._store.base(self.name, sha256) if sha256 else None
 
     @cached_property
-    def replaced(self) -> Mapping[str, Replaced]:
-        """Texts that the build wrote over, by path below the package."""
-        return self._store.replaced(self.name)
+    def put_aside(self) -> PutAside:
+        """Texts of the user's that the build wrote over, and the names that it changed."""
+        return self._store.put_aside(self.name)
 
 
 def option_values(options: msgspec.Struct) -> dict[str, Any]:

@@ -6,6 +6,8 @@ import itertools
 import re
 from collections.abc import Mapping, Sequence
 
+import msgspec
+
 from urdfsync.domain import Role
 from urdfsync.engine.actions import USERS, Action, Reason
 from urdfsync.engine.fit import Package
@@ -29,7 +31,22 @@ def code_words(content: bytes) -> set[str]:
     return set(words) - {name for kind, name in itertools.pairwise(words) if kind in _CLASS_KINDS}
 
 
-def mentioned_files(generation: Generation, actions: Sequence[Action], merged: Mapping[str, str]) -> frozenset[str]:
+def keep_needed(generation: Generation, actions: Sequence[Action], merged: Mapping[str, str]) -> tuple[Action, ...]:
+    """Keep what the user's files need: records and what they show, and the `package.mo` of a folder with classes."""
+    deleted = {action.path: action.role for action in actions if action.is_deletion}
+    kept = set[str]()
+    if any(action.reason is Reason.DELETE and action.role is Role.RECORD for action in actions):
+        kept |= _find_mentioned(generation, actions, merged)
+    packages = [path for path, role in deleted.items() if role is Role.PACKAGE]
+    for path in sorted(packages, key=lambda path: path.count("/"), reverse=True):  # innermost first
+        if generation.inputs.files.has_classes(path, deleted.keys() - kept):
+            kept.add(path)
+    return tuple(
+        msgspec.structs.replace(action, reason=Reason.NEEDED) if action.path in kept else action for action in actions
+    )
+
+
+def _find_mentioned(generation: Generation, actions: Sequence[Action], merged: Mapping[str, str]) -> frozenset[str]:
     """Return the files that are no longer generated and that the user's texts need.
 
     These are records that any of his texts mentions, edited files included; but those that a renamed element left are

@@ -27,9 +27,10 @@ def renamed_identifiers(generation: Generation) -> dict[str, str]:
 
 
 def recently_renamed(generation: Generation) -> dict[str, str]:
-    """Return the renamed identifiers, and before them those of the build whose texts are put aside on this machine."""
-    former = {old: new for text in generation.inputs.last.replaced.values() for old, new in text.renamed.items()}
-    both = former | renamed_identifiers(generation)
+    """Return the renamed identifiers, and before them those that the last build on this machine renamed."""
+    aside = generation.inputs.last.put_aside
+    former = {old: new for text in aside.texts.values() for old, new in text.renamed.items()}
+    both = {**former, **aside.renamed, **renamed_identifiers(generation)}
     return {name: both[name] for name in sorted(both, key=len, reverse=True)}
 
 

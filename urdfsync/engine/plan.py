@@ -7,12 +7,12 @@ from __future__ import annotations
 
 from urdfsync import dependencies
 from urdfsync.config import Config, RobotConfig
-from urdfsync.engine.actions import Actions
 from urdfsync.engine.decide import decide_package
 from urdfsync.engine.findings import find_all
 from urdfsync.engine.generation import generate_robot
 from urdfsync.engine.inputs import inspect
 from urdfsync.engine.options import BuildOptions
+from urdfsync.engine.result import Result
 from urdfsync.engine.stage import Plan, stage
 
 
@@ -20,10 +20,12 @@ def plan_robot(config: Config, robot: RobotConfig, options: BuildOptions) -> Pla
     """Decide which files one build of a robot writes. Raises UrdfsyncError for whatever is wrong."""
     inputs = inspect(config, robot, options)
     if inputs.source.is_missing:
-        return Plan(Actions(), inputs.store.hashes(), stale=inputs.source.stale, is_noop=True)
+        name, package, stale = robot.name, robot.target.package, inputs.source.stale
+        result = Result(name, package, robot.folder, config.root, dry=options.dry, stale=stale)
+        return Plan(result, inputs.store.hashes())
     generation = generate_robot(inputs)
     decision = decide_package(generation)
     plan = stage(generation, decision, find_all(generation, decision))
-    if options.full or options.draw or not plan.is_noop:
+    if options.full or options.draw or plan.result.writes:
         dependencies.mark_incomplete()  # not all that this work reads is recorded as a dependency of the answer
     return plan

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import contextlib
 from collections import deque
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from concurrent.futures import Future, wait
-from typing import Any, Self
 
 import msgspec
 
@@ -19,8 +18,6 @@ from urdfsync.engine.plan import plan_robot
 from urdfsync.engine.stage import Plan
 from urdfsync.workers import Workers, workers
 
-LEAST_ROBOTS = 6
-"""With fewer robots, importing urdfsync in each worker takes longer than it saves."""
 _AHEAD = 3
 """Plans per worker that may be under way or wait to be carried out: each holds the texts of a robot."""
 _CLUSTER_WORKERS = 16
@@ -29,76 +26,47 @@ _PAUSE = 0.1
 """Seconds between two reports of progress."""
 
 
+@contextlib.contextmanager
+def start_pool(config: Config, robots: Sequence[RobotConfig], options: BuildOptions) -> Iterator[Pool]:
+    """Start workers for the robots of one command. Raises ConfigError if the cluster does not answer."""
+    count = min(options.jobs or (_CLUSTER_WORKERS if options.executor else machine.cores()), len(robots))
+    with workers(count, options.executor) as started:
+        yield Pool(config, robots, options, started, _AHEAD * count)
+
+
 class Pool:
-    """Plans the robots of one command; a plan that was made in advance serves once."""
+    """Plans robots ahead, `most` at a time; a plan that was made in advance serves once."""
 
-    def __init__(self, config: Config, robots: Sequence[RobotConfig], options: BuildOptions) -> None:
-        self._config, self._robots, self._options = config, robots, options
-        self._is_started = False
-        self._stack = contextlib.ExitStack()
-        self._workers: Workers | None = None
-        self._futures: dict[str, Future[tuple[Plan, Dependencies]]] = {}
-        self._waiting: deque[RobotConfig] = deque()
-        self._most = 0
-
-    def __enter__(self) -> Self:
-        """Connect to the cluster, if there is one. Raises ConfigError if it does not answer."""
-        if self._options.executor:
-            self._workers = self._stack.enter_context(workers(_CLUSTER_WORKERS, self._options.executor))
-        return self
-
-    def __exit__(self, *error: Any) -> None:
-        self._stack.__exit__(*error)
+    def __init__(
+        self, config: Config, robots: Sequence[RobotConfig], options: BuildOptions, started: Workers, most: int
+    ) -> None:
+        self._config, self._options, self._workers = config, options, started
+        self._total, self._most = len(robots), most
+        self._waiting, self._futures = deque(robots), dict[str, Future[tuple[Plan, Dependencies]]]()
 
     def plan(self, robot: RobotConfig) -> Plan:
         """Plan one robot. Raises UrdfsyncError for whatever is wrong."""
-        if not self._is_started:
-            self._is_started = True
-            self._start()
-        if robot.name in self._futures or robot in self._waiting:
-            return self._result(robot)
-        return plan_robot(self._config, robot, self._options)
-
-    def _start(self) -> None:
-        """Start workers if the robots are many."""
-        count = self._options.jobs or (_CLUSTER_WORKERS if self._workers else machine.cores())
-        if self._workers is None:
-            if len(self._robots) < LEAST_ROBOTS:
-                return
-            count = min(count, len(self._robots))
-            self._workers = self._stack.enter_context(workers(count))
-        self._most, self._waiting = _AHEAD * count, deque(self._robots)
-        self._submit()
-
-    def _submit(self) -> None:
+        if robot not in self._waiting and robot.name not in self._futures:
+            return plan_robot(self._config, robot, self._options)
         options = msgspec.structs.replace(self._options, progress=no_progress, executor="")
-        while self._workers is not None and self._waiting and len(self._futures) < self._most:
-            robot = self._waiting.popleft()
-            self._futures[robot.name] = self._workers.submit(plan_in_worker, self._config, robot, options)
-
-    def _result(self, robot: RobotConfig) -> Plan:
-        message = f"robot `{robot.name}`: a process that planned it ended unexpectedly, perhaps because memory ran out"
-        lost = OutputError.of("lost-process", message, hint="try again with `--jobs 1`")
-        future = self._futures.pop(robot.name, None)
-        if future is None:  # its place in the queue was lost with a worker
-            raise lost
-        while wait([future], _PAUSE).not_done:
-            done = sum(other.done() for other in self._futures.values())
-            remaining = len(self._waiting) + len(self._futures) + 1
-            total = len(self._robots)
-            self._options.progress("reading", total - remaining + done, total)
         try:
-            problem = future.exception()
-            if problem is None or isinstance(problem, UrdfsyncError):
-                self._submit()
-        except Exception as error:  # the workers are lost, in one of many ways
-            raise lost from error
-        if isinstance(problem, UrdfsyncError):
+            while self._waiting and (len(self._futures) < self._most or robot in self._waiting):
+                ahead = self._waiting[0]
+                self._futures[ahead.name] = self._workers.submit(plan_in_worker, self._config, ahead, options)
+                self._waiting.popleft()
+            future = self._futures.pop(robot.name)
+            while wait([future], _PAUSE).not_done:
+                remaining = len(self._waiting) + sum(not other.done() for other in self._futures.values()) + 1
+                self._options.progress("reading", self._total - remaining, self._total)
+            plan, reads = future.result()
+        except UrdfsyncError:
             dependencies.mark_incomplete()
-            raise problem
-        if problem is not None:
-            raise lost from problem
-        plan, reads = future.result()
+            raise
+        except Exception as error:  # the workers are lost, in one of many ways
+            reason = "a process that planned it ended unexpectedly, perhaps because memory ran out"
+            raise OutputError.of(
+                "lost-process", f"robot `{robot.name}`: {reason}", hint="try again with `--jobs 1`"
+            ) from error
         dependencies.include(reads)
         return plan
 

@@ -122,7 +122,7 @@ class Result(msgspec.Struct, frozen=True):
     dry: bool = False
     """Nothing was written, whatever the actions say."""
     writes: bool = False
-    """The build has written files or the recorded state, or would in a dry run."""
+    """The build has written what version control has, files or the recorded state, or would in a dry run."""
     stale: tuple[str, ...] = ()
     """Files that have changed since the source was expanded, if the old text was used."""
     is_broken: bool = False
@@ -139,7 +139,7 @@ class Result(msgspec.Struct, frozen=True):
     def conflicts(self) -> Sequence[DisputedFile]:
         """The files that were left alone although they should be otherwise, in the order of their paths."""
         texts = {each.path: each for each in self.conflict_texts}
-        actions = (action for action in self.actions.decided if action.kind is Kind.CONFLICT)
+        actions = (action for action in self.actions.decided if action.is_conflict)
         return [DisputedFile(self, action, texts.get(action.path)) for action in actions]
 
     @property

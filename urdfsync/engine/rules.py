@@ -7,13 +7,13 @@ written. All are compared by hashes, never by times. Everything here is pure.
 from __future__ import annotations
 
 import enum
-from collections.abc import Callable, Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from typing import TypeAlias
 
 import msgspec
 
 from urdfsync.domain import Role
-from urdfsync.engine.actions import Action, Kind, Reason
+from urdfsync.engine.actions import ORPHANS, Action, Reason
 from urdfsync.state.record import Choice, FileRecord, UsersChoice
 
 
@@ -116,24 +116,6 @@ def _edited_moves(files: Mapping[str, File], moves: Mapping[str, str]) -> dict[s
     return edited
 
 
-def keep_needed(
-    actions: Iterable[Action], has_classes: Callable[[str, Collection[str]], bool], used: Collection[str]
-) -> tuple[Action, ...]:
-    """Keep what the user's files need: the records in `used`, and the `package.mo` of a folder with classes.
-
-    `has_classes(path, gone)` tells whether the folder of the `package.mo` at `path` holds classes other than the files
-    in `gone`.
-    """
-    actions = tuple(actions)
-    gone = {action.path: action for action in actions if action.kind is Kind.DELETE}
-    kept = {path: msgspec.structs.replace(gone[path], reason=Reason.NEEDED) for path in used if path in gone}
-    packages = [path for path, action in gone.items() if action.role is Role.PACKAGE]
-    for path in sorted(packages, key=lambda path: path.count("/"), reverse=True):  # innermost first
-        if has_classes(path, gone.keys() - kept.keys()):
-            kept[path] = msgspec.structs.replace(gone[path], reason=Reason.NEEDED)
-    return tuple(kept.get(action.path, action) for action in actions)
-
-
 def hold(
     actions: Iterable[Action], numbers_only: Collection[str], origins: Collection[str], moves: bool
 ) -> tuple[Action, ...]:
@@ -145,12 +127,12 @@ def hold(
     nothing else.
     """
     actions = tuple(actions)
-    if all(action.path in numbers_only and not moves for action in actions if action.kind is Kind.CONFLICT):
+    if all(action.path in numbers_only and not moves for action in actions if action.is_conflict):
         return actions
 
     def waits(action: Action) -> bool:
         if not action.writes:
-            return action.choice is not None and action.kind is not Kind.CONFLICT
+            return action.choice is not None and not action.is_conflict
         if action.choice is Choice.UNDO and not moves:
             return False
         if moves or action.origin is not None or action.path in origins:
@@ -181,7 +163,7 @@ def files_after(
             continue
         if action.generated is not None:
             records[action.path] = FileRecord((action.generated,))
-        elif is_complete and action.reason in (Reason.ORPHAN, Reason.NEEDED) and action.base is not None:
+        elif is_complete and action.reason in ORPHANS and action.base is not None:
             records[action.path] = FileRecord((action.base,))
     return records
 

@@ -212,14 +212,14 @@ def _read(config: Config, robot: RobotConfig) -> bytes:
 
 def templates(config: Config, robot: RobotConfig, domain: Domain) -> Templates:
     """Return the robot's templates: those in its own folder hide the domain's. Raises ConfigError for a bad folder."""
-    folders = [robot.templates] if robot.templates else []
-    for folder in folders:
-        if not is_folder(folder):
-            message = f"robot `{robot.name}`: the template folder {shown(folder)} does not exist"
-            line, hint = robot.lines.get("templates", 0), "create it, or take `templates` out"
-            raise ConfigError.of("no-templates", message, shown(config.file), line, hint=hint)
-        _check_templates(folder)
-    return domain_templates(domain, *folders)
+    if robot.templates is None:
+        return domain_templates(domain)
+    if not is_folder(robot.templates):
+        message = f"robot `{robot.name}`: the template folder {shown(robot.templates)} does not exist"
+        line, hint = robot.lines.get("templates", 0), "create it, or take `templates` out"
+        raise ConfigError.of("no-templates", message, shown(config.file), line, hint=hint)
+    _check_templates(robot.templates)
+    return domain_templates(domain, robot.templates)
 
 
 def domain_templates(domain: Domain, *own: Path) -> Templates:

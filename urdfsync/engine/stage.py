@@ -2,62 +2,49 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from pathlib import Path
 
 import msgspec
 
-from urdfsync.changes import Changes
 from urdfsync.diagnostics import Diagnostic, OutputError
 from urdfsync.domain import ChangeClass, Role
-from urdfsync.engine.actions import Action, Actions, Kind
-from urdfsync.engine.conflicts import Conflict, conflict_files
+from urdfsync.engine.actions import Action
+from urdfsync.engine.conflicts import conflict_files
 from urdfsync.engine.decide import Decision
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.last_build import option_values
 from urdfsync.engine.package_files import encode, text_hash
 from urdfsync.engine.parents import SharedFile
+from urdfsync.engine.result import Result
 from urdfsync.engine.rules import files_after, pending_choices
 from urdfsync.engine.undo import put_aside
 from urdfsync.files import shown
 from urdfsync.state import bases, expansion, statefile
 from urdfsync.state.bases import DIGITS
 from urdfsync.state.record import FileRecord, Open, Record
-from urdfsync.state.store import Replaced, StateHashes
+from urdfsync.state.store import PutAside, StateHashes
 from urdfsync.state.transaction import FileChange
 
 
 class Plan(msgspec.Struct, frozen=True):
-    """All that one build of a robot does and says."""
+    """All that one build of a robot writes, and its result once that is done."""
 
-    actions: Actions
+    result: Result
     state: StateHashes
     """Hashes of the recorded state that the plan rests on."""
-    conflicts: tuple[Conflict, ...] = ()
     shared: tuple[SharedFile, ...] = ()
     """Changes of files around the package."""
-    diagnostics: tuple[Diagnostic, ...] = ()
-    changes: Changes | None = None
-    """Changes of the model."""
     writes: tuple[FileChange, ...] = ()
     """The files to write but for the shared ones, the record last."""
-    is_noop: bool = False
-    """The build writes nothing that version control has: no file of the package, and no recorded state."""
     emptied: tuple[Path, ...] = ()
     """The folders that are empty then, innermost first."""
-    is_broken: bool = False
-    """Whether a file of the package that the user edited does not fit it, or is no Modelica."""
-    stale: tuple[str, ...] = ()
-    """Files that have changed since the source was expanded, if it was not expanded again."""
-    drawing: Path | None = None
-    """Path of the main model's diagram."""
 
 
 def stage(generation: Generation, decision: Decision, diagnostics: tuple[Diagnostic, ...]) -> Plan:
     """Return the plan with all that is to be written, in a dry run, too: one plan has one verdict."""
     inputs, store, robot = generation.inputs, generation.inputs.store, generation.inputs.robot
     record = None if inputs.options.removes else _record(generation, decision)
-    aside = put_aside(generation, decision.actions, decision.texts, decision.disputed) if record else {}
+    aside = put_aside(generation, decision.actions, decision.texts, decision.disputed) if record else PutAside()
     changes = _file_changes(generation, decision)
     is_writing = any(action.writes for action in decision.actions)
 
@@ -76,9 +63,7 @@ def stage(generation: Generation, decision: Decision, diagnostics: tuple[Diagnos
         versions = [conflict_files(conflict, inputs.folder).values() for conflict in decision.conflicts]
         texts = {path: encode(text) for version in versions for path, text in version}
         changes += store.save_conflicts(robot.name, texts)
-        changes += store.save(
-            store.replaced_file(robot.name), msgspec.json.encode(aside, order="sorted") if aside else None
-        )
+        changes += store.save_aside(robot.name, aside)
         expanded = inputs.source.expansion
         if not inputs.source.stale:
             state += store.save(store.expansion(robot.name), expansion.dumps(expanded) if expanded else None)
@@ -89,24 +74,27 @@ def stage(generation: Generation, decision: Decision, diagnostics: tuple[Diagnos
     above = {inputs.files.path(inputs.last.folder).parent, store.folder}
     folders = {folder for change in changes if change.content is None for folder in change.path.parents}
     emptied = [folder for folder in folders if not above.isdisjoint(folder.parents)]
-    news, is_noop = generation.changes, not (state or is_writing)
-    if news and is_noop and decision.is_complete:
+    news, writes = generation.changes, bool(state or is_writing)
+    if news and not writes and decision.is_complete:
         # the record keeps the old generator and options then, so that each later plan would tell them again
         news = msgspec.structs.replace(news, generator=False, options=())
-    return Plan(
+    emptied.sort(key=lambda folder: len(folder.parts), reverse=True)
+    result = Result(
+        robot.name,
+        robot.target.package,
+        robot.folder,
+        inputs.config.root,
         decision.actions,
-        store.hashes(),
-        decision.conflicts,
-        decision.shared,
         diagnostics,
-        changes=news if news and (news.changes or news.generator) else None,
-        writes=tuple(changes),
-        is_noop=is_noop,
-        emptied=tuple(sorted(emptied, key=lambda folder: len(folder.parts), reverse=True)),
-        is_broken=any(misfit.is_broken for misfit in decision.misfits),
+        dry=inputs.options.dry,
+        writes=writes,
         stale=inputs.source.stale,
+        is_broken=any(misfit.is_broken for misfit in decision.misfits),
         drawing=drawing,
+        changes=news if news and (news.changes or news.generator) else None,
+        conflict_texts=decision.conflicts,
     )
+    return Plan(result, store.hashes(), decision.shared, tuple(changes), tuple(emptied))
 
 
 def _record(generation: Generation, decision: Decision) -> Record:
@@ -151,7 +139,7 @@ def _file_changes(generation: Generation, decision: Decision) -> list[FileChange
     shared = {files.key(file.path) for file in decision.shared}
     for action in decision.actions:
         if action.writes and action.path not in shared:
-            content = None if action.kind is Kind.DELETE else _content(generation, decision, action)
+            content = None if action.is_deletion else _content(generation, decision, action)
             is_moved = action.origin is not None and action.path in decision.texts
             state = files.state(action.path)
             old = state.sha256 if state else None
@@ -177,7 +165,7 @@ def _content(generation: Generation, decision: Decision, action: Action) -> byte
 
 
 def _base_changes(
-    generation: Generation, decision: Decision, record: Record, aside: Mapping[str, Replaced], *, is_writing: bool
+    generation: Generation, decision: Decision, record: Record, aside: PutAside, *, is_writing: bool
 ) -> list[FileChange]:
     """Return how the texts that the record mentions get to the bases, and how old ones go.
 
@@ -188,7 +176,7 @@ def _base_changes(
     old = {sha256 for file in last.record.files.values() for sha256 in file.hashes}
     new = {sha256: key for key, file in record.files.items() for sha256 in file.hashes}
     # what was replaced can be merged again
-    needed = {*old, *new, *(text_hash(text.base) for text in aside.values() if text.is_users and text.base)}
+    needed = {*old, *new, *(text_hash(text.base) for text in aside.texts.values() if text.base)}
     stored = {digit: inputs.store.bases(last.name, digit) for digit in DIGITS}
     missing = dict[str, str]()
     for sha256 in new.keys() - {sha256 for texts in stored.values() for sha256 in texts or ()}:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Iterable, Mapping
+from functools import cached_property
 from pathlib import Path
 
 import msgspec
@@ -20,7 +21,7 @@ _MOST = 20_000
 """Folders that are looked through, in a second: a stranger's configuration may name the whole disk."""
 
 
-class UsersFiles(msgspec.Struct, frozen=True):
+class UsersFiles(msgspec.Struct, frozen=True, dict=True):
     """The user's files outside of all packages."""
 
     all: Mapping[Path, bytes]
@@ -29,6 +30,7 @@ class UsersFiles(msgspec.Struct, frozen=True):
     is_too_wide: bool = False
     """Whether there are so many folders that no file was looked for."""
 
+    @cached_property
     def tops(self) -> dict[str, Path]:
         """Return the files or folders of top-level classes, by name; where several have one name, none."""
         places_by_name = dict[str, set[Path]]()
@@ -48,10 +50,8 @@ def find_users_files(
     They are below the configuration's folder, `output` and what `users` names. Left out are the packages of all robots,
     of which `former_folder` may be one, other projects, virtual environments, and what can't be read.
     """
-    packages, contents = (
-        {str(configured.folder) for configured in config.robots} | {str(former_folder)},
-        dict[Path, bytes](),
-    )
+    packages = {str(configured.folder) for configured in config.robots} | {str(former_folder)}
+    contents = dict[Path, bytes]()
     places = (config.root, robot.output, *robot.users)
     folders = (place for place in places if place.suffix != ".mo")
     try:

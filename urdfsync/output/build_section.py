@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from urdfsync.changes import Changes
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import ChangeClass
-from urdfsync.engine.actions import Kind, Reason
+from urdfsync.engine.actions import CONFLICTS, Kind, Reason
 from urdfsync.engine.result import Checked, DisputedFile, Result
 from urdfsync.files import shown
 from urdfsync.output.conflicts import settle_hint
@@ -19,7 +19,7 @@ from urdfsync.spelling import same_count
 _BUILD = "run `urdfsync build`, and commit what it writes"
 _SETTLE = "run `urdfsync build` for both sides, and settle the conflicts with `urdfsync resolve`"
 _FIT = "correct the files that do not fit"
-_SILENT = (Reason.UNCHANGED, Reason.KEEP, Reason.FORGET, Reason.CONFLICT, Reason.UNOWNED)
+_SILENT = {Reason.UNCHANGED, Reason.KEEP, Reason.FORGET} | CONFLICTS
 """Reasons of actions that no table has; conflicts are findings."""
 
 

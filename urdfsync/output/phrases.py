@@ -6,7 +6,7 @@ from collections import Counter
 
 from urdfsync.changes import Changes
 from urdfsync.domain import ChangeClass, ChangeKind, Role
-from urdfsync.engine.actions import Action, Kind, Reason
+from urdfsync.engine.actions import Action, Reason
 from urdfsync.output.outline import change_row, outline
 from urdfsync.spelling import counted
 from urdfsync.state.record import Choice
@@ -40,7 +40,7 @@ def reason(action: Action, changes: Changes | None, *, brief: bool = False) -> s
 
 
 def _cause(action: Action, changes: Changes | None, *, brief: bool) -> str:
-    if action.choice and action.kind is not Kind.CONFLICT:
+    if action.choice and not action.is_conflict:
         is_orphan = action.generated is None and action.choice is not Choice.UNDO
         kept = "yours from now on" if action.choice is Choice.KEEP else "deleted; --undo brings it back"
         return kept if is_orphan else _CHOSEN[action.choice]

@@ -6,7 +6,7 @@ import sys
 from collections.abc import Container, Iterable, Iterator, Sequence
 
 from urdfsync.diagnostics import Diagnostic
-from urdfsync.engine.actions import Action, FileStatus, Kind, Reason
+from urdfsync.engine.actions import ORPHANS, Action, FileStatus, Kind, Reason
 from urdfsync.engine.result import Checked, Result
 from urdfsync.files import shown
 from urdfsync.output.build_section import build_section
@@ -19,7 +19,7 @@ from urdfsync.spelling import counted
 _STYLES = {Kind.WRITE: "green", Kind.DELETE: "magenta", Kind.CONFLICT: "bold red"}
 _STYLES_LEFT: dict[FileStatus | None, str] = {FileStatus.EDITED: "cyan", FileStatus.ORPHAN: "yellow"}
 """Styles of files that are left as they are, by how they stand."""
-_ALWAYS_LISTED = (Reason.MERGE, Reason.MOVE, Reason.UNDO, Reason.ORPHAN, Reason.NEEDED)
+_ALWAYS_LISTED = {Reason.MERGE, Reason.MOVE, Reason.UNDO} | ORPHANS
 _ORPHANS = "  of an orphan: `urdfsync resolve FILE --keep` makes it yours, --take deletes it"
 _CHANGES = 12
 """So many lines about changes of a model are shown at most, without --verbose."""
@@ -105,7 +105,7 @@ def result_lines(
             action
             for action in actions
             if (action.reason in _ALWAYS_LISTED and not action.held)
-            or (action.path in named and action.kind is not Kind.CONFLICT)  # conflicts have lines of their own
+            or (action.path in named and not action.is_conflict)  # conflicts have lines of their own
         ]
     for action in sorted(actions, key=lambda action: action.path.rpartition("/")):
         yield action_line(result, action, reason(action, result.effective_changes, brief=True))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from urdfsync.engine.actions import Action, FileStatus, Kind, Reason
+from urdfsync.engine.actions import Action, FileStatus, Reason
 from urdfsync.engine.result import Result
 from urdfsync.output.conflicts import settle_hint
 from urdfsync.output.console import StyledLine, first_lines, line
@@ -47,7 +47,7 @@ def _path(action: Action) -> str:
     """Return where the user's file is: that of a conflict may wait for its new name."""
     if action.reason is Reason.KEEP and not action.is_on_disk:  # he made a folder of the class
         return f"{action.path.removesuffix('.mo')}/package.mo"
-    return action.origin or action.path if action.kind is Kind.CONFLICT else action.path
+    return action.origin or action.path if action.is_conflict else action.path
 
 
 def _file_line(result: Result, action: Action, conflict: str | None) -> StyledLine:

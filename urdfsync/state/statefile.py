@@ -106,15 +106,11 @@ def loads(text: str, file: str, *, strict: bool = True) -> Record:
     newer urdfsync wrote. Unless `strict`, lines that can't be read are passed over.
     """
     values: dict[str, list[Any]] = {word: [] for word in (*_FACTS, "file")}
-    facts, seen_lines = set(), set()
+    lines = dict[str, int]()
     for number, content in enumerate(text.split("\n"), 1):
-        if not content or content.startswith("#"):
-            continue
-        if content in seen_lines:
-            continue
-        seen_lines.add(content)
-        if not content.startswith(_SUM):
-            facts.add(content)
+        if content and not content.startswith("#"):
+            lines.setdefault(content, number)
+    for content, number in lines.items():
         try:
             word, value = _parse(content)
         except (KeyError, ValueError, RecursionError) as error:
@@ -127,10 +123,11 @@ def loads(text: str, file: str, *, strict: bool = True) -> Record:
         values[word].append(value)
     missing = [word for word in ("format", *_HEADINGS) if not values[word]]
     if missing:
-        raise _broken(file, 1, f"it has no {', '.join(missing)}" if seen_lines else "the recorded state is empty")
+        raise _broken(file, 1, f"it has no {', '.join(missing)}" if lines else "the recorded state is empty")
+    facts = [content for content in lines if not content.startswith(_SUM)]
     record = _record(values, is_whole=values["sum"] == [_sum(facts)])
     for path in _strange_paths(record):
-        number = next((n for n, line in enumerate(text.split("\n"), 1) if path in line), 1)
+        number = next((number for content, number in lines.items() if path in content), 1)
         message = f"the recorded path {path!r} does not belong to the package `{record.package}`"
         raise _broken(file, number, message)
     return record

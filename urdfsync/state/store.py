@@ -41,21 +41,25 @@ StateHashes: TypeAlias = Mapping[Path, str | None]
 
 
 class Replaced(msgspec.Struct, frozen=True, omit_defaults=True):
-    """One file that a build wrote over."""
+    """One text of the user's that a build wrote over."""
 
     before: str
     """Text that stood there."""
     base: str | None = None
-    """The generated text that this took into account: the same if nobody had edited it, None if it is not known."""
+    """The generated text that this took into account; None if it is not known."""
     after: str | None = None
     """Text that was written; None for the generated one."""
     renamed: Mapping[str, str] = {}
     """New identifiers by the old ones, of elements that this build gave other names."""
 
-    @property
-    def is_users(self) -> bool:
-        """Whether something of the user's was written over."""
-        return self.base != self.before
+
+class PutAside(msgspec.Struct, frozen=True, omit_defaults=True):
+    """What builds of one robot put aside on this machine. Safe to lose."""
+
+    texts: Mapping[str, Replaced] = {}
+    """By path below the package."""
+    renamed: Mapping[str, str] = {}
+    """Of the last build that wrote anything, as in `Replaced`."""
 
 
 class Store:
@@ -111,12 +115,12 @@ class Store:
         content = self._bytes(self.base_file(robot, digit))
         return None if content is None else bases.loads(content)
 
-    def replaced(self, robot: str) -> Mapping[str, Replaced]:
-        """Return the texts that the last build wrote over, by path below the package; none if they can't be read."""
+    def put_aside(self, robot: str) -> PutAside:
+        """Return what builds put aside; nothing if it can't be read."""
         try:
-            return msgspec.json.decode(self._bytes(self.replaced_file(robot)) or b"{}", type=dict[str, Replaced])
-        except (ValueError, RecursionError):  # it is safe to lose, and may be a stranger's
-            return {}
+            return msgspec.json.decode(self._bytes(self._aside(robot)) or b"{}", type=PutAside)
+        except (ValueError, RecursionError):  # it may be a stranger's
+            return PutAside()
 
     # --- places ---------------------------------------------------------------------------------------------------
 
@@ -136,8 +140,7 @@ class Store:
         """The files of a robot's bases."""
         return [self.base_file(robot, digit) for digit in bases.DIGITS]
 
-    def replaced_file(self, robot: str) -> Path:
-        """The file with what stood in files that the last build wrote over. Safe to lose."""
+    def _aside(self, robot: str) -> Path:
         return self.folder / "replaced" / f"{robot}.json"
 
     def drawing(self, robot: str) -> Path:
@@ -157,6 +160,11 @@ class Store:
             return []
         return [FileChange(path, content, None if old is None else digest(old))]
 
+    def save_aside(self, robot: str, aside: PutAside) -> list[FileChange]:
+        """How it gets to its file what a build puts aside."""
+        content = msgspec.json.encode(aside, order="sorted")
+        return self.save(self._aside(robot), content if content != b"{}" else None)
+
     def save_conflicts(self, robot: str, contents: Mapping[str, bytes]) -> list[FileChange]:
         """How the versions of what conflicts get to the robot's folder, by path, and how all others go."""
         folder = self.conflicts(robot)
@@ -167,25 +175,15 @@ class Store:
 
     def remove(self, robot: str) -> list[FileChange]:
         """How all goes that there is of a robot."""
-        files = (*self.base_files(robot), self.replaced_file(robot), self.drawing(robot), self.expansion(robot))
+        files = (*self.base_files(robot), self._aside(robot), self.drawing(robot), self.expansion(robot))
         changes = [change for path in (*files, self.path(robot)) for change in self.save(path, None)]
         return [*self.save_conflicts(robot, {}), *changes]
 
     def for_git(self) -> list[FileChange]:
-        """How git is told what is safe to lose and how states merge; lines of the user's stay."""
-        changes = list[FileChange]()
-        for name, text in _FOR_GIT.items():
-            path = self.folder / name
-            old = self._bytes(path)
-            if old is None:
-                changes += self.save(path, text.encode())
-                continue
-            present = {line.strip() for line in old.splitlines()}
-            lines = [line for line in text.encode().splitlines() if line[:1] != b"#" and line not in present]
-            if lines:
-                old += b"" if old.endswith(b"\n") or not old else b"\n"
-                changes += self.save(path, old + b"".join(b"%s\n" % line for line in lines))
-        return changes
+        """How git is told what is safe to lose and how states merge; what the user has made of these files stays."""
+        files = {self.folder / name: text.encode() for name, text in _FOR_GIT.items()}
+        missing = {path: content for path, content in files.items() if self._bytes(path) is None}
+        return [change for path, content in missing.items() for change in self.save(path, content)]
 
     def hashes(self) -> StateHashes:
         """The hashes of all files that were loaded, but for bases.

@@ -87,7 +87,7 @@ class Applied(msgspec.Struct, frozen=True):
 class Transactions:
     """The writer of one configuration; for the holder of the build lock only."""
 
-    def __init__(self, root: Path, state_folder: Path, outputs: Sequence[Path] = ()) -> None:
+    def __init__(self, root: Path, state_folder: Path, outputs: Collection[Path] = ()) -> None:
         """`root` is the configuration's folder; `outputs` may be written to as well."""
         self._root, self._state_folder, self._outputs = root, state_folder, outputs
         self._prefix = os.path.join(root, "")  # noqa: PTH118 - strings: there are thousands of files

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from urdfsync.engine.actions import USERS, Kind, Reason
+from urdfsync.engine.actions import USERS, Reason
 from urdfsync.engine.findings import CONNECTORS
 from urdfsync.output.build_section import build_section, change_parts
 from urdfsync.output.conflicts import settle_hint
@@ -63,5 +63,5 @@ def _files(compared: Comparison, verbose: bool) -> Iterator[StyledLine]:
     lines = [action_line(result, each, each.reason.text if each.reason in _EDITED else "") for each in actions]
     edited = sum(action.reason in _EDITED for action in actions)
     yield from first_lines(lines, max(_FILES, edited + 1), "file", verbose=verbose)
-    if any(action.kind is Kind.CONFLICT for action in actions):
+    if any(action.is_conflict for action in actions):
         yield line((f"  {settle_hint(result.conflicts)}", "dim"))

@@ -17,7 +17,7 @@ from typing import Any, NamedTuple, Self
 import msgspec
 
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.engine.actions import Actions, Reason
+from urdfsync.engine.actions import CONFLICTS, ORPHANS, Actions, Reason
 from urdfsync.engine.result import Checked, Result, check_result
 from urdfsync.files import shown
 from urdfsync.output.conflicts import conflict_lines
@@ -39,9 +39,6 @@ from urdfsync.watch.terminal import StatusArea
 
 _NAME_WIDTH = 24
 """Columns of the robots' names at most."""
-_KEPT = frozenset({Reason.ORPHAN, Reason.NEEDED})
-"""Files that are no longer generated, but kept."""
-_CONFLICTS = frozenset({Reason.CONFLICT, Reason.UNOWNED})
 _FEW = 2
 """So many changes of a model are spelled out, in at most so many characters; more are counted."""
 _MAX_LENGTH = 100
@@ -230,7 +227,7 @@ class Report:
         new = self._new(robot, "findings", map(_key, result.diagnostics))
         new_errors = self._new(robot, "broken", map(_key, errors))
         conflicts = self._new(robot, "conflicts", ((each.action.path, each.action.sides) for each in result.conflicts))
-        orphans = self._new(robot, "kept", (action.path for action in result.actions.decided if action.reason in _KEPT))
+        orphans = self._new(robot, "kept", (each.path for each in result.actions.decided if each.reason in ORPHANS))
         yield from self._findings(
             [finding for finding in result.diagnostics if verbose or (_key(finding) in new and finding not in errors)]
         )
@@ -239,7 +236,7 @@ class Report:
             yield self._line(clock, robot, f"{_with_error('broken', errors)}{more}", "bold red", error=True)
         if self._console.quiet and not conflicts:
             return
-        untold = frozenset() if orphans else _KEPT
+        untold = frozenset() if orphans else ORPHANS
         words = []
         if event.files or event.recovered or result.effective_changes or conflicts or orphans:
             words = [*_changes(result), *result.counts({Reason.KEEP} | untold)]
@@ -251,7 +248,7 @@ class Report:
             return
         yield self._line(clock, robot, ", ".join(words), "yellow" if result.conflicts else "")
         if not self._console.quiet:
-            hidden = frozenset() if verbose else _CONFLICTS | untold
+            hidden = frozenset() if verbose else CONFLICTS | untold
             actions = Actions(action for action in result.actions if action.reason not in hidden)
             seen = msgspec.structs.replace(result, actions=actions, changes=result.changes if verbose else None)
             yield from map(LogLine, result_lines(seen, verbose=verbose))
