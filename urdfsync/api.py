@@ -199,13 +199,12 @@ def check(
     `given` are fields of `CheckOptions`, such as `physics`. Raises UrdfsyncError for a configuration that can't be
     used, a robot that it does not have, a compiler that is not trusted, and where there is no place for the cache.
     """
-    from urdfsync.checks import run
+    from urdfsync.checks import compilers, run
     from urdfsync.checks.report import robot_lines
     from urdfsync.checks.results import CheckOptions
-    from urdfsync.checks.tools import chosen_tools
 
     loaded = load(config)
-    chosen, tools = loaded.select(robots), chosen_tools(loaded, tool, trusted=trusted)
+    chosen, tools = loaded.select(robots), compilers.choose(loaded, tool, trusted=trusted)
     checked = run.check_robots(loaded, chosen, CheckOptions(tools=tools, **given), progress)
     return Results(checked, robot_lines, on_result)
 
@@ -225,7 +224,7 @@ def simulate(
     values of each variable, and `joints`, whose ranges are held against their limits. `files` are written: `csv`,
     `parquet` or `plot`. Raises UrdfsyncError for whatever is wrong with the model, its inputs, the compiler or files.
     """
-    from urdfsync.checks.tools import chosen_tools
+    from urdfsync.checks import compilers
     from urdfsync.simulation import run
     from urdfsync.simulation.files import check_outputs, input_files, write_outputs
     from urdfsync.simulation.report import Simulation
@@ -234,7 +233,7 @@ def simulate(
     loaded, files = load(config), files or {}
     robot = loaded.select_one(robots, "simulate")
     check_outputs(files, input_files(loaded, robot, given.get("motion")))
-    chosen, *_ = chosen_tools(loaded, tool, trusted=trusted)
+    chosen, *_ = compilers.choose(loaded, tool, trusted=trusted)
     result = run.simulate(loaded, robot, SimulateOptions(tool=chosen, **given), progress)
     write_outputs(files, result)
     return Simulation(**msgspec.structs.asdict(result) | {"files": files})

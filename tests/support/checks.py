@@ -95,10 +95,12 @@ class Compiler:
     REPORT = "report it"
     METHODS: tuple[str, ...] = ()
     HAS_STANDARD_LIBRARY = False
+    STARTS_PROGRAMS = False
+    is_missing = False
 
     def program(self, named: str) -> str | None:
-        """All of it is here."""
-        return ""
+        """All of it is here, unless it is missing."""
+        return None if self.is_missing else ""
 
     def environment(self, cache: str, folder: str) -> dict[str, str]:
         """Nothing."""

@@ -10,11 +10,10 @@ from collections.abc import Iterable, Iterator, Sequence
 
 import msgspec
 
-from urdfsync.checks import run
+from urdfsync.checks import compilers, run
 from urdfsync.checks.cache import UserCache
 from urdfsync.checks.fingerprint import fingerprint
 from urdfsync.checks.results import CheckOptions, CheckResult
-from urdfsync.checks.tools import chosen_tools
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError, findings_of
 from urdfsync.engine.options import BuildOptions, Progress
@@ -36,7 +35,7 @@ class BuildChecker:
     def __init__(self, config: Config, request: BuildOptions) -> None:
         self._config = config
         self._options = CheckOptions(
-            tools=chosen_tools(config, trusted=request.trusted),
+            tools=compilers.choose(config, trusted=request.trusted),
             jobs=request.jobs,
             wait=request.wait,
             fresh=request.full,

@@ -149,10 +149,11 @@ def add_dry_run(container: argparse._ActionsContainer) -> None:
     container.add_argument("-n", "--dry-run", action="store_true", help="say what would be done, write nothing")
 
 
-def add_tool(parser: Parser, tools: Sequence[str]) -> None:
-    """Add the option that chooses a compiler, or both."""
-    which = "the compiler: rumoca, or omc for OpenModelica" + (", or both" if "both" in tools else "")
-    parser.add_argument("--tool", choices=tools, help=f"{which} (default: as configured, else rumoca)")
+def add_tool(parser: Parser, titles: Mapping[str, str]) -> None:
+    """Add the option that chooses a compiler by its name; `titles` are what else it is called."""
+    *names, last = (name if name == title else f"{name} for {title}" for name, title in titles.items())
+    which = f"the compiler: {', '.join(names)}, or {last}"
+    parser.add_argument("--tool", choices=tuple(titles), help=f"{which} (default: as configured, else {names[0]})")
 
 
 def select_robots(args: argparse.Namespace, configuration: Config, console: Console) -> Sequence[RobotConfig]:

@@ -6,10 +6,9 @@ import argparse
 from pathlib import Path
 
 from urdfsync.api import check
-from urdfsync.checks.compilers import COMPILERS
+from urdfsync.checks.compilers import BOTH, COMPILERS
 from urdfsync.checks.report import closing_lines, robot_lines, to_section
 from urdfsync.checks.results import CheckOptions, CheckResult, CheckStatus, exit_code
-from urdfsync.checks.tools import BOTH
 from urdfsync.commands import arguments
 from urdfsync.commands.report import prepare_page
 from urdfsync.output.console import Console, line
@@ -33,7 +32,8 @@ def add(commands: arguments.Commands) -> None:
     option("--physics", action="store_true", help="compare poses, torques and masses with a reference")
     option("--report", type=Path, metavar="FILE.html", help="write a page with the result, as `report` does; one robot")
     option("--strict", action="store_true", help="what comes from an edit, or was not checked, counts as a difference")
-    arguments.add_tool(parser, (*COMPILERS, BOTH))
+    titles = {name: compiler.TITLE for name, compiler in COMPILERS.items()}
+    arguments.add_tool(parser, {**titles, BOTH: BOTH})
     jobs = "robots at the same time (default: as cores and memory allow)"
     option("--jobs", type=arguments.count, metavar="N", help=jobs)
 

@@ -6,8 +6,8 @@ import argparse
 import importlib.util
 from pathlib import Path
 
+from urdfsync.checks import compilers
 from urdfsync.checks.compilers.compiler import Export
-from urdfsync.checks.tools import chosen_tools
 from urdfsync.commands import arguments
 from urdfsync.diagnostics import ConfigError
 from urdfsync.engine.result import Exit
@@ -65,7 +65,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
         raise not_writable(args.output, "an FMU's name ends with .fmu", "name such a file")
     if args.output:
         check_file(args.output, input_files(configuration, robot, args.motion))
-    (tool,) = chosen_tools(configuration, "omc", trusted=args.trusted)
+    (tool,) = compilers.choose(configuration, "omc", trusted=args.trusted)
     options = SimulateOptions(tool=tool, **arguments.chosen(SimulateOptions, args))
     kind = Export(_VERSIONS[args.fmi], _EXPORTED[args.kind])
     exported = export(configuration, robot, options, kind, console.progress, for_trial=args.check)

@@ -51,7 +51,7 @@ def add(commands: arguments.Commands) -> None:
     option("--variable", dest="variables", action="append", metavar="PATTERN", default=[], help=more)
     option("--plot", type=Path, metavar="FILE.png|svg", help="draw positions, speeds and efforts against their limits")
     option("--report", type=Path, metavar="FILE.html", help="write a page in which the robot moves, as `report` does")
-    arguments.add_tool(parser, tuple(COMPILERS))
+    arguments.add_tool(parser, {name: compiler.TITLE for name, compiler in COMPILERS.items()})
 
 
 def run(args: argparse.Namespace, console: Console) -> int:

@@ -25,6 +25,7 @@ from urdfsync.config.settings import (
     OWN_KEYS,
     STATE_FOLDER,
     CheckConfig,
+    Compiler,
     Config,
     Keys,
     RobotConfig,
@@ -171,8 +172,10 @@ class _Reader:
         table = self._table("`[check]`", self._subtable("check"), "check")
         self._refuse_unknown(table, _names_of(CheckConfig))
         keys: CheckConfig = self._read(table, CheckConfig) or CheckConfig()
-        if Path(keys.omc).name != keys.omc:  # else a name, which is looked for on the PATH
-            keys = msgspec.structs.replace(keys, omc=str(self._absolute(Path(keys.omc))))
+        for compiler in get_args(Compiler):
+            program = keys.program(compiler)
+            if Path(program).name != program:  # else a name, which is looked for on the PATH
+                keys = msgspec.structs.replace(keys, **{compiler: str(self._absolute(Path(program)))})
         return keys, table.lines
 
     def find_clashes(self, robots: Sequence[RobotConfig]) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, TypeAlias
 
 import msgspec
 
@@ -22,6 +22,8 @@ STATE_FOLDER = ".urdfsync"
 """Holds the recorded state; beside the configuration."""
 OWN_KEYS = ("source", "arguments", "command", "command_inputs", "package", "class", "renamed")
 """Keys that `[defaults]` can't have."""
+Compiler: TypeAlias = Literal["rumoca", "omc"]
+"""The table of compilers, the default first: each is a module of `checks/compilers`."""
 
 
 class SharedKeys(msgspec.Struct, frozen=True, kw_only=True):
@@ -60,10 +62,15 @@ class CheckConfig(msgspec.Struct, frozen=True):
 
     library: Path | None = None
     """The folder that holds the Modelica Standard Library, absolute; None to look for it."""
-    tool: Literal["rumoca", "omc", "both"] = "rumoca"
-    """One of `check.compilers.COMPILERS`, or `check.tools.BOTH`."""
+    tool: Literal[Compiler, "both"] = "rumoca"
+    """See `checks.compilers.choose`."""
     omc: str = ""
     """The program that is OpenModelica's compiler, as an absolute path or a name on the PATH; empty to look for it."""
+
+    def program(self, compiler: str) -> str:
+        """Return the program that the key of a compiler's name names; empty if there is none."""
+        named: str = getattr(self, compiler, "")
+        return named
 
 
 class RobotConfig(SharedKeys, frozen=True, kw_only=True):

@@ -39,17 +39,17 @@ def find_untrusted_command(config: Config, robot: RobotConfig) -> Diagnostic | N
     return _find_untrusted(config, message, robot.lines.get("command", 0), "untrusted-command")
 
 
-def find_untrusted_compiler(config: Config) -> Diagnostic | None:
-    """Return an error if the user has not named the folder, whose configuration chooses OpenModelica.
+def find_untrusted_compiler(config: Config, compiler: str, title: str) -> Diagnostic | None:
+    """Return an error if the user has not named the folder, whose configuration chooses a compiler, or its program.
 
     Raises ConfigError.
 
-    OpenModelica runs what external functions of models and libraries name, whoever has written these.
+    A compiler may run what external functions of models and libraries name, whoever has written these.
     """
     key, reason = "tool", "models can start programs by it"
-    if config.check.omc:
-        key, reason = "omc", config.check.omc
-    message = f"`{key}` in the table `[check]`: OpenModelica was not run: {reason}"
+    if program := config.check.program(compiler):
+        key, reason = compiler, program
+    message = f"`{key}` in the table `[check]`: {title} was not run: {reason}"
     return _find_untrusted(config, message, config.check_lines.get(key, 0), "untrusted-command")
 
 

@@ -11,11 +11,11 @@ from support.modelica import CACHE
 from support.simulation import ARM
 
 from urdfsync import cli, config
+from urdfsync.checks import compilers
 from urdfsync.checks.cache import UserCache
 from urdfsync.checks.compilers import omc
 from urdfsync.checks.results import CheckOptions, CheckResult, CheckStatus
 from urdfsync.checks.robot import check_robot
-from urdfsync.checks.tools import chosen_tools
 
 pytestmark = [
     pytest.mark.slow,
@@ -39,7 +39,7 @@ def package(tmp_path: Path, modelica_library: Path, monkeypatch: pytest.MonkeyPa
 
 def check(tool: str, *, physics: bool = False) -> CheckResult:
     loaded = config.load(Path("urdfsync.toml").absolute())
-    tools = chosen_tools(loaded, tool)
+    tools = compilers.choose(loaded, tool)
     return check_robot(loaded, loaded.robots[0], CheckOptions(physics=physics, tools=tools, compilers=2))
 
 

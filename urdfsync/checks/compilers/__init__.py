@@ -5,19 +5,50 @@ from __future__ import annotations
 import importlib.util
 import tempfile
 from collections.abc import Callable, Mapping
+from importlib import import_module
+from typing import cast, get_args
 
 import msgspec
 
 from urdfsync.checks import process
 from urdfsync.checks.cache import UserCache
-from urdfsync.checks.compilers import omc, rumoca
 from urdfsync.checks.compilers.compiler import CompileJob, Compiler, CompilerError, CompileResult, Tool
 from urdfsync.checks.contents import content_hash
 from urdfsync.checks.process import BrokenProcessError, Limits
-from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.config import Config, settings
+from urdfsync.config.trust import find_untrusted_compiler
+from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
 
-COMPILERS: Mapping[str, Compiler] = {"rumoca": rumoca, "omc": omc}
+COMPILERS: Mapping[str, Compiler] = {
+    name: cast(Compiler, import_module(f"{__name__}.{name}")) for name in get_args(settings.Compiler)
+}
 """By the value of `--tool`, the default first."""
+BOTH = "both"
+"""The value of `--tool` that means two compilers, which are held against each other."""
+_BOTH = ("rumoca", "omc")
+
+
+def choose(config: Config, name: str | None = None, *, trusted: bool = False) -> tuple[Tool, ...]:
+    """Return the compilers that are meant by `--tool` (None: by the configuration), one or both.
+
+    `trusted` says whether the user trusts the configuration, which may choose a compiler by which models start
+    programs, or name its program. Who gives `--tool omc` has chosen it himself.
+    """
+    chosen = name or config.check.tool
+    return tuple(
+        _tool(config, compiler, is_trusted=trusted or (bool(name) and not config.check.program(compiler)))
+        for compiler in (_BOTH if chosen == BOTH else [chosen])
+    )
+
+
+def _tool(config: Config, name: str, *, is_trusted: bool) -> Tool:
+    compiler, problem = COMPILERS[name], None
+    if compiler.STARTS_PROGRAMS and not is_trusted:
+        try:
+            problem = find_untrusted_compiler(config, name, compiler.TITLE)
+        except ConfigError as error:  # the user's file of trusted folders can't be read
+            problem = error.diagnostics[0]
+    return Tool(name, config.check.program(name), problem)
 
 
 def find_missing(tool: Tool) -> Diagnostic | None:
@@ -27,7 +58,7 @@ def find_missing(tool: Tool) -> Diagnostic | None:
         if importlib.util.find_spec(module) is None:
             return _missing(compiler, f"{module} is not installed")
     if tool.problem is None and compiler.program(tool.program) is None:
-        named = f"`{tool.program}`, which `omc` in the table `[check]` names, is no program"
+        named = f"`{tool.program}`, which `{tool.name}` in the table `[check]` names, is no program"
         return _missing(compiler, named if tool.program else f"`{tool.name}` is not on the PATH")
     return tool.problem
 

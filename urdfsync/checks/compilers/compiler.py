@@ -125,7 +125,7 @@ class CompilerError(UrdfsyncError):
 
 
 class Compiler(Protocol):
-    """A module of this package that drives one compiler. `COMPILERS` and `CheckConfig.tool` list its name."""
+    """A module of this package that drives one compiler. `config.settings.Compiler` lists its name."""
 
     TITLE: str
     """The name of the compiler in messages."""
@@ -139,6 +139,8 @@ class Compiler(Protocol):
     """Methods of integration."""
     HAS_STANDARD_LIBRARY: bool
     """Whether it finds the Modelica Standard Library by its own means."""
+    STARTS_PROGRAMS: bool
+    """Whether models can start programs by it: then the user has to trust who chose it."""
 
     def program(self, named: str) -> str | None:
         """Return the path of the program to start, empty if it needs none; None if it is missing.

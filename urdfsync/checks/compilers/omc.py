@@ -37,6 +37,7 @@ INSTALL = "install OpenModelica, or name its program with `omc` in the table `[c
 REPORT = "report it to the authors of OpenModelica"
 METHODS: tuple[str, ...] = ("dassl", "ida", "cvode", "rungekutta", "euler")
 HAS_STANDARD_LIBRARY = True
+STARTS_PROGRAMS = True
 
 _TOLERANCE = 1e-8
 _PATIENCE = 30.0

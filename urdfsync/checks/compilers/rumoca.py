@@ -36,6 +36,7 @@ INSTALL = install_command("check")
 REPORT = "report it to the authors of rumoca"
 METHODS: tuple[str, ...] = ("auto", "bdf", "rk-like")
 HAS_STANDARD_LIBRARY = False
+STARTS_PROGRAMS = False
 
 _FILE = "Task.mo"  # always the same, so that a text takes the place of the one before in the compiler's memory
 _UNKNOWN = frozenset(("state", "algebraic", "output", "discrete_real", "discrete_value"))
