@@ -13,7 +13,7 @@ from urdfsync.checks.compilers.compiler import Tool
 from urdfsync.checks.process import Limits
 from urdfsync.checks.report import closing_lines
 from urdfsync.checks.results import CheckResult, CheckStatus, CompiledModel, ToolResult
-from urdfsync.checks.two_tools import run_compilations
+from urdfsync.checks.robot import run_compilations
 from urdfsync.commands.check import show_result
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Compared, Experiment, Probe, Quantity, Trial

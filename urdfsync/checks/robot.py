@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import tempfile
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -13,14 +13,13 @@ import msgspec
 from urdfsync import registry
 from urdfsync.checks import compilers, process, texts
 from urdfsync.checks.cache import UserCache
-from urdfsync.checks.compilation import Compilation
+from urdfsync.checks.compilation import Compilation, compare_all
 from urdfsync.checks.fingerprint import fingerprint
 from urdfsync.checks.libraries import Libraries, find_libraries
 from urdfsync.checks.names import check_names
 from urdfsync.checks.package import RobotPackage, read_package, users_models
 from urdfsync.checks.process import Limits, limits_of
 from urdfsync.checks.results import CheckOptions, CheckResult, listed
-from urdfsync.checks.two_tools import run_compilations
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError, findings_of
 from urdfsync.domain import Experiment
@@ -64,11 +63,8 @@ def check_robot(config: Config, robot: RobotConfig, options: CheckOptions, folde
         if earlier and options.curves and earlier.reference and not any(tool.curves for tool in earlier.tools):
             earlier = None  # nobody wanted to draw it
         if earlier is None:
-            if folder:
-                _check(config, package, options, result, limits, folder)
-            else:
-                with tempfile.TemporaryDirectory(prefix="urdfsync-", ignore_cleanup_errors=True) as place:
-                    _check(config, package, options, result, limits, Path(place))
+            with tempfile.TemporaryDirectory(prefix="urdfsync-", dir=folder, ignore_cleanup_errors=True) as place:
+                _check(config, package, options, result, limits, Path(place))
             result.megabytes = limits.peak / 1e6
             is_same = key == fingerprint(config, robot, options)  # else somebody has saved meanwhile
             if key and package.in_step and is_same:
@@ -118,7 +114,7 @@ def _check(
     every = msgspec.structs.replace(every, others={**every.others, **users.libraries})
     experiment = _experiment(package, options, result, limits)
     compilations = [
-        Compilation(package, tool, needed, users, every, limits, folder / robot.name / tool.name, options.compilers)
+        Compilation(package, tool, needed, users, every, limits, folder / tool.name, options.compilers)
         for tool in options.tools
     ]
     run_compilations(compilations, experiment, result, limits)
@@ -169,3 +165,46 @@ def _experiment(package: RobotPackage, options: CheckOptions, result: CheckResul
 def _experiments(domain: str, *arguments: Any) -> Iterator[Experiment | str]:
     """Yield the experiment of a domain, in a process of its own."""
     yield registry.domain(domain).experiment(*arguments)
+
+
+def run_compilations(
+    compilations: Sequence[Compilation], experiment: Experiment | None, result: CheckResult, limits: Limits
+) -> None:
+    """Compile a package with one compiler after the other; the answers go into the result."""
+    for compilation in compilations:
+        begin, peak, limits.peak = time.monotonic(), limits.peak, 0.0
+        compilation.run(experiment)
+        compilation.result.seconds, compilation.result.megabytes = time.monotonic() - begin, limits.peak / 1e6
+        limits.peak = max(peak, limits.peak)
+        result.gaps += tuple(
+            f"{compilation.result.tool}: {gap}" if result.tools else gap
+            for gap in compilation.gaps
+            if gap not in result.gaps
+        )
+        result.tools += (compilation.result,)
+    result.add(_findings(compilations))
+    if experiment and len(compilations) > 1:
+        first, second = compilations
+        if first.generated and second.generated:
+            result.between = compare_all(experiment.trials, second.generated, first.generated)
+        if first.edited and second.edited:
+            result.between_edited = compare_all(experiment.trials, second.edited, first.edited)
+
+
+def _findings(compilations: Sequence[Compilation]) -> list[Diagnostic]:
+    """Return the findings: what all compilers have at the same place once, what one has alone under its name."""
+
+    def place(finding: Diagnostic) -> tuple[object, ...]:
+        return finding.severity, finding.file, finding.line, finding.code, "" if finding.line else finding.message
+
+    places = [set(map(place, compilation.diagnostics)) for compilation in compilations]
+    findings, shared = list[Diagnostic](), set.intersection(*places)
+    for compilation in compilations:
+        for finding in compilation.diagnostics:
+            if place(finding) not in shared:
+                findings.append(
+                    msgspec.structs.replace(finding, message=f"{compilation.result.tool} alone: {finding.message}")
+                )
+            elif compilation is compilations[0]:
+                findings.append(finding)
+    return findings
