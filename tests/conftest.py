@@ -19,7 +19,8 @@ from support.cases import CASES
 from support.commands import Execute, Printed
 from support.networks import RC_FOLDER
 
-from urdfsync.checks.libraries import LibraryError, find_standard_library
+from urdfsync.checks.libraries import find_standard_library
+from urdfsync.diagnostics import UrdfsyncError
 
 if TYPE_CHECKING:
     from support.daemon import Start, Watch
@@ -127,8 +128,8 @@ def modelica_library() -> Iterator[Path]:
     from urdfsync.modelica.files import parse_file
 
     try:
-        folder = find_standard_library(os.environ).parts["Modelica"].parent
-    except LibraryError:
+        folder = find_standard_library()["Modelica"].parent
+    except UrdfsyncError:
         pytest.skip(NO_LIBRARY)
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("urdfsync.checks.names.parse_file", functools.cache(parse_file))

@@ -207,7 +207,7 @@ def simulate(tools: Tools) -> Iterator[Pair]:
     (place / "urdfsync.toml").write_text('[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\n')
     run(tools.urdfsync("build", "--quiet"), place)
     texts = [file.read_bytes() for file in (place / "modelica").rglob("*.mo")]
-    standard = standard_library_copy(find_standard_library(os.environ).parts, texts, UserCache.default())
+    standard = standard_library_copy(find_standard_library(), texts, UserCache.default())
     roots = [str(standard), str(REPOSITORY / "modelica/UrdfSync"), str(place / "modelica/Arm")]
     direct = [str(tools.scripts / "python"), "-c", _DIRECT, *roots]
     stops = itertools.count(5.0, 1e-9)  # what was simulated before is not simulated again

@@ -14,8 +14,6 @@ import pytest
 from urdfsync.checks.cache import UserCache
 from urdfsync.checks.contents import content_hash, copy_library
 from urdfsync.checks.libraries import (
-    LibraryError,
-    StandardLibrary,
     find_library,
     find_standard_library,
     needed_libraries,
@@ -29,6 +27,8 @@ PACKAGE = 'package %s\n  annotation (\n    uses(Complex(version="9.9")),\n    ve
 @pytest.fixture(autouse=True)
 def home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A home with nothing in it, and no libraries of the system."""
+    for name in ("MODELICAPATH", "OPENMODELICALIBRARY", "OPENMODELICAHOME", "APPDATA"):
+        monkeypatch.delenv(name, raising=False)
     monkeypatch.setenv("HOME", str(tmp_path / "home"))
     monkeypatch.setenv("USERPROFILE", str(tmp_path / "home"))
     exists = Path.iterdir
@@ -50,9 +50,9 @@ def whole(folder: Path, version: str) -> Path:
     return put(folder, f"Modelica {version}", f"ModelicaServices {version}", f"Complex {version}.mo")
 
 
-def code(environment: Mapping[str, str], configured: Path | None = None) -> str:
-    with pytest.raises(LibraryError) as caught:
-        find_standard_library(environment, configured)
+def code(configured: Path | None = None) -> str:
+    with pytest.raises(UrdfsyncError) as caught:
+        find_standard_library(configured)
     (diagnostic,) = caught.value.diagnostics
     assert diagnostic.hint
     return diagnostic.code
@@ -61,45 +61,51 @@ def code(environment: Mapping[str, str], configured: Path | None = None) -> str:
 # --- where they are ---------------------------------------------------------------------------------------------------
 
 
-def test_modelicapath_comes_first_then_openmodelicas_folders(tmp_path: Path, home: Path) -> None:
+def test_modelicapath_comes_first_then_openmodelicas_folders(
+    tmp_path: Path, home: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     mine = whole(tmp_path / "mine", "4.1.0")
-    whole(home / ".openmodelica" / "libraries", "4.2.0")
-    environment = {"MODELICAPATH": os.pathsep.join([str(tmp_path / "absent"), str(mine)])}
-    assert find_standard_library(environment).parts["Modelica"] == mine / "Modelica 4.1.0"
-    assert find_standard_library({}).version == (4, 2, 0)
+    others = whole(home / ".openmodelica" / "libraries", "4.2.0")
+    assert find_standard_library()["Modelica"] == others / "Modelica 4.2.0"
+    monkeypatch.setenv("MODELICAPATH", os.pathsep.join([str(tmp_path / "absent"), str(mine)]))
+    assert find_standard_library()["Modelica"] == mine / "Modelica 4.1.0"
 
 
 def test_the_newest_version_below_5_is_taken_by_number(tmp_path: Path) -> None:
     for version in ("4.9.0", "4.10.0", "5.0.0"):
         whole(tmp_path, version)
-    found = find_standard_library({}, tmp_path)
-    assert found.version == (4, 10, 0)
-    assert {path.stem.partition(" ")[2].partition(".")[0] for path in found.parts.values()} == {"4"}
+    found = find_standard_library(tmp_path)
+    assert found["Modelica"].name == "Modelica 4.10.0"
+    assert {path.stem.partition(" ")[2].partition(".")[0] for path in found.values()} == {"4"}
 
 
-def test_parts_of_the_same_generation_belong_together(tmp_path: Path) -> None:
+def test_parts_of_the_same_generation_belong_together(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A folder without a version in its name tells it in its text; a later generation is the last resort."""
-    assert find_standard_library({}, whole(tmp_path / "late", "5.0.0")).version == (5, 0, 0)
-    put(tmp_path / "bare" / ".openmodelica" / "libraries", "Modelica", "ModelicaServices", "Complex.mo")
-    assert find_standard_library({"APPDATA": str(tmp_path / "bare")}).version == (4, 1, 0)
+    assert find_standard_library(whole(tmp_path / "late", "5.0.0"))["Modelica"].name == "Modelica 5.0.0"
+    bare = put(tmp_path / "bare" / ".openmodelica" / "libraries", "Modelica", "ModelicaServices", "Complex.mo")
+    monkeypatch.setenv("APPDATA", str(tmp_path / "bare"))
+    assert find_standard_library()["Modelica"] == bare / "Modelica"
     put(whole(tmp_path, "4.1.0"), "Modelica 4.2.0", "Modelica 5.0.0")
-    found = find_standard_library({}, tmp_path)
-    assert (found.version, found.parts["Complex"].name) == ((4, 2, 0), "Complex 4.1.0.mo")
+    found = find_standard_library(tmp_path)
+    assert (found["Modelica"].name, found["Complex"].name) == ("Modelica 4.2.0", "Complex 4.1.0.mo")
 
 
-def test_why_there_is_none(tmp_path: Path) -> None:
-    assert code({}) == "no-standard-library"
-    put(tmp_path / "lone", "Modelica 4.1.0")
-    assert code({"MODELICAPATH": str(tmp_path / "lone")}) == "no-standard-library"
+def test_why_there_is_none(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    assert code() == "no-standard-library"
+    monkeypatch.setenv("MODELICAPATH", str(put(tmp_path / "lone", "Modelica 4.1.0")))
+    assert code() == "no-standard-library"
     old = whole(tmp_path / "old", "4.0.0+maint.om")
-    assert code({"MODELICAPATH": str(old)}) == "standard-library-too-old"
-    assert code({"MODELICAPATH": str(whole(tmp_path / "new", "4.1.0"))}, old) == "wrong-library-folder"
-    assert code({}, tmp_path / "absent") == "wrong-library-folder"
+    monkeypatch.setenv("MODELICAPATH", str(old))
+    assert code() == "standard-library-too-old"
+    monkeypatch.setenv("MODELICAPATH", str(whole(tmp_path / "new", "4.1.0")))
+    assert code(old) == "wrong-library-folder"
+    assert code(tmp_path / "absent") == "wrong-library-folder"
 
 
-def test_an_older_one_does_not_hide_one_that_suits(tmp_path: Path) -> None:
-    places = [str(whole(tmp_path / name, name)) for name in ("4.0.0", "4.1.0")]
-    assert find_standard_library({"MODELICAPATH": os.pathsep.join(places)}).version == (4, 1, 0)
+def test_an_older_one_does_not_hide_one_that_suits(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    old, new = (whole(tmp_path / name, name) for name in ("4.0.0", "4.1.0"))
+    monkeypatch.setenv("MODELICAPATH", os.pathsep.join(map(str, (old, new))))
+    assert find_standard_library()["Modelica"].parent == new
 
 
 @pytest.mark.parametrize("name", ["Pumps", "Pumps 1.2.0", "Pumps.mo", "Pumps 1.2.mo"])
@@ -139,7 +145,7 @@ LEFT_OUT = ("Mechanics/MultiBody/Examples/Pendulum", "Fluid/package", "Thermal/F
 
 
 @pytest.fixture
-def small(tmp_path: Path) -> StandardLibrary:
+def small(tmp_path: Path) -> Mapping[str, Path]:
     """A made-up library."""
     folder = whole(tmp_path / "libraries", "4.1.0")
     for name in (*COPIED, *LEFT_OUT):
@@ -148,7 +154,7 @@ def small(tmp_path: Path) -> StandardLibrary:
         file.touch()
     (folder / "Modelica 4.1.0" / "Resources").mkdir()
     (folder / "Modelica 4.1.0" / "Resources" / "large.bin").touch()
-    return find_standard_library({}, folder)
+    return find_standard_library(folder)
 
 
 @pytest.fixture
@@ -170,28 +176,28 @@ def names(folder: Path) -> set[str]:
     ("extends Modelica.Mechanics.MultiBody.Examples.Pendulum;", True),
 ])  # fmt: skip
 def test_what_robots_need_is_copied_and_all_if_more_is_named(
-    text: str, whole: bool, small: StandardLibrary, cache: UserCache
+    text: str, whole: bool, small: Mapping[str, Path], cache: UserCache
 ) -> None:
-    copied = standard_library_copy(small.parts, [text.encode()], cache)
+    copied = standard_library_copy(small, [text.encode()], cache)
     partners = {"Complex.mo", "ModelicaServices/package.mo"}
     wanted = (*COPIED, *LEFT_OUT) if whole else COPIED
     assert names(copied) == {f"Modelica/{name}.mo" for name in wanted} | partners
 
 
-def test_a_copy_is_made_once_for_each_state(small: StandardLibrary, cache: UserCache) -> None:
-    first = standard_library_copy(small.parts, (), cache)
+def test_a_copy_is_made_once_for_each_state(small: Mapping[str, Path], cache: UserCache) -> None:
+    first = standard_library_copy(small, (), cache)
     (first / "mark").touch()
     os.utime(first, (0, 0))
     with ThreadPoolExecutor(8) as pool:
-        assert set(pool.map(lambda _: standard_library_copy(small.parts, (), cache), range(8))) == {first}
+        assert set(pool.map(lambda _: standard_library_copy(small, (), cache), range(8))) == {first}
     assert (first / "mark").exists()
     assert first.stat().st_mtime > 0, "its last use is noted"
-    (small.parts["Modelica"] / "Blocks" / "package.mo").write_text("package Blocks end Blocks;")
-    assert standard_library_copy(small.parts, (), cache) != first
+    (small["Modelica"] / "Blocks" / "package.mo").write_text("package Blocks end Blocks;")
+    assert standard_library_copy(small, (), cache) != first
 
 
 def test_a_folder_that_can_not_be_read_hides_no_change_behind_it(
-    small: StandardLibrary, cache: UserCache, monkeypatch: pytest.MonkeyPatch
+    small: Mapping[str, Path], cache: UserCache, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def refuse(path: Any) -> Any:
         if str(path).endswith("Fluid"):
@@ -200,9 +206,9 @@ def test_a_folder_that_can_not_be_read_hides_no_change_behind_it(
 
     genuine = os.scandir
     monkeypatch.setattr(os, "scandir", refuse)
-    first = standard_library_copy(small.parts, (), cache)
-    (small.parts["Modelica"] / "Mechanics" / "package.mo").write_text("package Mechanics end Mechanics;")
-    assert standard_library_copy(small.parts, (), cache) != first
+    first = standard_library_copy(small, (), cache)
+    (small["Modelica"] / "Mechanics" / "package.mo").write_text("package Mechanics end Mechanics;")
+    assert standard_library_copy(small, (), cache) != first
 
 
 # --- links and sizes: a library may be a stranger's -------------------------------------------------------------------
@@ -259,8 +265,8 @@ def test_a_library_that_is_too_large_is_refused_before_it_fills_the_disk(
     assert len(list((tmp_path / "other").iterdir())) < 10, "empty files take space as well"
 
 
-def test_so_is_a_standard_library_with_such_a_link(small: StandardLibrary, cache: UserCache, tmp_path: Path) -> None:
-    (small.parts["Modelica"] / "Mechanics/Loop").symlink_to(tmp_path, target_is_directory=True)
+def test_so_is_a_standard_library_with_such_a_link(small: Mapping[str, Path], cache: UserCache, tmp_path: Path) -> None:
+    (small["Modelica"] / "Mechanics/Loop").symlink_to(tmp_path, target_is_directory=True)
     with pytest.raises(UrdfsyncError, match="the link leads out of its library"):
-        standard_library_copy(small.parts, (), cache)
+        standard_library_copy(small, (), cache)
     assert not list(cache.libraries.glob("*/Modelica"))

@@ -79,7 +79,7 @@ def compiler(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Compiling:
 @pytest.fixture
 def without_library(monkeypatch: pytest.MonkeyPatch) -> None:
     """No Modelica Standard Library: nothing is compiled."""
-    monkeypatch.setattr(libraries, "library_folders", lambda *_: [])
+    monkeypatch.setattr(libraries, "library_folders", list)
 
 
 def rebuild() -> None:

@@ -6,7 +6,6 @@ Standard Library: a modifier of one of its components, and a name that a class m
 
 from __future__ import annotations
 
-import os
 import re
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -295,7 +294,7 @@ def refusal(modelica_library: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPa
 
     What rumoca accepts is shown to OpenModelica, where there is one.
     """
-    parts = libraries.find_standard_library(os.environ).parts
+    parts = libraries.find_standard_library()
     standard = libraries.standard_library_copy(parts, (), CACHE)
     for name, value in rumoca.environment(str(CACHE.compiler), str(tmp_path)).items():
         monkeypatch.setenv(name, value)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import re
 from collections.abc import Iterator, Sequence
 from pathlib import Path
@@ -285,7 +284,7 @@ def stored_below(sources: StoredClasses, name: tuple[str, ...]) -> Iterator[tupl
 
 def faults_in(top: str, *inside: str) -> list[str]:
     """Names without meaning in a library, or in a package of it."""
-    places = [REPOSITORY / "modelica", *libraries.library_folders(os.environ)]
+    places = [REPOSITORY / "modelica", *libraries.library_folders()]
     if libraries.find_library(top, places) is None:
         pytest.skip(f"there is no library {top}")
     sources = StoredClasses("None", Path("None"), {}, {}, lambda name: libraries.find_library(name, places))
@@ -310,7 +309,7 @@ def test_nothing_is_missing_in_libraries(package: Sequence[str]) -> None:
 @pytest.mark.slow
 def test_every_use_in_a_generated_package_can_be_told() -> None:
     """Each name in its equations means something, and nothing once it is misspelled: no lookup ends in the unknown."""
-    places = [REPOSITORY / "modelica", *libraries.library_folders(os.environ)]
+    places = [REPOSITORY / "modelica", *libraries.library_folders()]
     if libraries.find_library("Modelica", places) is None:
         pytest.skip("there is no Modelica Standard Library")
     sources = StoredClasses("None", Path("None"), {}, {}, lambda name: libraries.find_library(name, places))

@@ -221,7 +221,7 @@ def test_what_is_wrong_with_a_model_of_the_user_is_told_of_its_file(compiler: Co
 def test_series_are_those_of_the_compiler_itself(arm: Path, modelica_library: Path) -> None:
     rumoca = pytest.importorskip("rumoca")
     result = run(stop=0.5, step=0.1)
-    standard = libraries.find_standard_library({"MODELICAPATH": str(modelica_library)}).parts
+    standard = libraries.find_standard_library(modelica_library)
     texts = [file.read_bytes() for file in Path("modelica/Arm").rglob("*.mo")]
     roots = [libraries.standard_library_copy(standard, texts, CACHE), URDFSYNC, Path("modelica/Arm").resolve()]
     source = "model P\n  import Modelica;\n  import UrdfSync;\n  import Arm;\n  extends Arm.ArmTest;\nend P;\n"

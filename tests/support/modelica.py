@@ -124,8 +124,8 @@ def execute(
 
     A child that dies gives outcomes with its last words as the error.
     """
-    found = modelica_libraries.find_standard_library(os.environ, library)
-    standard = modelica_libraries.standard_library_copy(found.parts, (), CACHE)  # the part of it that robots need
+    found = modelica_libraries.find_standard_library(library)
+    standard = modelica_libraries.standard_library_copy(found, (), CACHE)  # the part of it that robots need
     roots, tasks = tuple(map(str, (standard, own, *packages))), []
     for task in todo:
         runs = (Simulation(run.stop, run.step, run.parameters, run.tolerance) for run in task.runs)

@@ -35,7 +35,7 @@ def result_key(robot: RobotConfig, tools: Sequence[Tool], needed: libraries.Libr
     own = find_own_library(LIBRARY, robot.target.package)
     places = {**needed.others, **({LIBRARY: own} if own else {})}
     if any(compilers.COMPILERS[tool.name].HAS_STANDARD_LIBRARY for tool in tools):
-        places |= {str(path): path for path in libraries.standard_libraries(os.environ)}
+        places |= {str(path): path for path in libraries.standard_libraries()}
     try:
         return digest(
             *(sys.version, sys.platform, _installed(), _code(urdfsync.__file__), _domain_code(robot.domain)),

@@ -45,29 +45,13 @@ _HINT = (
 )
 
 
-class LibraryError(UrdfsyncError):
-    """There is no Modelica Standard Library that suits; the code of the one diagnostic says why."""
-
-    def __init__(self, code: str, message: str) -> None:
-        super().__init__(Diagnostic(Severity.ERROR, code, message, hint=_HINT))
-
-
-class StandardLibrary(msgspec.Struct, frozen=True):
-    """The Modelica Standard Library: three libraries that belong together."""
-
-    version: Version
-    """Empty if unknown."""
-    parts: Mapping[str, Path]
-    """Its libraries by their names: each a folder with a `package.mo`, or a file."""
-
-
-def find_standard_library(environment: Mapping[str, str], configured: Path | None = None) -> StandardLibrary:
+def find_standard_library(configured: Path | None = None) -> Mapping[str, Path]:
     """Find the Modelica Standard Library: in the configured folder, else in the first folder with one that suits.
 
-    Raises LibraryError.
+    Returns its three libraries by their names: each a folder with a `package.mo`, or a file. Raises UrdfsyncError.
     """
-    candidates: list[StandardLibrary] = []
-    for place in [configured] if configured else library_folders(environment):
+    candidates = list[tuple[Version, dict[str, Path]]]()
+    for place in [configured] if configured else library_folders():
         for version, path in _versions(place, "Modelica"):
             parts = {"Modelica": path}
             for name in STANDARD_LIBRARIES[1:]:  # of the same version, else the newest
@@ -75,26 +59,27 @@ def find_standard_library(environment: Mapping[str, str], configured: Path | Non
                 if others:
                     parts[name] = dict(others).get(version, others[0][1])
             if len(parts) == len(STANDARD_LIBRARIES):
-                candidates.append(StandardLibrary(version, parts))
-    suitable = [library for library in candidates if library.version >= OLDEST]
+                candidates.append((version, parts))
+    suitable = [(version, parts) for version, parts in candidates if version >= OLDEST]
     if suitable:
-        return next((library for library in suitable if library.version < NEXT), suitable[0])
+        _, parts = min(suitable, key=lambda candidate: candidate[0] >= NEXT)
+        return parts
     code, message = "no-standard-library", "there is no Modelica Standard Library"
     if candidates:
-        first, oldest = candidates[0], ".".join(map(str, OLDEST))
-        place, number = first.parts["Modelica"].parent, ".".join(map(str, first.version)) or "of unknown version"
+        (version, parts), oldest = candidates[0], ".".join(map(str, OLDEST))
+        place, number = parts["Modelica"].parent, ".".join(map(str, version)) or "of unknown version"
         code = "standard-library-too-old"
         message = f"the Modelica Standard Library in {place} is {number}; the compiler takes {oldest} and newer"
     if configured:
         code, message = "wrong-library-folder", f"{message}: `library` in the table `[check]` names {configured}"
-    raise LibraryError(code, message)
+    raise UrdfsyncError(Diagnostic(Severity.ERROR, code, message, hint=_HINT))
 
 
-def library_folders(environment: Mapping[str, str]) -> list[Path]:
+def library_folders() -> list[Path]:
     """Return the folders of libraries, each once: those on MODELICAPATH, then those of OpenModelica."""
 
     def paths(name: str) -> list[Path]:
-        return [Path(folder) for folder in environment.get(name, "").split(os.pathsep) if folder]
+        return [Path(folder) for folder in os.environ.get(name, "").split(os.pathsep) if folder]
 
     homes = [Path(os.path.expanduser("~")), *paths("APPDATA")]  # noqa: PTH111 - Path.home() fails without a home
     own = [home / ".openmodelica" / "libraries" for home in homes]
@@ -103,14 +88,9 @@ def library_folders(environment: Mapping[str, str]) -> list[Path]:
     return list(dict.fromkeys([*paths("MODELICAPATH"), *paths("OPENMODELICALIBRARY"), *own, *installed]))
 
 
-def standard_libraries(environment: Mapping[str, str]) -> list[Path]:
+def standard_libraries() -> list[Path]:
     """Return all versions of the Modelica Standard Library's libraries: a compiler with one of its own takes any."""
-    return [
-        path
-        for place in library_folders(environment)
-        for name in STANDARD_LIBRARIES
-        for _, path in _versions(place, name)
-    ]
+    return [path for place in library_folders() for name in STANDARD_LIBRARIES for _, path in _versions(place, name)]
 
 
 def find_library(name: str, places: Iterable[Path]) -> Path | None:
@@ -147,14 +127,14 @@ def find_libraries(config: Config, robot: RobotConfig, texts: Iterable[bytes], w
     top, places = robot.target.package.partition(".")[0], search_path(robot)
     others = needed_libraries(texts, top, places, wanted)
     try:
-        return Libraries(find_standard_library(os.environ, config.check.library).parts, others)
-    except LibraryError as error:
+        return Libraries(find_standard_library(config.check.library), others)
+    except UrdfsyncError as error:
         return Libraries({}, others, error.diagnostics[0])
 
 
 def search_path(robot: RobotConfig) -> list[Path]:
     """Return the folders in which the libraries of a robot's package are looked for, that of the package first."""
-    return [robot.output, *library_folders(os.environ)]
+    return [robot.output, *library_folders()]
 
 
 def needed_libraries(
