@@ -24,10 +24,10 @@ SHADOW = f"variability violation: sphereDiameter has parameter variability but b
 
 
 def explain(
-    text: str, edits: Mapping[str, str | bytes | None] | None = None, model: str = "", compiler: Compiler = rumoca
+    text: str, edits: Mapping[str, str | bytes | None] | None = None, users: str = "", compiler: Compiler = rumoca
 ) -> list[Diagnostic]:
-    """The findings about the package with some edits."""
-    return explain_problem(text, compiler, arm.package(edits), model)
+    """The findings about the package with some edits, or about a file of the user's in it."""
+    return explain_problem(text, compiler, arm.package(edits), arm.DISK / users if users else None)
 
 
 def explained(text: str, *more: Any, **facts: Any) -> list[str]:
@@ -57,7 +57,7 @@ LOOK = f"look at {arm.DISK}/{ELBOW}, which was edited"
 
 def test_an_unbalanced_model_is_looked_for_in_the_edited_file() -> None:
     """The joint need not be what lacks an equation."""
-    assert explained(unbalanced(6354, 6353), EXTRA, model="SixAxisArm") == [
+    assert explained(unbalanced(6354, 6353), EXTRA) == [
         f"{ELBOW}: error: there is 1 equation too many; {LOOK} [unbalanced]"
     ]
     (found,) = explained(unbalanced(1, 4), EXTRA)
@@ -66,14 +66,14 @@ def test_an_unbalanced_model_is_looked_for_in_the_edited_file() -> None:
 
 def test_the_same_fault_in_other_models_has_the_same_words() -> None:
     """The benches have other equations as well, and lack as many: a result has each finding once."""
-    first, second = (explain(unbalanced(number, number + 1), EXTRA, model="SixAxisArm") for number in (1824, 1854))
+    first, second = (explain(unbalanced(number, number + 1), EXTRA) for number in (1824, 1854))
     assert first == second
-    assert first != explain(unbalanced(1853, 1855), EXTRA, model="SixAxisArm")
+    assert first != explain(unbalanced(1853, 1855), EXTRA)
 
 
 def test_a_class_of_the_users_is_unbalanced_in_its_own_file() -> None:
     edits = {**EXTRA, "Tools/Own.mo": "model Own\n  Real z;\nend Own;\n"}
-    assert explained(unbalanced(0, 1), edits, model="Tools.Own") == [
+    assert explained(unbalanced(0, 1), edits, users="Tools/Own.mo") == [
         f"Tools/Own.mo: error: there is 1 equation too few; {LOOK} [unbalanced]"
     ]
 
@@ -81,7 +81,7 @@ def test_a_class_of_the_users_is_unbalanced_in_its_own_file() -> None:
 def test_a_complaint_without_a_place_about_a_class_of_the_users_is_in_its_own_file() -> None:
     """With a package that waits for conflicts, the folder said nothing."""
     edits = {"Tools/Own.mo": "model Own\n  Real z;\nend Own;\n"}
-    (found,) = explained("flatten failed: every component needs a root (MLS §9.4)", edits, model="Tools.Own")
+    (found,) = explained("flatten failed: every component needs a root (MLS §9.4)", edits, users="Tools/Own.mo")
     assert found.startswith("Tools/Own.mo: error: every component needs a root")
 
 

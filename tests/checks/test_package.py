@@ -13,7 +13,6 @@ import pytest
 from urdfsync import config
 from urdfsync.checks import package as files
 from urdfsync.checks.contents import package_texts
-from urdfsync.checks.package import PackageTexts
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import OutputError
 
@@ -139,35 +138,33 @@ def test_a_package_is_written_where_its_name_says_without_byte_order_marks(plant
     assert (root / "package.mo").read_bytes() == b"package Plant"
 
 
-def package(**texts: str) -> PackageTexts:
-    """A robot's package with these files, written with `_` for `/` and without `.mo`."""
-    contents = {f"{name.replace('_', '/')}.mo": text.encode() for name, text in texts.items()}
-    return PackageTexts("Plant.Robots.Arm", Path("/out/Plant/Robots/Arm"), contents)
-
-
-def test_the_users_models_are_those_in_files_that_are_not_generated() -> None:
-    found = package(
-        Arm="within Plant.Robots.Arm;\nmodel Arm\nend Arm;\n",
-        Own="within Plant.Robots.Arm;\nmodel Own\nend Own;\n",
-        Control_PID="within Plant.Robots.Arm.Control; block PID\nend PID;\n",
-        Control_package="within Plant.Robots.Arm;\npackage Control\nend Control;\n",
-    )
-    assert found.models_not_in(["Arm.mo", "package.mo"]) == ["Control.PID", "Own"]
-    assert found.models_not_in(found.texts) == []
-
-
 @pytest.mark.parametrize(("text", "expected"), [
-    ("within; // model\n\nencapsulated model Own end Own;", True),
-    ("final block Own end Own;", True),
-    ("model Own = Arm(n = 2);", True),
-    ("model Own partial model In end In; end Own;", True),
-    ("encapsulated partial model Own end Own;", False),
-    ("function Own end Own;", False),
-    ("package Own model In end In; end Own;", False),
-    ("model Other end Other;", False),
-    ("within Plant.Robots", False),
-    ("model", False),
-    ("", False),
+    ("within; // model\n\nencapsulated model Own end Own;", ["Own"]),
+    ("final block Own end Own;", ["Own"]),
+    ("model Own = Arm(n = 2);", ["Own"]),
+    ("model Own partial model In end In; end Own;", ["Own"]),
+    ("encapsulated partial model Own end Own;", []),
+    ("function Own end Own;", []),
+    ("package Own model In end In; end Own;", ["Own.In"]),
+    ("model Other end Other;", []),
+    ("within Plant.Robots", []),
+    ("model", []),
+    ("", []),
 ])  # fmt: skip
-def test_models_and_blocks_that_are_not_partial_compile_by_themselves(text: str, expected: bool) -> None:
-    assert (package(Own=text).models_not_in([]) == ["Own"]) is expected
+def test_models_and_blocks_that_are_not_partial_compile_by_themselves(
+    plant: Config, text: str, expected: list[str]
+) -> None:
+    file = plant.root / "modelica/Own.mo"
+    assert files.users_models(robot(plant, "arm"), {file: text.encode()}).files == dict.fromkeys(expected, file)
+
+
+def test_so_do_those_in_the_package(plant: Config) -> None:
+    folder = plant.root / "modelica/Plant/Robots/Arm"
+    own = {
+        folder / "Own.mo": b"within Plant.Robots.Arm;\nmodel Own\nend Own;\n",
+        folder / "Control/PID.mo": b"within Plant.Robots.Arm.Control; block PID\nend PID;\n",
+        folder / "Control/package.mo": b"within Plant.Robots.Arm;\npackage Control\nend Control;\n",
+    }
+    found = files.users_models(robot(plant, "arm"), own)
+    assert {*found.files} == {"Plant.Robots.Arm.Own", "Plant.Robots.Arm.Control.PID"}
+    assert (found.libraries, found.left_out) == ({}, ())

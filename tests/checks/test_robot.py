@@ -277,7 +277,7 @@ def test_in_a_folder_that_is_not_utf8_the_compiler_gets_copies(
         }
     )
     result = check()
-    assert (status(result, strict=True), len(result.compiled)) == (CheckStatus.RIGHT, 4)
+    assert (status(result, strict=True), len(result.compiled)) == (CheckStatus.RIGHT, 5)
     assert "Bench" in compiler.models
     assert any(root.endswith("/Pumps") for root in compiler.roots)
     assert all(root.encode() for root in compiler.roots)
@@ -363,6 +363,7 @@ def test_a_user_reads_what_is_missing_in_files_around(arm: Path, modelica_librar
     ("files", "models", "roots"),
     [
         ({"Cell.mo": "model Cell\n  Arm.Arm a;\nend Cell;\n"}, ["Cell"], ["Cell.mo"]),
+        ({"Arm/Own.mo": "within Arm;\nmodel Own\n  Arm a;\nend Own;\n"}, ["Arm.Own"], []),
         (
             {
                 "Plant/package.mo": "package Plant\nend Plant;\n",
@@ -375,7 +376,7 @@ def test_a_user_reads_what_is_missing_in_files_around(arm: Path, modelica_librar
         ),
     ],
 )
-def test_models_beside_the_package_are_compiled_with_it(
+def test_models_in_the_package_and_beside_it_are_compiled_with_it(
     arm: Path, modelica_library: Path, compiler: Compiling, files: dict[str, str], models: list[str], roots: list[str]
 ) -> None:
     write(files)
@@ -466,8 +467,8 @@ def test_a_model_whose_new_name_waits_is_not_the_users(arm: Path) -> None:
     loaded = config.load(Path("urdfsync.toml").absolute())
     package = read_package(loaded, loaded.robots[0], BuildOptions(dry=True))
     assert package.conflicting
-    assert "Joints/Elbow.mo" in package.written
-    assert package.files.models_not_in(package.generated.keys() | package.written) == []
+    assert arm / "Joints/Elbow.mo" not in package.own_files
+    assert package.own_files == {}
 
 
 def test_the_package_is_not_compiled_if_names_in_it_mean_nothing(arm: Path, without_library: None) -> None:

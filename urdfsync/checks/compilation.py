@@ -46,7 +46,7 @@ from urdfsync.spelling import counted
 from urdfsync.workers import tell
 
 _USERS = "users"
-"""The job that compiles models of the user's outside of the package."""
+"""The job that compiles models of the user's."""
 _MOST_DIAGNOSTICS = 5
 _LONGEST_MESSAGE = 300
 _SAME_TIME = 1e-7  # s
@@ -72,13 +72,12 @@ class Compilation:
     ) -> None:
         """So many `processes` may compile at a time; copies of the package go below `folder`.
 
-        The models of the user outside of the package, `users`, need more libraries than the package.
+        The models of the user, `users`, need more libraries than the package.
         """
         self._package, self._users, self._processes = package, users, processes
         self._jobs = Jobs(package.robot, tool, needed, package.around, limits, folder)
         # of their own: what can't be read of the user's files would keep the package from being compiled
         self._users_jobs = msgspec.structs.replace(self._jobs, needed=needed_by_users)
-        self._users_models = package.files.models_not_in(package.generated.keys() | package.written)
         self._compiler = compilers.COMPILERS[tool.name]
         self.result = ToolResult(self._compiler.TITLE)
         self.diagnostics: list[Diagnostic] = []
@@ -155,8 +154,7 @@ class Compilation:
     def _model_jobs(self, count: int) -> dict[str, _Job]:
         """Return jobs that compile all models: those of the package in `count` parts, then the user's."""
         package, own = self._package, self._package.robot.target.package
-        models = *package.models, *self._users_models
-        tasks = [msgspec.structs.replace(compile_task(f"{own}.{model}"), title=model) for model in models]
+        tasks = [msgspec.structs.replace(compile_task(f"{own}.{model}"), title=model) for model in package.models]
         jobs: dict[str, _Job] = {
             f"models{number}": (package.files.texts, tasks[number::count]) for number in range(count)
         }
@@ -168,18 +166,16 @@ class Compilation:
     def _note_models(self, jobs: Mapping[str, _Job], done: Mapping[str, Sequence[CompileResult]]) -> None:
         """Take note of the models that were compiled by themselves."""
         compiled, files, users = list[CompiledModel](), self._package.files, self._users
-        failing: dict[str, list[Diagnostic]] = {}  # of the models outside of the package
+        failing: dict[str, list[Diagnostic]] = {}  # of the user's models
         for label, (_, tasks) in jobs.items():
             is_users = label == _USERS
             for task, answer in zip(tasks, done[label], strict=False):
                 self._note_version(answer)
+                if answer.problem and is_users:
+                    failing[task.title] = explain(answer.problem, self._compiler, files, users.files[task.title])
+                    continue
                 if answer.problem:
-                    file = users.files.get(task.title) if is_users else None
-                    faults = explain(answer.problem, self._compiler, files, task.title, file)
-                    if is_users:
-                        failing[task.title] = faults
-                    else:
-                        self.diagnostics += map(_as_part, faults) if task.title in self._users_models else faults
+                    self.diagnostics += explain(answer.problem, self._compiler, files)
                     continue
                 # another model with the same part has it under another name
                 told = {(finding.file, finding.line, finding.code) for finding in self.diagnostics}
@@ -187,8 +183,7 @@ class Compilation:
                 self.diagnostics += [
                     finding for finding in warnings if (finding.file, finding.line, finding.code) not in told
                 ]
-                if is_users or task.title not in self._users_models:
-                    compiled.append(CompiledModel(task.title, answer.unknowns, is_users))
+                compiled.append(CompiledModel(task.title, answer.unknowns, is_users))
         order = [*self._package.models, *users.files]
         self.result.compiled = tuple(sorted(compiled, key=lambda model: order.index(model.model)))
         parts = {part for model in compiled if model.is_users for part in users.uses.get(users.files[model.model], ())}
@@ -212,7 +207,7 @@ class Compilation:
                 except (UrdfsyncError, OSError) as error:
                     done[label], faults = [], findings_of(error)
                     if label == _USERS:  # the package itself may be right
-                        self.gaps.append(f"your models outside of the package were not compiled: {faults[0].sentence}")
+                        self.gaps.append(f"your models were not compiled: {faults[0].sentence}")
                     else:
                         self.diagnostics += faults
         return done
@@ -338,16 +333,12 @@ def edit_effects(
         yield effect(quiet or files, rest)
 
 
-def explain(
-    problem: str, compiler: Compiler, package: PackageTexts, model: str = "", file: Path | None = None
-) -> list[Diagnostic]:
-    """Return findings for a compiler's text about `model`, a name below the package, with the files that people know.
+def explain(problem: str, compiler: Compiler, package: PackageTexts, file: Path | None = None) -> list[Diagnostic]:
+    """Return findings for a compiler's text about a model, with the files that people know.
 
-    `file` is that of a model of the user's outside of the package.
+    `file` is that of a model of the user's.
     """
-    path = f"{model.replace('.', '/')}.mo"
-    users_file = str(package.folder / path) if path in package.texts and path not in package.owners else ""
-    users_file = str(file) if file else users_file
+    users_file = str(file) if file else ""
     if (balance := _BALANCE.search(problem)) and balance[1] != balance[2]:
         equations, unknowns = (int(number.replace(",", "")) for number in balance.groups())
         lacking = abs(equations - unknowns)

@@ -9,7 +9,7 @@ from __future__ import annotations
 import codecs
 import os
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from pathlib import Path, PurePosixPath
+from pathlib import Path
 
 import msgspec
 
@@ -48,14 +48,6 @@ class PackageTexts(msgspec.Struct, frozen=True):
         """Return the text of a file; bytes that are not UTF-8 are replaced."""
         return self.texts[path].decode("utf-8", "replace")
 
-    def models_not_in(self, generated: Collection[str]) -> list[str]:
-        """Return the user's models and blocks that are files and not partial, by their names below the package."""
-        return [
-            ".".join(path.with_suffix("").parts)
-            for path in map(PurePosixPath, sorted(self.texts.keys() - {*generated}))
-            if path.suffix == ".mo" and path.stem in _models_in(parse(self.text(str(path))).classes, ())
-        ]
-
     def diagnostic(
         self, severity: Severity, code: str, message: str, path: str, line: int = 0, column: int = 0, hint: str = ""
     ) -> Diagnostic:
@@ -85,8 +77,8 @@ class RobotPackage(msgspec.Struct):
     """Whether it is out of step because edits and new texts contradict each other."""
     generated: Mapping[str, bytes]
     """The files of the package as it is generated, by their path below it."""
-    written: frozenset[str]
-    """The files that urdfsync wrote, by their path below it; with those of elements whose new names wait."""
+    own_files: Mapping[Path, bytes]
+    """The user's own files of Modelica in it."""
     files: PackageTexts
     """The texts that count: the package on disk, or what a build would write."""
     around: Mapping[str, bytes]
@@ -116,7 +108,11 @@ def read_package(config: Config, robot: RobotConfig, options: BuildOptions) -> R
     benches = {f"{name.replace('.', '/')}.mo" for name in models[1:]}
     shared = [path for path in sorted(generated.keys() & on_disk.keys()) if path.endswith(".mo")]
     edited = [path for path in shared if normalised(on_disk[path]) != generated[path]] if in_step else []
+    # elements whose new names wait are on disk by their old ones
     keys = (key for action in built.actions for key in (action.path, action.origin) if key)
+    written = {Path(os.path.normpath(config.root / key)) for key in keys}
+    written.update(robot.folder / path for path in generated)
+    own_files = {robot.folder / path: text for path, text in on_disk.items() if path.endswith(".mo")}
     owners = {path: artifact.owner for path, artifact in generation.package.artifacts.items()}
     return RobotPackage(
         robot=robot,
@@ -127,7 +123,7 @@ def read_package(config: Config, robot: RobotConfig, options: BuildOptions) -> R
         in_step=in_step,
         conflicting=bool(built.conflicts),
         generated=generated,
-        written=frozenset(Path(os.path.relpath(config.root / key, robot.folder)).as_posix() for key in keys),
+        own_files={path: text for path, text in own_files.items() if path not in written},
         files=PackageTexts(robot.target.package, robot.folder, texts, owners, edited),
         around=files_around(config, robot, texts),
         users_files=users_files(config, robot),
@@ -175,7 +171,7 @@ def users_files(config: Config, robot: RobotConfig) -> dict[Path, bytes]:
 
 
 class UsersModels(msgspec.Struct, frozen=True):
-    """The user's models outside of the package, as far as they can be compiled."""
+    """The user's models, in the package and outside of it, as far as they can be compiled."""
 
     files: Mapping[str, Path]
     """The file of each model, by its full name: of each model or block that is not partial."""

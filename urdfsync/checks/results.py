@@ -79,7 +79,7 @@ class CompiledModel(msgspec.Struct, frozen=True):
     unknowns: int
     """Scalar unknowns, and so many equations; 0 if the compiler does not say."""
     is_users: bool = False
-    """Whether it is the user's, outside of the package; then `model` is its full name."""
+    """Whether it is the user's; then `model` is its full name."""
 
 
 class EditEffect(msgspec.Struct, frozen=True):
@@ -121,7 +121,7 @@ class ToolResult(msgspec.Struct):
     """The compiler with its version."""
     compiled: tuple[CompiledModel, ...] = ()
     failing: tuple[str, ...] = ()
-    """Full names of the user's models outside of the package that do not compile by themselves."""
+    """Full names of the user's models that do not compile by themselves."""
     deviations: tuple[Deviation, ...] | None = None
     """Of the package as it is generated, without edits, from the reference; None if that was not compared."""
     effects: tuple[EditEffect, ...] = ()

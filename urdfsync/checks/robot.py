@@ -106,7 +106,7 @@ def _check(
     if problem := _find_missing(config, options, needed, result):
         result.gaps = (f"nothing was compiled: {problem.message}; {problem.hint}",)
         return
-    users = users_models(robot, names.users_files, names.uses)
+    users = users_models(robot, {**package.own_files, **names.users_files}, names.uses)
     if users.left_out:
         files = listed([shown(path) for path in users.left_out])
         result.gaps += (f"{files} outside of the package: nothing there was compiled",)
