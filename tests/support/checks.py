@@ -92,7 +92,6 @@ class Compiler:
     TITLE = "the compiler"
     MODULES: tuple[str, ...] = ()
     INSTALL = "install it"
-    REPORT = "report it"
     METHODS: tuple[str, ...] = ()
     HAS_STANDARD_LIBRARY = False
     STARTS_PROGRAMS = False

@@ -96,7 +96,7 @@ def run_job(
             task = job.tasks[min(len(error.results), len(job.tasks) - 1)].title
             message = f"{compiler.TITLE} crashed at {task}: {error}"
             killed = "probably the system was out of memory: check fewer robots at a time (--jobs)"
-            hint = killed if error.was_killed else compiler.REPORT
+            hint = killed if error.was_killed else f"report it to the authors of {compiler.TITLE}"
             raise CompilerError(Diagnostic(Severity.ERROR, "compiler-crashed", message, hint=hint)) from error
 
 

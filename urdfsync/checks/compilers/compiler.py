@@ -133,8 +133,6 @@ class Compiler(Protocol):
     """The modules that have to be installed."""
     INSTALL: str
     """How to get it, as a hint."""
-    REPORT: str
-    """The hint when the compiler crashes."""
     METHODS: tuple[str, ...]
     """Methods of integration."""
     HAS_STANDARD_LIBRARY: bool

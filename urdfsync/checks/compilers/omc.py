@@ -34,7 +34,6 @@ from urdfsync.processes import exit_cause
 TITLE = "OpenModelica"
 MODULES: tuple[str, ...] = ("scipy",)
 INSTALL = "install OpenModelica, or name its program with `omc` in the table `[check]`"
-REPORT = "report it to the authors of OpenModelica"
 METHODS: tuple[str, ...] = ("dassl", "ida", "cvode", "rungekutta", "euler")
 HAS_STANDARD_LIBRARY = True
 STARTS_PROGRAMS = True
@@ -210,7 +209,7 @@ def _ask(job: CompileJob, folder: Path, calls: Sequence[str], seconds: float | N
         if len(calls) == 1:
             raise ImportError(": ".join(filter(None, (exit_cause(done.returncode), *last_words))))
         message = f"OpenModelica ended at `{calls[len(answers)]}` ({exit_cause(done.returncode)})"
-        hint = f"{job.tasks[0].title}: {REPORT}"
+        hint = f"{job.tasks[0].title}: report it to the authors of {TITLE}"
         raise CompilerError(
             Diagnostic(Severity.ERROR, "compiler-crashed", ": ".join((message, *last_words)), hint=hint)
         )

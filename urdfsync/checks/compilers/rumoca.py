@@ -33,7 +33,6 @@ if TYPE_CHECKING:
 TITLE = "rumoca"
 MODULES: tuple[str, ...] = ("rumoca",)
 INSTALL = install_command("check")
-REPORT = "report it to the authors of rumoca"
 METHODS: tuple[str, ...] = ("auto", "bdf", "rk-like")
 HAS_STANDARD_LIBRARY = False
 STARTS_PROGRAMS = False
