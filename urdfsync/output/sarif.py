@@ -28,7 +28,9 @@ def log(sections: Iterable[Section], findings: Sequence[Diagnostic], code: int) 
     """
     of_robots = ((*section.findings, *filter(None, [section.verdict])) for section in sections)
     told = dict.fromkeys([*findings, *(finding for group in of_robots for finding in group)])
-    top, meanings = _top(), read_meanings()
+    folder, meanings = config.working_folder(), read_meanings()
+    # the top of the repository around the working folder, else that folder
+    top = next((place for place in (folder, *folder.parents) if (place / ".git").exists()), folder)
     results, notifications = [], []
     for finding in told:
         values = {"level": str(finding.severity), "message": {"text": finding.sentence}}
@@ -71,9 +73,3 @@ def _location(finding: Diagnostic, top: Path) -> dict[str, Any]:
         return {"artifactLocation": {"uri": file.as_uri()}, "region": region}
     uri = quote(file.relative_to(top).as_posix())
     return {"artifactLocation": {"uri": uri, "uriBaseId": "%SRCROOT%"}, "region": region}
-
-
-def _top() -> Path:
-    """Return the top of the repository around the working folder, else that folder."""
-    folder = config.working_folder()
-    return next((place for place in (folder, *folder.parents) if (place / ".git").exists()), folder)
