@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 import sys
+from collections import Counter
 from collections.abc import Collection, Iterator, Sequence
 
 from urdfsync.checks.results import (
@@ -23,12 +24,12 @@ from urdfsync.output.sections import Mark, Section, Table
 from urdfsync.spelling import counted
 
 _STYLES = {
-    "right": ("✓", "green"),
-    "incomplete": ("?", "magenta"),
-    "out of step": ("!", "yellow"),
-    "not built": ("!", "yellow"),
-    "differs": ("≠", "bold red"),
-    "failed": ("✗", "bold red"),
+    CheckStatus.RIGHT: ("✓", "green"),
+    CheckStatus.INCOMPLETE: ("?", "magenta"),
+    CheckStatus.OUT_OF_STEP: ("!", "yellow"),
+    CheckStatus.NOT_BUILT: ("!", "yellow"),
+    CheckStatus.DIFFERS: ("≠", "bold red"),
+    CheckStatus.FAILED: ("✗", "bold red"),
 }
 _STATED = {
     Quantity.WARNING: "the warning “{detail}” does not come where it should, or comes elsewhere",
@@ -39,7 +40,7 @@ _STATED = {
 
 def robot_lines(result: CheckResult, *, verbose: bool = False) -> Iterator[StyledLine]:
     """Yield all lines about one robot alone."""
-    mark, style = _STYLES[result.verdict]
+    mark, style = _STYLES[result.status]
     sign = f"{mark} " if has_marks(sys.stdout) else ""
     yield line((sign, style), (result.robot, "bold"), (f": {result.summary}", ""))
     sentences = _sentences(result)
@@ -166,8 +167,8 @@ def closing_lines(results: Sequence[CheckResult]) -> Iterator[StyledLine]:
             which = "" if len(results) == 1 else f" ({who})"
             yield line((f"{label}: ", "bold"), (f"{sentence}{which}", ""))
     if len(results) > 1:
-        verdicts = [result.verdict for result in results]
-        tally = ", ".join(f"{verdicts.count(word)} {word}" for word in _STYLES if word in verdicts)
+        counts = Counter(result.status for result in results)
+        tally = ", ".join(f"{counts[status]} {status}" for status in CheckStatus if counts[status])
         yield line((f"{counted(len(results), 'robot')}: {tally}", "bold"))
 
 
@@ -179,11 +180,11 @@ def to_section(result: CheckResult) -> Section:
         for part, each in worst(result.deviations).items()
     ]
     finding = None
-    if status in (CheckStatus.DIFFERS, CheckStatus.INCOMPLETE):
+    if status not in (CheckStatus.RIGHT, CheckStatus.FAILED):
         file = f"{result.folder}/package.mo" if result.folder else ""
         told = next(iter(sentences), result.summary)
         severity = Severity.NOTE if status is CheckStatus.INCOMPLETE else Severity.WARNING
-        finding = Diagnostic(severity, str(status), f"{result.package}: {told}", file)
+        finding = Diagnostic(severity, status.replace(" ", "-"), f"{result.package}: {told}", file)
     marks = {CheckStatus.RIGHT: Mark.FINE, CheckStatus.FAILED: Mark.WRONG}
     points = [*sentences, *(f"not compared: {sentence}" for sentence in dict.fromkeys(result.unchecked))]
     table = Table(f"Compared with {result.reference}", ("", "", "Worst"), rows)

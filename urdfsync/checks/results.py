@@ -67,6 +67,8 @@ class CheckStatus(enum.StrEnum):
     RIGHT = "right"
     INCOMPLETE = "incomplete"
     """Nothing is wrong as far as it was checked, but something could not be that should have been."""
+    OUT_OF_STEP = "out of step"
+    NOT_BUILT = "not built"
     DIFFERS = "differs"
     FAILED = "failed"
 
@@ -213,17 +215,11 @@ class CheckResult(msgspec.Struct):
         """The verdict; if `strict`, a difference that comes from an edit counts as well."""
         if self.failed:
             return CheckStatus.FAILED
-        if self.differs or not self.in_step or (self.strict and self.is_changed_by_edits):
+        if self.differs or (self.strict and self.is_changed_by_edits):
             return CheckStatus.DIFFERS
+        if not self.in_step:
+            return CheckStatus.OUT_OF_STEP if self.built else CheckStatus.NOT_BUILT
         return CheckStatus.INCOMPLETE if self.gaps else CheckStatus.RIGHT
-
-    @property
-    def verdict(self) -> str:
-        """The status in a word or two."""
-        is_other = self.differs or (self.strict and self.is_changed_by_edits)
-        if self.status is not CheckStatus.DIFFERS or is_other:
-            return str(self.status)
-        return "out of step" if self.built else "not built"
 
     @property
     def summary(self) -> str:
@@ -242,7 +238,7 @@ class CheckResult(msgspec.Struct):
         elif not errors:
             facts.append("syntax and layout")
         facts += [f"{part} {part_word(deviation)}" for part, deviation in self.worst.items()]
-        return f"{self.verdict}: {'; '.join(facts)}; {self.seconds:.1f} s"
+        return f"{self.status}: {'; '.join(facts)}; {self.seconds:.1f} s"
 
     @property
     def worst(self) -> Mapping[Part, Deviation]:
@@ -270,12 +266,12 @@ def worst(deviations: Iterable[Deviation]) -> dict[Part, Deviation]:
 
 
 def exit_code(results: Iterable[CheckResult]) -> Exit:
-    """Return 2 if anything failed, 1 if anything differs or, if `strict`, is incomplete, else 0."""
-    verdicts = {(result.status, result.strict) for result in results}
-    if CheckStatus.FAILED in {status for status, _ in verdicts}:
+    """Return 2 if anything failed, 0 if all is right or, unless `strict`, incomplete, else 1."""
+    wrong = {result.status for result in results if result.strict or result.status is not CheckStatus.INCOMPLETE}
+    wrong.discard(CheckStatus.RIGHT)
+    if CheckStatus.FAILED in wrong:
         return Exit.ERROR
-    wrong = {(CheckStatus.DIFFERS, True), (CheckStatus.DIFFERS, False), (CheckStatus.INCOMPLETE, True)}
-    return Exit.OUT_OF_STEP if verdicts & wrong else Exit.IN_STEP
+    return Exit.OUT_OF_STEP if wrong else Exit.IN_STEP
 
 
 def listed(names: Sequence[str]) -> str:
