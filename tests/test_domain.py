@@ -109,7 +109,8 @@ def test_options(case: Case) -> None:
     assert msgspec.convert(msgspec.to_builtins(case.options), case.domain.options) == case.options
     with pytest.raises(AttributeError, match="immutable"):
         setattr(case.options, fields[0].name, None)
-    assert list(case.domain.check_options(case.snapshot, case.options)) == [], "defaults suit every model"
+    reading = case.domain.read(SAMPLES[case.domain.name][0], "sample", case.options)
+    assert reading.option_findings == (), "defaults suit every model"
     values = {proposal.option: proposal.value for proposal in case.domain.propose(case.snapshot, ())}
     assert values.keys() <= known
     msgspec.convert(values, case.domain.options)

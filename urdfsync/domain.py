@@ -200,6 +200,11 @@ class Reading(msgspec.Struct, frozen=True):
     diagnostics: tuple[Diagnostic, ...]
     lines: Mapping[str, int] = msgspec.field(default_factory=dict)
     """Line of each element, keyed as the domain likes; passed back to `Domain.dependencies`."""
+    option_findings: tuple[tuple[str, Diagnostic], ...] = ()
+    """Findings about options for this model: the option, and a diagnostic without place.
+
+    An error stops the build of the robot. The core adds the line of the configuration.
+    """
 
 
 class Lookup(msgspec.Struct, frozen=True):
@@ -434,6 +439,17 @@ class LoopSignals(msgspec.Struct, frozen=True):
     torque: tuple[str, ...]
 
 
+class Sample(msgspec.Struct, frozen=True):
+    """A source, and what its package is generated with."""
+
+    content: bytes
+    file: str
+    """The source's name in diagnostics."""
+    target: Target
+    options: Any
+    imports: Mapping[str, Import]
+
+
 class Bench(msgspec.Struct, frozen=True):
     """Models and variables of a simulation; models are named below the package."""
 
@@ -536,13 +552,6 @@ class Domain(Protocol):
         return ()
 
     # Options
-
-    def check_options(self, snapshot: Snapshot, options: Any) -> Iterable[tuple[str, Diagnostic]]:
-        """Return findings about options for this model: the option, and a diagnostic without place.
-
-        An error stops the build of the robot. Pure: the core adds the line of the configuration.
-        """
-        return ()
 
     def permissive_options(self) -> Any:
         """Return the options that sources outside of a project are read by: what they permit becomes a warning."""
@@ -649,20 +658,12 @@ class Domain(Protocol):
         """
         return None
 
-    def experiment(
-        self,
-        content: bytes,
-        file: str,
-        target: Target,
-        options: Any,
-        imports: Mapping[str, Import],
-        step: float | None = None,
-    ) -> Experiment | str:
+    def experiment(self, sample: Sample, step: float | None = None) -> Experiment | str:
         """Return a comparison of the generated package with an independent reference, or why there is none.
 
-        `file` is the source's name in diagnostics. What the source lacks for a telling comparison (inertias, say) is
-        made up. With a `step`, in s, there is something to draw: `Trial.over_time`. It runs in a process of its own.
-        Raises SourceError if the reference can't be had or can't read it.
+        What the source lacks for a telling comparison (inertias, say) is made up. With a `step`, in s, there is
+        something to draw: `Trial.over_time`. It runs in a process of its own. Raises SourceError if the reference can't
+        be had or can't read it.
         """
         return "there is no reference for such packages"
 

@@ -15,7 +15,7 @@ from support.urdfs import joint, link, robot
 from urdfsync.domain import Target
 from urdfsync.modelica.literals import vector
 from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.model.tables import obstacles
+from urdfsync.urdf.model.record import obstacles
 from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.physics import completion, motion
 from urdfsync.urdf.robot import MOTION_KINDS

@@ -16,7 +16,7 @@ from support import generic
 from support.modelica import URDFSYNC, Task, simulate
 from support.urdfs import dynamics, joint, link, links, robot
 
-from urdfsync.urdf.model.tables import tables as integer_tables
+from urdfsync.urdf.model.record import tables as integer_tables
 from urdfsync.urdf.physics import motion
 from urdfsync.urdf.robot import MOTION_KINDS
 

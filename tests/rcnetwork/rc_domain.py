@@ -92,7 +92,8 @@ class RcNetwork(Domain):
         lines = {name: _line_of_name(text, name) for name in elements}
         snapshot = {"name": network.name, "elements": elements, "signal": network.signal, "drives": network.drives}
         plain = msgspec.json.decode(msgspec.json.encode(snapshot, order="sorted"))
-        return Reading(plain, (), lines | {"signal": _line_of_name(text, network.signal or "")})
+        lines["signal"] = _line_of_name(text, network.signal or "")
+        return Reading(plain, (), lines, tuple(_check_options(network, options)))
 
     def dependencies(
         self, snapshot: Snapshot, lookup: Lookup, options: Options, lines: Mapping[str, int]
@@ -115,14 +116,6 @@ class RcNetwork(Domain):
 
     def names(self, snapshot: Snapshot, target: Target) -> Mapping[str, Mapping[str, str]]:
         return {"elements": {name: name for name in snapshot["elements"]}}
-
-    def check_options(self, snapshot: Snapshot, options: Options) -> Iterable[tuple[str, Diagnostic]]:
-        nodes = {node for element in snapshot["elements"].values() for node in element["between"]}
-        if options.prefix in nodes:
-            message, hint = f"`prefix` names `{options.prefix}`, which is a node", "choose another one"
-            yield "prefix", Diagnostic(Severity.ERROR, "prefix-is-node", message, hint=hint)
-        if options.ground and GROUND not in nodes:
-            yield "ground", Diagnostic(Severity.NOTE, "no-ground", "no node is called `ground`")
 
     def artifacts(
         self, snapshot: Snapshot, imports: Mapping[str, Import], target: Target, options: Options
@@ -211,6 +204,15 @@ def _check(network: Network, file: str, text: str) -> Iterator[Diagnostic]:
             yield problem("element-name", f"{element.name!r} is no class name", element.name)
         if (element.ohm is None) == (element.farad is None):
             yield problem("element-value", f"element `{element.name}` needs either `ohm` or `farad`", element.name)
+
+
+def _check_options(network: Network, options: Options) -> Iterable[tuple[str, Diagnostic]]:
+    nodes = {node for element in network.elements for node in element.between}
+    if options.prefix in nodes:
+        message, hint = f"`prefix` names `{options.prefix}`, which is a node", "choose another one"
+        yield "prefix", Diagnostic(Severity.ERROR, "prefix-is-node", message, hint=hint)
+    if options.ground and GROUND not in nodes:
+        yield "ground", Diagnostic(Severity.NOTE, "no-ground", "no node is called `ground`")
 
 
 def _line_of_name(text: str, name: str) -> int:

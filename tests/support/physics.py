@@ -13,7 +13,7 @@ from support.modelica import URDFSYNC, Run, Task, simulate
 from support.packages import Package, generate
 from urdfsync.checks import compilation
 from urdfsync.checks.flags import flagged
-from urdfsync.domain import Deviation, Experiment, Target
+from urdfsync.domain import Deviation, Experiment, Sample, Target
 from urdfsync.urdf.domain import DOMAIN
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.snapshot import to_snapshot
@@ -44,7 +44,7 @@ def prepare(source: bytes | Path, name: str = "Bot", **options: Any) -> Case:
     content = source if isinstance(source, bytes) else source.read_bytes()
     target = Target(name, name)
     package = generate(source, target, **options)
-    experiment = DOMAIN.experiment(content, "robot.urdf", target, Options(**options), package.facts)
+    experiment = DOMAIN.experiment(Sample(content, "robot.urdf", target, Options(**options), package.facts))
     assert isinstance(experiment, Experiment)
     if experiment.content != content:
         package = generate(experiment.content, target, **options)

@@ -194,7 +194,6 @@ def test_a_source_is_read_and_generated_or_has_complete_diagnostics(content: byt
     if reading.snapshot is None:
         return
     assert msgspec.json.decode(msgspec.json.encode(reading.snapshot)) == msgspec.to_builtins(reading.snapshot)
-    list(DOMAIN.check_options(reading.snapshot, options))
     DOMAIN.dependencies(reading.snapshot, Lookup(Path("bot.urdf").absolute()), options, reading.lines)
     DOMAIN.propose(reading.snapshot, reading.diagnostics)
     package = generate(DOMAIN, reading.snapshot, {}, TARGET, options, Templates((templates_folder(DOMAIN),), ""))

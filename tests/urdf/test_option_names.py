@@ -7,7 +7,6 @@ from typing import Any
 
 import pytest
 from support import urdfs
-from support.packages import read
 
 from urdfsync.diagnostics import Severity
 from urdfsync.urdf.domain import DOMAIN
@@ -30,10 +29,9 @@ WITH_DRIVE = CART.replace("</robot>", f"{TRANSMISSION}</robot>")
 
 
 def found(urdf: str = CART, **options: Any) -> list[tuple[str, Severity, str]]:
-    snapshot = read(urdf.encode()).snapshot
-    assert snapshot is not None
-    checked = DOMAIN.check_options(snapshot, Options(**options))
-    return [(option, said.severity, str(said).partition(": ")[2]) for option, said in checked]
+    reading = DOMAIN.read(urdf.encode(), "robot.urdf", Options(**options))
+    assert reading.snapshot is not None
+    return [(option, said.severity, str(said).partition(": ")[2]) for option, said in reading.option_findings]
 
 
 def of(option: str, *names: str) -> list[tuple[str, Severity, str]]:

@@ -6,7 +6,6 @@ import tempfile
 import time
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Any
 
 import msgspec
 
@@ -22,7 +21,7 @@ from urdfsync.checks.process import Limits, limits_of
 from urdfsync.checks.results import CheckOptions, CheckResult, listed
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError, findings_of
-from urdfsync.domain import Experiment
+from urdfsync.domain import Experiment, Sample
 from urdfsync.engine.options import BuildOptions
 from urdfsync.files import shown
 from urdfsync.workers import tell
@@ -140,9 +139,10 @@ def _experiment(package: RobotPackage, options: CheckOptions, result: CheckResul
     tell(f"{robot.name}: asking the reference")
     try:
         generation, file = package.generation, shown(robot.source)
-        content, imports = generation.inputs.source.content, generation.now.imports
-        arguments = robot.domain, content, file, robot.target, robot.options, imports, _STEP if options.curves else None
-        (experiment,) = process.run(_experiments, *arguments, limits=limits)
+        content, imports = generation.inputs.source.content, generation.now.imports or {}
+        sample = Sample(content, file, robot.target, robot.options, imports)
+        step = _STEP if options.curves else None
+        (experiment,) = process.run(_experiments, robot.domain, sample, step, limits=limits)
     except UrdfsyncError as error:
         result.add(error.diagnostics)
         return None
@@ -162,9 +162,9 @@ def _experiment(package: RobotPackage, options: CheckOptions, result: CheckResul
     return experiment
 
 
-def _experiments(domain: str, *arguments: Any) -> Iterator[Experiment | str]:
+def _experiments(domain: str, sample: Sample, step: float | None) -> Iterator[Experiment | str]:
     """Yield the experiment of a domain, in a process of its own."""
-    yield registry.domain(domain).experiment(*arguments)
+    yield registry.domain(domain).experiment(sample, step)
 
 
 def run_compilations(

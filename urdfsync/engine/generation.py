@@ -107,7 +107,7 @@ def _generate(inputs: Inputs) -> Generation:
     findings = [
         *inputs.source.diagnostics,
         *reading.diagnostics,
-        *source.check_options(inputs.config, robot, domain, snapshot),
+        *source.check_options(inputs.config, robot, reading),
         *check_declared(inputs, snapshot),
     ]
     lookup = Lookup(robot.source, robot.package_paths + options.package_paths)

@@ -249,8 +249,8 @@ def _check_templates(folder: Path) -> None:
             raise ConfigError.of("template", message, shown(path), hint=hint)
 
 
-def check_options(config: Config, robot: RobotConfig, domain: Domain, snapshot: Snapshot) -> tuple[Diagnostic, ...]:
-    """Return the domain's findings about the robot's options for this model, at their lines in the configuration.
+def check_options(config: Config, robot: RobotConfig, reading: Reading) -> tuple[Diagnostic, ...]:
+    """Return the findings about the robot's options for this model, at their lines in the configuration.
 
     Raises ConfigError with every option that does not suit the model.
     """
@@ -261,7 +261,7 @@ def check_options(config: Config, robot: RobotConfig, domain: Domain, snapshot: 
             file=shown(config.file),
             line=robot.lines.get(option, robot.lines[""]),
         )
-        for option, said in domain.check_options(snapshot, robot.options)
+        for option, said in reading.option_findings
     )
     if errors := [said for said in findings if said.severity is Severity.ERROR]:
         raise ConfigError(*sorted(errors, key=lambda error: error.line))

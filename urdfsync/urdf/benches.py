@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from urdfsync.domain import Axis, Bench, LoopSignals, Signal, Target
 from urdfsync.urdf.artifacts import has_bench
 from urdfsync.urdf.connectors import connector_names
-from urdfsync.urdf.drives import dependent_joints
+from urdfsync.urdf.drives import assembly
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS, MOTIONS, Joint, JointType, Motion, limits_acceleration
@@ -32,7 +32,7 @@ _FREEDOMS: Mapping[JointType, int] = {"fixed": 0, "planar": 3, "floating": 6}
 
 def bench(tree: KinematicTree, target: Target, options: Options) -> Bench | None:
     """Return how a robot is simulated: by Test and Run of its package, else by the generic robot with its record."""
-    dependent = dependent_joints(tree, options)
+    dependent = assembly(tree, options).dependent
     independent = (joint for joint in tree.joints if joint.mimic is None and joint.name not in dependent)
     freedoms = sum(_FREEDOMS.get(joint.type, 1) for joint in independent)
     freedoms += _FREEDOMS["floating"] if options.base == "floating" else 0

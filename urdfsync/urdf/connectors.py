@@ -10,7 +10,7 @@ from collections.abc import Iterable, Mapping, Sequence
 
 import msgspec
 
-from urdfsync.urdf.drives import can_be_driven, driven_joints, has_motor
+from urdfsync.urdf.drives import assembly, can_be_driven, has_motor
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.names import GENERATED, Identifier, identify
 from urdfsync.urdf.options import Options
@@ -78,7 +78,7 @@ def connector_names(tree: KinematicTree, options: Options) -> Connectors:
         framed = {link.name for link in tree.links}
     else:
         framed = {leaf.name for leaf in tree.leaves()}.union(() if options.frames == "leaves" else options.frames)
-    driven, drives = driven_joints(tree, options), {}
+    driven, drives = assembly(tree, options).driven, {}
     for joint in filter(can_be_driven, tree.joints):
         identifier, motion = tree.joint(joint.name), MOTION_KINDS[joint.type]
         command = joint.command if joint.name in driven else None

@@ -20,6 +20,7 @@ from urdfsync.domain import (
     Order,
     Proposal,
     Reading,
+    Sample,
     Snapshot,
     Target,
 )
@@ -28,13 +29,12 @@ from urdfsync.urdf import artifacts as package
 from urdfsync.urdf import option_names
 from urdfsync.urdf.benches import bench
 from urdfsync.urdf.connectors import connector_options
-from urdfsync.urdf.diff.comparable import comparable
 from urdfsync.urdf.diff.effects import effects, find_doubtful, interface
 from urdfsync.urdf.diff.meanings import describe
-from urdfsync.urdf.diff.renames import find_renames
-from urdfsync.urdf.drives import dependent_joints
+from urdfsync.urdf.diff.renames import comparable, find_renames
+from urdfsync.urdf.drives import assembly
+from urdfsync.urdf.kinematics.loops import find_loop_findings
 from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.loop_findings import find_loop_findings
 from urdfsync.urdf.meshes.lookup import COLORLESS, GLTF, TEXTURED, dependencies, mentioned_files, mesh, suffix
 from urdfsync.urdf.names import identify
 from urdfsync.urdf.options import LeftOut, Options
@@ -44,14 +44,13 @@ from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.plausibility import find_implausible
 from urdfsync.urdf.snapshot import from_snapshot, joints_of, to_snapshot
 from urdfsync.urdf.unsimulated import find_unsimulated, out_of_scope
-from urdfsync.urdf.validate import ADVICE, diagnostic
+from urdfsync.urdf.validate import ADVICE, Finding, diagnostic
 
 WARNINGS = frozenset(
     {
         *(code for code, (severity, _) in ADVICE.items() if severity is not Severity.ERROR),
-        *("floating-not-generic", "moves-no-mass", "name-repeated", "passive-joints", "passive-moves-no-mass"),
         *("mesh-guessed", "mesh-not-found", "mesh-not-found-kept", "mesh-unreadable", "mesh-unreadable-kept"),
-        *("loops-not-in-record", "mass-jump", "mesh-colors", "not-in-record", "planar-not-generic", "texture"),
+        *("mass-jump", "mesh-colors", "name-repeated", "passive-joints", "texture"),
     }
 )
 
@@ -70,21 +69,27 @@ class UrdfDomain(Domain):
         return options.uses
 
     def read(self, content: bytes, file: str, options: Options) -> Reading:
-        """Read a URDF; warn of one without errors also if it is implausible, or can't be simulated."""
+        """Read a URDF; warn of one without errors also if it is implausible, or can't be simulated.
+
+        Names in options are held against the robot.
+        """
         robot, diagnostics, lines, unmodelled = read_robot(content, file, options)
         if robot is None:
             return Reading(None, diagnostics, lines)
         tree = KinematicTree.of(robot)
-        diagnostics += located(find_implausible(tree), file, lines) + unmodelled
-        findings, stated = list(find_loop_findings(tree, options)), {f"loop {loop.name}" for loop in options.loops}
-        # those of loops in the options are told by `check_options`
-        told = located([finding for finding in findings if finding.path not in stated], file, lines)
-        diagnostics += told
-        if any(entry.severity is Severity.ERROR for entry in told):
-            return Reading(None, diagnostics, lines)
-        if not any(ADVICE[finding.code][0] is Severity.ERROR for finding in findings):
-            diagnostics += tuple(find_unsimulated(tree, options, file, lines))
-        return Reading(to_snapshot(robot), diagnostics, lines)
+        closed = assembly(tree, options)
+        about_options = list(option_names.check_options(tree, closed, options))
+        stated, of_source = {f"loop {loop.name}": loop.name for loop in options.loops}, list[Finding]()
+        for finding in find_loop_findings(tree, closed):
+            if name := stated.get(finding.path):
+                about_options.append((f"loops.{name}", diagnostic(finding.code, finding.message, 0, finding.hint)))
+            else:
+                of_source.append(finding)
+        diagnostics += located(find_implausible(tree), file, lines) + unmodelled + located(of_source, file, lines)
+        if not closed.faults:
+            diagnostics += located(find_unsimulated(tree, closed, options), file, lines)
+        is_wrong = any(entry.severity is Severity.ERROR for entry in diagnostics)
+        return Reading(None if is_wrong else to_snapshot(robot), diagnostics, lines, tuple(about_options))
 
     def beside(self, source: Path) -> Path:
         """Return the YAML with the loops of a robot."""
@@ -144,23 +149,6 @@ class UrdfDomain(Domain):
         if count:
             message = f"{count} {'mesh has' if count == 1 else 'meshes have'} textures, which become their mean colours"
             yield "", Diagnostic(Severity.NOTE, "texture", message)
-
-    def check_options(self, snapshot: Snapshot, options: Options) -> Iterable[tuple[str, Diagnostic]]:
-        """Hold the names in `driven` and `frames` against the robot, and look at the loops in `loops`."""
-        tree = KinematicTree.of(from_snapshot(snapshot)) if "loops" in snapshot else None
-        dependent = dependent_joints(tree, options) if tree else frozenset[str]()
-        joints = joints_of(snapshot["joints"])
-        yield from option_names.check_options(snapshot["links"], joints, options, dependent)
-        if "record" in options.approach and snapshot.get("loops"):
-            message = "the record approach has no loops: the generic robot would be open"
-            hint = 'take "record" out of `approach`'
-            yield "approach", Diagnostic(Severity.ERROR, "loops-not-in-record", message, hint=hint)
-        if options.loops:
-            yield from option_names.check_loops(snapshot["links"], options)
-            stated = {loop.name for loop in options.loops}
-            for code, path, message, hint in find_loop_findings(tree, options) if tree else ():
-                if (name := path.removeprefix("loop ")) in stated:
-                    yield f"loops.{name}", diagnostic(code, message, 0, hint)
 
     def permissive_options(self) -> Options:
         """Allow all that can be left out of a model."""
@@ -227,22 +215,14 @@ class UrdfDomain(Domain):
         if reading.snapshot is None:
             return None
         robot = from_snapshot(reading.snapshot)
-        findings = out_of_scope(KinematicTree.of(robot), file, reading.lines)
-        return package.record(robot, target, options), tuple(findings)
+        findings = out_of_scope(KinematicTree.of(robot))
+        return package.record(robot, target, options), located(findings, file, reading.lines)
 
-    def experiment(
-        self,
-        content: bytes,
-        file: str,
-        target: Target,
-        options: Options,
-        imports: Mapping[str, Import],
-        step: float | None = None,
-    ) -> Experiment | str:
+    def experiment(self, sample: Sample, step: float | None = None) -> Experiment | str:
         """Return the comparison with Pinocchio, or why a robot has none, such as one with planar or floating joints."""
         from urdfsync.urdf.physics.experiment import experiment  # with numpy, which no build needs
 
-        return experiment(content, file, target, options, imports, step)
+        return experiment(sample, step)
 
     def wiring(
         self, texts: Mapping[str, bytes], snapshot: Snapshot, target: Target, options: Options

@@ -5,55 +5,37 @@ that the source only measures, and where it drives any other joint, continuous o
 Other joints without a drive are driven all the same, since transmissions are often left out: a joint with a limit was
 meant to be moved by something. A source without any drives has no passive joints.
 
-Loops leave fewer freedoms than joints: then no more of these joints are driven than the loops allow.
+Loops leave fewer freedoms than joints: then no more of these are driven, see `kinematics.loops.Assembly`.
 """
 
 from __future__ import annotations
 
 import functools
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
 
+from urdfsync.urdf.kinematics.loops import Assembly
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import FrictionLaw, Options
 from urdfsync.urdf.robot import MOTION_KINDS, Joint
-from urdfsync.urdf.validate import Finding
-
-if TYPE_CHECKING:
-    from urdfsync.urdf.kinematics.loops import Assembly
 
 
-def driven_joints(tree: KinematicTree, options: Options) -> frozenset[str]:
-    """Return the names of the joints that Run and Test drive: of `wanted_joints`, as many as loops leave free."""
-    closed = assembly(tree, options)
-    return frozenset(closed.driven) if closed else wanted_joints(tree.joints, options)
+def assembly(tree: KinematicTree, options: Options) -> Assembly:
+    """Return how the loops of a robot are closed, and which joints Run and Test drive.
 
-
-def dependent_joints(tree: KinematicTree, options: Options) -> frozenset[str]:
-    """Return the names of the joints whose positions follow from those of other joints through loops."""
-    closed = assembly(tree, options)
-    return frozenset(closed.joints).difference(closed.states) if closed else frozenset()
-
-
-def assembly(tree: KinematicTree, options: Options) -> Assembly | None:
-    """Return how the loops of a robot are closed; None if it has none, or some whose faults are told."""
-    closed = assemble_loops(tree, options)
-    return None if isinstance(closed, tuple) else closed
-
-
-def assemble_loops(tree: KinematicTree, options: Options) -> Assembly | tuple[Finding, ...] | None:
-    """Return how the loops of a robot are closed, or why they can't be; None for a robot without loops."""
+    These are the `wanted_joints`, as many of them as loops leave free.
+    """
+    wanted = wanted_joints(tree.joints, options)
     if not tree.loops:
-        return None
+        return Assembly(driven=wanted)
     actuated = {joint.name for joint in tree.joints if joint.actuated}
     named = actuated.union(options.commands) if options.driven is None else options.driven
-    return _assemble(tree, wanted_joints(tree.joints, options), frozenset(named))
+    return _assemble(tree, wanted, frozenset(named))
 
 
 @functools.lru_cache(maxsize=2)
-def _assemble(tree: KinematicTree, wanted: frozenset[str], named: frozenset[str]) -> Assembly | tuple[Finding, ...]:
+def _assemble(tree: KinematicTree, wanted: frozenset[str], named: frozenset[str]) -> Assembly:
     """Close loops. The last results are kept: a build asks ten times, for two versions, and one takes 40 ms."""
-    from urdfsync.urdf.kinematics.loops import assemble  # 60 ms for numpy, which a robot without loops does not need
+    from urdfsync.urdf.kinematics.assemble import assemble  # 60 ms for numpy, which few robots need
 
     return assemble(tree, wanted, named)
 

@@ -15,24 +15,25 @@ from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.spelling import nearest
 from urdfsync.urdf import validate
 from urdfsync.urdf.drives import can_be_driven, chosen_law, is_chosen, passive_joints, wanted_joints
+from urdfsync.urdf.kinematics.loops import Assembly
 from urdfsync.urdf.kinematics.poses import own_range
+from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.names import natural_key
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.parse.loops import configured_loops
 from urdfsync.urdf.robot import Joint, reflected_inertia
 
 _DRIVABLE = "revolute, continuous or prismatic joint without <mimic>"
+_NO_RECORD = 'take "record" out of `approach`'
 _DRIVEN = f"{_DRIVABLE} that Run and Test drive"
 
 
-def check_options(
-    links: Collection[str], joints: Sequence[Joint], options: Options, dependent: Set[str]
-) -> Iterator[tuple[str, Diagnostic]]:
+def check_options(tree: KinematicTree, closed: Assembly, options: Options) -> Iterator[tuple[str, Diagnostic]]:
     """Yield diagnostics about a robot's options, each with the name of its option, and without file and line.
 
-    `links` are the names of all links, `dependent` joints follow from others through loops. The record approach has no
-    use for these options, but for `start`.
+    The record approach has no use for most options.
     """
+    links, joints = [link.name for link in tree.links], tree.joints
     ranges = {joint.name: own_range(joint) for joint in joints if can_be_driven(joint)}
     drivable, driven = list(ranges), wanted_joints(joints, options)
     checks: list[tuple[str, Sequence[str], Collection[str], str, str]] = [
@@ -71,11 +72,10 @@ def check_options(
     if "package" in options.approach:
         yield from _check_laws(joints, options)
     if "package" in options.approach and options.driven is None:
-        yield from _find_passive(joints, passive_joints(joints) - driven - dependent)
-
-
-def check_loops(links: Collection[str], options: Options) -> Iterator[tuple[str, Diagnostic]]:
-    """Yield errors about loops in the options that can't be built, each with the name of its option."""
+        yield from _find_passive(joints, passive_joints(joints) - driven - closed.dependent)
+    if "record" in options.approach and tree.loops:
+        message = "the record approach has no loops: the generic robot would be open"
+        yield "approach", Diagnostic(Severity.ERROR, "loops-not-in-record", message, hint=_NO_RECORD)
     for finding in validate.check_loops(configured_loops(options.loops), links):
         name = finding.path.removeprefix("loop ").partition(" #")[0]
         yield f"loops.{name}", validate.diagnostic(finding.code, finding.message, 0, finding.hint)

@@ -153,12 +153,20 @@ _WARNINGS = {
     "angle-unit": "write angles in rad",
     "zero-limits": "correct the limits, or make the joint fixed",
     "shape-far": "correct its origin; write it in m",
+    # what no simulation can move
+    "passive-moves-no-mass": "give a link behind it an <inertial>, drive it (`driven`), or make it a fixed joint",
+    "moves-no-mass": "give the link right behind it an <inertial>, or make it a fixed joint",
+    "loops-not-in-record": "generate a package for it",
+    "planar-not-generic": "write it as two prismatic joints and a continuous one, or use the package approach",
+    "floating-not-generic": "write it as three prismatic joints and three continuous ones, or use the package "
+    'approach; if the root link has no other joint, remove both and set `base = "floating"` in a project',
 }
 _NOTES = {
     "loop-by-name": "state it as `loops` in the configuration if it is of another kind",
     "loop-closed": "a start pose that closes it is in the record of starts",
     "loop-weaker": "nothing is to be done: the motion is the same",
     "second-reader-failed": "go by the reading of urdfsync alone",
+    "not-in-record": 'add "package" to `approach` for them',
     "not-modelled": "list them with their lines by --verbose",
 }
 

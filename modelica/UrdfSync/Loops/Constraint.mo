@@ -115,9 +115,5 @@ another closed pose.
 <tr><td>fixed</td><td>x, y, z</td><td>x, y; y, z; z, x</td></tr>
 <tr><td>planar loop with axes along z</td><td>x, y</td><td></td></tr>
 </table>
-<p>
-Parts of the Modelica Standard Library do the same for one kind of joint each. Its <code>RevolutePlanarLoopConstraint</code> stops a simulation
-where the loop leaves its plane by 1e-10 m, which the rounded numbers of an export do by far more; this model reports it in <code>gap</code>.
-</p>
 </html>"));
 end Constraint;

@@ -24,9 +24,5 @@ them to the other joints.
 are parallel: five equations would hold them twice, and no compiler solves that. So the pin of a planar loop has two equations, in its plane, and no force
 perpendicular to it. Which of a loop's equations are independent, urdfsync finds out.
 </p>
-<p>
-<strong>The start.</strong> A four-bar has three joints in its tree, and one freedom. So the start of one joint is a start, that of the others a guess: from there the
-compiler goes to the closest pose that is closed, and to the speeds that keep it closed.
-</p>
 </html>"));
 end Loops;

@@ -9,7 +9,7 @@ import pytest
 from msgspec.structs import replace
 from support.loops import FOUR_BAR, ROBOTS, to_urdf
 
-from urdfsync.domain import Target
+from urdfsync.domain import Sample, Target
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.physics.closing import OpenLoopError
@@ -21,7 +21,7 @@ from urdfsync.urdf.robot import Origin, Robot
 
 def subject(robot: Robot) -> Subject:
     content = completed_for_pinocchio(to_urdf(robot).encode()).content
-    return Subject(content, "robot.urdf", KinematicTree.of(robot), Target("Bot", "Bot"), Options(), {})
+    return Subject(Sample(content, "robot.urdf", Target("Bot", "Bot"), Options(), {}), KinematicTree.of(robot))
 
 
 def test_a_four_bar_closes_as_its_triangles_do() -> None:

@@ -12,7 +12,7 @@ from support.urdfs import dynamics, joint, link, links, robot
 
 from urdfsync.checks.compilation import compare_all
 from urdfsync.diagnostics import SourceError
-from urdfsync.domain import TOLERANCE, Experiment, Part, Quantity, Target
+from urdfsync.domain import TOLERANCE, Experiment, Part, Quantity, Sample, Target
 from urdfsync.urdf.domain import DOMAIN
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.physics.reference import read
@@ -29,7 +29,7 @@ BARE = robot(link("base"), link("arm"), joint("elbow", "continuous", "base", "ar
 
 
 def experiment(urdf: str, step: Any = None, **options: Any) -> Experiment:
-    found = DOMAIN.experiment(urdf.encode(), "robot.urdf", BOT, Options(**options), {}, step)
+    found = DOMAIN.experiment(Sample(urdf.encode(), "robot.urdf", BOT, Options(**options), {}), step)
     assert isinstance(found, Experiment)
     return found
 
@@ -92,7 +92,7 @@ def test_without_pinocchio_there_is_no_experiment(monkeypatch: pytest.MonkeyPatc
 def test_a_robot_with_a_joint_that_nothing_drives_is_not_compared(kind: str, approach: tuple[str, ...]) -> None:
     loose = ELBOW.replace('type="revolute"', f'type="{kind}"').encode()
     options = Options(approach=approach)  # type: ignore[arg-type]
-    assert DOMAIN.experiment(loose, "robot.urdf", BOT, options, {}) == (
+    assert DOMAIN.experiment(Sample(loose, "robot.urdf", BOT, options, {})) == (
         f"joint elbow is {kind}, and nothing prescribes how it moves"
     )
 

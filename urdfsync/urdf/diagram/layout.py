@@ -301,60 +301,55 @@ def _lines(
         component, _, port = end.partition(".")
         return placements[component].port(port) if port else placements[component].centre
 
-    def connect_frames(start: str, end: str, link: str) -> None:
-        start_point, end_point, (trunk, _) = place(start), place(end), grid.links[link]
-        lines[start, end] = "frame", _path([start_point, (trunk, start_point[1]), (trunk, end_point[1]), end_point])
+    def route(kind: LineKind, start: str, end: str, *bends: Point) -> None:
+        lines[start, end] = kind, _path([place(start), *bends, place(end)])
 
-    for name in grid.links:
+    def route_frames(start: str, end: str, x: int) -> None:
+        route("frame", start, end, (x, place(start)[1]), (x, place(end)[1]))
+
+    for name, (trunk, _) in grid.links.items():
         frame_a = f"{tree.link(name).component}.frame_a"
         if name == tree.links[0].name:
-            connect_frames("frame_a", frame_a, name)
+            route_frames("frame_a", frame_a, trunk)
         if name in names.frames:
-            connect_frames(frame_a, names.frames[name], name)
+            route_frames(frame_a, names.frames[name], trunk)
         for called in carried[name]:
-            connect_frames(frame_a, f"{names.sensors[called]}.frame_a", name)
+            route_frames(frame_a, f"{names.sensors[called]}.frame_a", trunk)
             if frame := names.sensor_frames.get(called):
-                port = f"{names.sensors[called]}.frame_b"
-                lines[port, frame] = "frame", (place(port), place(frame))
+                route("frame", f"{names.sensors[called]}.frame_b", frame)
         for joint in children.get(name, ()):
-            component = tree.joint(joint.name).component
-            connect_frames(frame_a, f"{component}.frame_a", name)
-            connect_frames(f"{component}.frame_b", f"{tree.link(joint.child).component}.frame_a", joint.child)
+            component, child = tree.joint(joint.name).component, tree.link(joint.child).component
+            route_frames(frame_a, f"{component}.frame_a", trunk)
+            route_frames(f"{component}.frame_b", f"{child}.frame_a", grid.links[joint.child][0])
     for loop in tree.loops:
         component = tree.loop(loop.name).component
-        link, port = f"{tree.link(loop.parent).component}.frame_a", f"{component}.frame_a"
-        link_point, port_point, down = place(link), place(port), grid.descents[loop.name, "frame_a"]
-        lines[link, port] = "frame", _path([link_point, (down, link_point[1]), (down, port_point[1]), port_point])
-        port, link = f"{component}.frame_b", f"{tree.link(loop.child).component}.frame_a"
-        port_point, link_point, down = place(port), place(link), grid.descents[loop.name, "frame_b"]
-        beside = port_point[0] + _TRACK
+        parent, end = (f"{tree.link(link).component}.frame_a" for link in (loop.parent, loop.child))
+        route_frames(parent, f"{component}.frame_a", grid.descents[loop.name, "frame_a"])
+        start, down = f"{component}.frame_b", grid.descents[loop.name, "frame_b"]
+        x, y = place(start)
         # a link that is further left is reached below the joint
-        height = port_point[1] if down > beside else placements[component].y1 - _TRACK
-        bends = [(beside, port_point[1]), (beside, height), (down, height), (down, link_point[1])]
-        lines[port, link] = "frame", _path([port_point, *bends, link_point])
+        height = y if down > x + _TRACK else placements[component].y1 - _TRACK
+        bends = [(x + _TRACK, y), (x + _TRACK, height), (down, height), (down, place(end)[1])]
+        route("frame", start, end, *bends)
     for name, drive in names.drives.items():
-        axis, support = (f"{tree.joint(name).component}.{port}" for port in ("axis", "support"))
-        lines[axis, drive.axis] = drive.motion, (place(axis), place(drive.axis))
-        (x, y), end = place(support), place(drive.support)
-        lines[support, drive.support] = drive.motion, _path([(x, y), (x, y + 2), (end[0], y + 2), end])
+        axis, support, motor = (f"{tree.joint(name).component}.{port}" for port in ("axis", "support", "motor"))
+        route(drive.motion, axis, drive.axis)
+        x, y = place(support)
+        route(drive.motion, support, drive.support, (x, y + 2), (place(drive.support)[0], y + 2))
         if drive.motor:  # its connector stands above that of the axis: the line passes this
-            start, end = f"{tree.joint(name).component}.motor", place(drive.motor)
-            x, y = place(start)
-            lines[start, drive.motor] = "rotational", ((x, y), (x, end[1]), end)
+            route("rotational", motor, drive.motor, (place(motor)[0], place(drive.motor)[1]))
     for joint, mimic in tree.followers():
-        name, coupling = joint.name, names.couplings[joint.name]
-        start, axis = f"{coupling}.follower", f"{tree.joint(name).component}.axis"
-        start_point, end_point = place(start), place(axis)
-        lines[start, axis] = motions[name], _path([start_point, (end_point[0], start_point[1]), end_point])
-        if name in grid.detours:
-            leader = mimic.joint
-            start, axis, (x, y) = f"{coupling}.leader", f"{tree.joint(leader).component}.axis", grid.detours[name]
-            start_point, end_point = place(start), place(axis)
-            bends = [(end_point[0], y)]
+        coupling, leader = names.couplings[joint.name], mimic.joint
+        start, axis = f"{coupling}.follower", f"{tree.joint(joint.name).component}.axis"
+        route(motions[joint.name], start, axis, (place(axis)[0], place(start)[1]))
+        if joint.name in grid.detours:
+            start, axis, (x, y) = f"{coupling}.leader", f"{tree.joint(leader).component}.axis", grid.detours[joint.name]
+            end_x, end_y = place(axis)
+            bends = [(end_x, y)]
             if leader in names.drives:  # its connector stands above the axis: pass it, and the line of its motor
-                aside = end_point[0] + _ASIDE + (_TRACK if names.drives[leader].motor else 0)
-                bends = [(aside, y), (aside, end_point[1] + 2), (end_point[0], end_point[1] + 2)]
-            lines[start, axis] = motions[leader], _path([start_point, (x, start_point[1]), (x, y), *bends, end_point])
+                aside = end_x + _ASIDE + (_TRACK if names.drives[leader].motor else 0)
+                bends = [(aside, y), (aside, end_y + 2), (end_x, end_y + 2)]
+            route(motions[leader], start, axis, (x, place(start)[1]), (x, y), *bends)
     return lines
 
 

@@ -24,6 +24,8 @@ from urdfsync.urdf.snapshot import joints_of
 _Fields: TypeAlias = Sequence[str | int]
 
 _SHAPES = ("visuals", "collisions")
+_STRUCTURE = ("kind", "at", "in_parent", "on_child", "parent", "child")
+"""Fields of sensors and loops that models say."""
 _UNSCALED = lookup.key(Mesh(""))
 """End of the key of a mesh without a scale."""
 _UNITS: Mapping[str, Unit] = {
@@ -72,16 +74,12 @@ def _describe(difference: Difference, old: Version, new: Version, options: Optio
             ]
             reach = _reach(Joint, difference, old, new, options)
             return Meaning(_path([f"joint {name}", *fields]), reach, " → ".join(dict.fromkeys(filter(None, units))))
-        case ("sensors", str(name), *fields):
-            structural = not fields or fields[0] in ("kind", "at", "in_parent", "on_child")
-            reach = ChangeClass.STRUCTURAL if structural else ChangeClass.PARAMETER
-            if "package" not in options.approach:
+        case ("sensors" | "loops" as part, str(name), *fields):
+            is_structural = not fields or fields[0] in _STRUCTURE
+            reach = ChangeClass.STRUCTURAL if is_structural else ChangeClass.PARAMETER
+            if part == "sensors" and "package" not in options.approach:
                 reach = ChangeClass.UNMODELLED
-            return Meaning(_path([f"sensor {name}", *fields]), reach, _unit(fields))
-        case ("loops", str(name), *fields):
-            is_number = bool(fields) and fields[0] not in ("kind", "parent", "child")
-            reach = ChangeClass.PARAMETER if is_number else ChangeClass.STRUCTURAL
-            return Meaning(_path([f"loop {name}", *fields]), reach, _unit(fields))
+            return Meaning(_path([f"{part[:-1]} {name}", *fields]), reach, _unit(fields))
         case ("extensions", str(owner), *fields):
             return Meaning(_path([owner or "robot", *(fields or ["extensions"])]), ChangeClass.UNMODELLED)
     return Meaning(_path(["robot", *difference.path]), ChangeClass.PARAMETER)

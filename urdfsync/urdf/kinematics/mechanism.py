@@ -7,10 +7,10 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from decimal import Decimal
 from typing import Any, NamedTuple
 
-import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
+from urdfsync.urdf.kinematics.loops import Gap
 from urdfsync.urdf.kinematics.poses import dot, start_positions
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.robot import MOTION_KINDS, MOTIONS, Joint, Loop, Origin, Vector
@@ -22,15 +22,6 @@ Equation = tuple[Vector, tuple[float, float, float, float], float]
 AXES: tuple[Vector, Vector, Vector] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 ORIGIN = (0.0, 0.0, 0.0, 1.0)
 _TAU = Decimal("6.283185307179586476925286766559005768394")
-
-
-class Gap(msgspec.Struct, frozen=True):
-    """How far a pose is from closing a loop."""
-
-    distance: float
-    """Between the origins of both frames, in m."""
-    angle: float
-    """Between what the kind of the loop holds together, in rad."""
 
 
 class Rows(NamedTuple):

@@ -3,19 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 from msgspec.structs import replace
 
 from urdfsync.modelica.literals import html
 from urdfsync.urdf.connectors import free_name, taken_names
-from urdfsync.urdf.drives import assembly, can_be_driven, dependent_joints
+from urdfsync.urdf.drives import assembly, can_be_driven
+from urdfsync.urdf.kinematics.loops import Closure
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import MOTION_KINDS, Loop
-
-if TYPE_CHECKING:
-    from urdfsync.urdf.kinematics.loops import Closure
+from urdfsync.urdf.robot import MOTION_KINDS, Joint, Loop
 
 
 class LoopData(NamedTuple):
@@ -33,29 +31,14 @@ class LoopData(NamedTuple):
 def loop_data(tree: KinematicTree, options: Options) -> LoopData:
     """Return the data of a robot's loops; there are no closures if these can't be closed."""
     closed = assembly(tree, options)
-    if closed is None:
-        return LoopData(tree, frozenset(), {}, {})
-    joints = tuple(
-        replace(joint, start=closed.positions[joint.name])
-        if joint.name in closed.joints and can_be_driven(joint)
-        else joint
-        for joint in tree.joints
-    )
-    motions, taken = {joint.name: MOTION_KINDS.get(joint.type) for joint in joints}, taken_names(tree)
-    return LoopData(
-        replace(tree, joints=joints),
-        dependent_joints(tree, options),
-        {
-            name: {
-                "parameter": free_name(tree.joint(name), "Reach", taken),
-                "name": name,
-                "motion": motions[name],
-                "way": way,
-            }
-            for name, way in closed.reach.items()
-        },
-        closed.closures,
-    )
+    taken, joints, reaches = taken_names(tree), list[Joint](), dict[str, Mapping[str, Any]]()
+    for joint in tree.joints:
+        name, is_closed = joint.name, joint.name in closed.joints and can_be_driven(joint)
+        joints.append(replace(joint, start=closed.positions[name]) if is_closed else joint)
+        if name in closed.reach:
+            parameter, motion = free_name(tree.joint(name), "Reach", taken), MOTION_KINDS[joint.type]
+            reaches[name] = {"parameter": parameter, "name": name, "motion": motion, "way": closed.reach[name]}
+    return LoopData(replace(tree, joints=tuple(joints)), closed.dependent, reaches, closed.closures)
 
 
 def loop_title(loop: Loop) -> str:

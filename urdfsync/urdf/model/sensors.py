@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+import msgspec
+
 from urdfsync.urdf.connectors import Connectors
 from urdfsync.urdf.kinematics.tree import KinematicTree
 
@@ -36,17 +38,8 @@ def sensor_models(tree: KinematicTree, names: Connectors) -> list[dict[str, Any]
 
 def sensor_records(tree: KinematicTree, names: Connectors) -> list[dict[str, Any]]:
     """Return the numbers of each sensor."""
-    return [
-        model
-        | {
-            "name": sensor.name,
-            "origin": sensor.origin,
-            "update_rate": sensor.update_rate,
-            "camera": sensor.camera,
-            "lidar": sensor.lidar,
-        }
-        for sensor, model in zip(tree.sensors, sensor_models(tree, names), strict=True)
-    ]
+    models = sensor_models(tree, names)
+    return [msgspec.structs.asdict(sensor) | model for sensor, model in zip(tree.sensors, models, strict=True)]
 
 
 def sensor_outputs(tree: KinematicTree, names: Connectors) -> list[dict[str, Any]]:

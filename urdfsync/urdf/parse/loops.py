@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from xml.etree.ElementTree import Element
 
 import msgspec
@@ -21,11 +21,12 @@ from msgspec.structs import replace
 from urdfsync.urdf import validate
 from urdfsync.urdf.kinematics.poses import Matrix, Pose, across, compose, link_poses, pose
 from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.options import LoopOption, Options
+from urdfsync.urdf.options import LoopFrame, LoopOption, Options
 from urdfsync.urdf.parse.fields import Reader, quoted
 from urdfsync.urdf.robot import Link, Loop, LoopKind, Origin, Robot, Vector
 
-TAGS = ("loop_joint", "drake:ball_constraint")
+_BALL = "drake:ball_constraint"
+TAGS = ("loop_joint", _BALL)
 """Elements of a robot that join two links of the tree; gazebo has a <joint> for it."""
 
 _KINDS: Mapping[str, LoopKind] = {
@@ -40,22 +41,8 @@ _CLOSING = re.compile(r"(closing_.+)_([12])")
 _DIGITS = 12
 
 
-class _End(msgspec.Struct):
-    link: str
-    xyz: Vector = (0.0, 0.0, 0.0)
-    rpy: Vector = (0.0, 0.0, 0.0)
-
-
 class _Named(msgspec.Struct):
     name: str
-
-
-class _Point(msgspec.Struct):
-    value: Vector = (0.0, 0.0, 0.0)
-
-
-class _Axis(msgspec.Struct):
-    xyz: Vector = (1.0, 0.0, 0.0)
 
 
 def find_loop_elements(root: Element) -> Iterator[Element]:
@@ -107,17 +94,21 @@ def read_loops(reader: Reader, root: Element, robot: Robot, options: Options) ->
 
 def configured_loops(loops: Sequence[LoopOption]) -> list[Loop]:
     """Return the loops of the option `loops`, their axes as written."""
-    made = []
-    for loop in loops:
-        (parent, origin), (child, child_origin) = (
-            (end, Origin()) if isinstance(end, str) else (end.link, Origin(end.xyz, end.rpy)) for end in loop.frames
-        )
-        made.append(Loop(loop.name, loop.kind, parent, child, origin, child_origin, loop.axis, loop.child_axis))
-    return made
+    return [_between(loop.name, loop.kind, loop.frames, loop.axis, loop.child_axis) for loop in loops]
+
+
+def _between(name: str, kind: LoopKind, frames: Iterable[str | LoopFrame], axis: Vector, child_axis: Vector) -> Loop:
+    parent, child = (LoopFrame(end) if isinstance(end, str) else end for end in frames)
+    origins = Origin(parent.xyz, parent.rpy), Origin(child.xyz, child.rpy)
+    return Loop(name, kind, parent.link, child.link, *origins, axis, child_axis)
 
 
 def _ends(loop: Loop) -> frozenset[tuple[str, Origin]]:
     return frozenset({(loop.parent, loop.origin), (loop.child, loop.child_origin)})
+
+
+def _vector(reader: Reader, element: Element, place: str, path: str) -> Vector | None:
+    return reader.numbers(element, [place], path, "bad-number", 3)  # type: ignore[return-value] # three numbers
 
 
 def _second_axis(axis: Vector) -> Vector:
@@ -143,25 +134,21 @@ def _read_loop_joint(reader: Reader, element: Element, path: str, name: str) -> 
     if len(ends) != 2:
         reader.add(element, "missing-element", f"{path} has {len(ends)} of the elements <link1> and <link2>")
         return None
-    sides = [reader.read(end, f"{path} / link{number}", _End, path) for number, end in enumerate(ends, start=1)]
-    axis = element.find("axis")
-    direction = (1.0, 0.0, 0.0) if axis is None else reader.read(axis, f"{path} / axis", _Axis, path).xyz
-    (parent, origin), (child, child_origin) = ((side.link, Origin(side.xyz, side.rpy)) for side in sides)
-    return kind and Loop(name, kind, parent, child, origin, child_origin, direction, _second_axis(direction))
+    frames = [reader.read(end, f"{path} / link{number}", LoopFrame, path) for number, end in enumerate(ends, start=1)]
+    axis = _vector(reader, element, "axis@xyz", path) or (1.0, 0.0, 0.0)
+    return kind and _between(name, kind, frames, axis, _second_axis(axis))
 
 
 def _read_ball(reader: Reader, element: Element, path: str, name: str) -> Loop | None:
-    parts = {child.tag.removeprefix("drake:ball_constraint_"): child for child in element}
-    missing = [tag for tag in ("body_A", "body_B") if tag not in parts]
-    if missing:
-        reader.add(element, "missing-element", f"{path} has no <drake:ball_constraint_{missing[0]}>")
-        return None
-    bodies = [reader.read(parts[tag], path, _Named, path).name for tag in ("body_A", "body_B")]
-    points = [
-        reader.read(parts[tag], path, _Point, path).value if tag in parts else (0.0, 0.0, 0.0)
-        for tag in ("p_AP", "p_BQ")
-    ]
-    return Loop(name, "ball", bodies[0], bodies[1], Origin(points[0]), Origin(points[1]))
+    frames = []
+    for body, point in ((f"{_BALL}_body_A", f"{_BALL}_p_AP"), (f"{_BALL}_body_B", f"{_BALL}_p_BQ")):
+        part = reader.find(element, body)
+        if part is None:
+            reader.add(element, "missing-element", f"{path} has no <{body}>")
+            return None
+        place = _vector(reader, element, f"{point}@value", path) or (0.0, 0.0, 0.0)
+        frames.append(LoopFrame(reader.read(part, path, _Named, path).name, place))
+    return _between(name, "ball", frames, (0.0, 0.0, 1.0), (1.0, 0.0, 0.0))
 
 
 def _read_joint(reader: Reader, element: Element, path: str, name: str, poses: Mapping[str, Pose]) -> Loop | None:
@@ -172,15 +159,14 @@ def _read_joint(reader: Reader, element: Element, path: str, name: str, poses: M
         if not link:
             reader.add(element, "missing-element", f"{path} has no <{tag}>")
     numbers = reader.numbers(element, ["pose"], path, "bad-number", 6) or (0.0,) * 6
-    axis = reader.numbers(element, ["axis/xyz"], path, "bad-number", 3) or (0.0, 0.0, 1.0)
-    second = reader.numbers(element, ["axis2/xyz"], path, "bad-number", 3)
+    axis = _vector(reader, element, "axis/xyz", path) or (0.0, 0.0, 1.0)
+    second = _vector(reader, element, "axis2/xyz", path)
     if kind is None or parent not in poses or child not in poses:
         known = kind is None or not (parent and child)
         return None if known else Loop(name, kind or "ball", parent, child)  # validate tells which does not exist
     child_origin = Origin(numbers[:3], numbers[3:])  # type: ignore[arg-type] # six numbers
     origin = _origin(compose(_inverse(poses[parent]), compose(poses[child], pose(child_origin))))
-    direction: Vector = axis  # type: ignore[assignment] # three numbers
-    return Loop(name, kind, parent, child, origin, child_origin, direction, second or _second_axis(direction))  # type: ignore[arg-type]
+    return Loop(name, kind, parent, child, origin, child_origin, axis, second or _second_axis(axis))
 
 
 def _inverse(of: Pose) -> Pose:

@@ -19,11 +19,10 @@ from urdfsync.urdf import validate
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.parse import xml
 from urdfsync.urdf.parse.beside import split_joints
-from urdfsync.urdf.parse.contacts import read_contacts
 from urdfsync.urdf.parse.drives import configured_drives, read_drives, with_drives
 from urdfsync.urdf.parse.elements import read_joint, read_link, read_material, resolve_materials
 from urdfsync.urdf.parse.fields import Reader, quoted, summary
-from urdfsync.urdf.parse.left_out import warn_of_left_out
+from urdfsync.urdf.parse.gazebo import read_contacts, warn_of_left_out
 from urdfsync.urdf.parse.loops import find_loop_elements, read_loops
 from urdfsync.urdf.parse.sensors import read_sensors
 from urdfsync.urdf.robot import Extension, Robot

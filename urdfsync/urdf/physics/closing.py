@@ -1,6 +1,6 @@
 """The loops of a robot in Pinocchio: closed poses, motions that keep them closed, and the forces that do so.
 
-Pinocchio sees a tree, with two frames for each loop. Their poses, velocities and Jacobians are its own; of
+Pinocchio sees a tree, with two frames for each loop. Their poses and Jacobians are its own; of
 `kinematics.loops` come the choice of the equations and the start alone. With the place x and the axes R of the
 child's frame in the parent's, the equations are t·x = 0 and u·R·v = 0, together g = 0. The axes move as they are told;
 the other joints follow: J·q̇ = 0 and J·q̈ = -J̇·q̇, where J is the derivative of g.
@@ -24,6 +24,8 @@ _STEPS = 8
 _ITERATIONS = 30
 _CLOSED, _FARTHEST = 1e-12, 1.0
 """Largest step, in rad and m, after which Newton's method has converged, and the smallest with which it diverges."""
+_DIFFERENCE = 1e-5
+"""Way in rad and m for the derivative of J, whose error is 1e-10."""
 _NEAR_DEAD_POINT = 0.25
 """Part of the least singular value at the start below which a compiler may find another assembly."""
 
@@ -40,14 +42,6 @@ class Reaction(NamedTuple):
     force: Array
     """Of the parent on the child, in the parent's frame of the loop."""
     torque: Array
-
-
-class _Equations(NamedTuple):
-    """All equations at a pose: their left sides, derivatives by all coordinates, and J̇·q̇."""
-
-    gaps: Array
-    jacobian: Array
-    drift: Array
 
 
 class Closing:
@@ -75,7 +69,7 @@ class Closing:
             ends = (loop.parent, loop.origin), (loop.child, loop.child_origin)
             parent, child = (self._add_frame(link, origin.xyz, origin.rpy) for link, origin in ends)
             self._frames.append((parent, child))
-        jacobian = self._equations(start + others @ first).jacobian @ others
+        jacobian = self._equations(start + others @ first)[1] @ others
         self._least = _NEAR_DEAD_POINT * np.linalg.svd(jacobian, compute_uv=False).min(initial=np.inf)
 
     def _add_frame(self, link: str, xyz: Sequence[float], rpy: Sequence[float]) -> int:
@@ -91,7 +85,7 @@ class Closing:
         for share in np.linspace(0, 1, _STEPS + 1):
             known = self._start + share * (positions - self._start)
             for _ in range(_ITERATIONS):
-                gaps, jacobian, _ = self._equations(known + self._others @ others)
+                gaps, jacobian = self._equations(known + self._others @ others)
                 step = np.linalg.lstsq(jacobian @ self._others, gaps)[0]
                 others, largest = others - step, np.abs(step).max(initial=0.0)
                 if not _CLOSED < largest < _FARTHEST:
@@ -103,9 +97,12 @@ class Closing:
 
     def motion(self, positions: Array, axes: Array, speeds: Array) -> tuple[Array, Array]:
         """Return the velocities for a velocity of 1 of each axis, and the accelerations for none at these speeds."""
-        jacobian = self._equations(positions).jacobian
+        jacobian = self._equations(positions)[1]
         ways = axes - self._others @ np.linalg.lstsq(jacobian @ self._others, jacobian @ axes)[0]
-        drift = self._equations(positions, ways @ speeds).drift
+        v = ways @ speeds
+        step = _DIFFERENCE / max(1.0, np.abs(v).max(initial=0.0))
+        behind, ahead = (self._equations(positions + side * step * v)[1] for side in (-1, 1))
+        drift = (ahead - behind) @ v / (2 * step)
         return ways, -self._others @ np.linalg.lstsq(jacobian @ self._others, drift)[0]
 
     def reactions(self, positions: Array, load: Array) -> list[Reaction]:
@@ -113,9 +110,9 @@ class Closing:
 
         The joints that follow have no drives: the forces λ in the loops carry their load, Jᵀ·λ.
         """
-        jacobian = self._equations(positions).jacobian
+        jacobian = self._equations(positions)[1]
         forces = iter(np.linalg.lstsq((jacobian @ self._others).T, self._others.T @ load)[0])
-        data, found = self._data(positions, np.zeros(self._model.nv)), []
+        data, found = self._data(positions), []
         for (parent, child), closure in zip(self._frames, self._closures, strict=True):
             axes = data.oMf[parent].rotation.T @ data.oMf[child].rotation
             gap = data.oMf[child].translation - data.oMf[parent].translation
@@ -127,7 +124,7 @@ class Closing:
     def forces(self, positions: Array, load: Array) -> Any:
         """Return the forces in all loops as Pinocchio takes them: on the bodies of joints, in their frames."""
         pin, model = self._pin, self._model
-        data, forces = self._data(positions, np.zeros(model.nv)), [pin.Force.Zero() for _ in range(model.njoints)]
+        data, forces = self._data(positions), [pin.Force.Zero() for _ in range(model.njoints)]
         for (parent, child), reaction in zip(self._frames, self.reactions(positions, load), strict=True):
             force = pin.Force(reaction.force, reaction.torque)
             # the force acts at the origin of the child's frame
@@ -137,37 +134,28 @@ class Closing:
                 forces[joint] += sign * data.oMi[joint].actInv(at_child.act(force))
         return pin.StdVec_Force(forces)
 
-    def _data(self, positions: Array, v: Array) -> Any:
+    def _data(self, positions: Array) -> Any:
         pin, model, data = self._pin, self._model, self._model.createData()
         q = pin.integrate(model, pin.neutral(model), positions)
         pin.computeJointJacobians(model, data, q)
-        pin.forwardKinematics(model, data, q, v, np.zeros(model.nv))
         pin.updateFramePlacements(model, data)
         return data
 
-    def _equations(self, positions: Array, v: Array | None = None) -> _Equations:
-        """Return the equations at a pose, where the coordinates move with velocity v, or rest."""
-        pin, model = self._pin, self._model
-        data = self._data(positions, np.zeros(model.nv) if v is None else v)
-        gaps, rows, drifts = list[float](), list[Array](), list[float]()
+    def _equations(self, positions: Array) -> tuple[Array, Array]:
+        """Return the left sides of all equations at a pose, and their derivatives by all coordinates."""
+        pin, model, data = self._pin, self._model, self._data(positions)
+        gaps, rows = list[float](), list[Array]()
         for frames, closure in zip(self._frames, self._closures, strict=True):
             pose = data.oMf[frames[0]].actInv(data.oMf[frames[1]])
             axes = pose.rotation
-            speeds = [pin.getFrameVelocity(model, data, frame, pin.LOCAL) for frame in frames]
-            gains = [pin.getFrameAcceleration(model, data, frame, pin.LOCAL) for frame in frames]
             parent, child = (pin.getFrameJacobian(model, data, frame, pin.LOCAL) for frame in frames)
-            # velocity and acceleration of the child's frame in the parent's, resolved in the child's
-            jacobian, carried = child - pose.inverse().action @ parent, pose.actInv(speeds[0])
-            speed = speeds[1] - carried
-            gain = gains[1] - pose.actInv(gains[0]) + speed.cross(carried)
-            turn = pin.skew(speed.angular)
+            # of the child's frame against the parent's, resolved in the child's
+            jacobian = child - pose.inverse().action @ parent
             for t in closure.translations:
                 gaps.append(float(t @ pose.translation))
                 rows.append(t @ axes @ jacobian[:3])
-                drifts.append(float(t @ axes @ (gain.linear + turn @ speed.linear)))
             for u, v_child in closure.rotations:
                 row = axes.T @ u
                 gaps.append(float(row @ v_child))
                 rows.append(pin.skew(np.array(v_child)) @ row @ jacobian[3:])
-                drifts.append(float(row @ (pin.skew(gain.angular) + turn @ turn) @ v_child))
-        return _Equations(np.array(gaps), np.array(rows), np.array(drifts))
+        return np.array(gaps), np.array(rows)

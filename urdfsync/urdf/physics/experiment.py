@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 
 import msgspec
 import numpy as np
 
 from urdfsync.diagnostics import SourceError
-from urdfsync.domain import Compared, Experiment, Import, Part, Quantity, Target, Trial
-from urdfsync.urdf.drives import driven_joints, friction_law, is_chosen
+from urdfsync.domain import Compared, Experiment, Part, Quantity, Sample, Trial
+from urdfsync.urdf.drives import assembly, friction_law, is_chosen
 from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.model.tables import obstacles
+from urdfsync.urdf.model.record import obstacles
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.parse.source import RobotReading, read_robot
 from urdfsync.urdf.physics import completion, motion, probe, quantities
@@ -26,34 +26,28 @@ _MOST_AXES = 20
 """The most axes that a robot of a package moves freely with: rumoca takes 6 GB for 30."""
 
 
-def experiment(
-    content: bytes,
-    file: str,
-    target: Target,
-    options: Options,
-    imports: Mapping[str, Import],
-    step: float | None = None,
-) -> Experiment | str:
+def experiment(sample: Sample, step: float | None = None) -> Experiment | str:
     """Return the comparison, see `urdfsync.domain.Domain.experiment`. Links that move without any mass get inertias.
 
     Raises SourceError if the source has errors, or if Pinocchio is not installed or can't read it.
     """
-    reading = read_robot(content, file, options)
+    file, options = sample.file, sample.options
+    reading = read_robot(sample.content, file, options)
     # such a package lacks a part of the robot
     if left_out := [entry.message for entry in reading.diagnostics if entry.code in options.allow]:
         return left_out[0]
     robot = _robot(reading)
     if loose := obstacles(robot.joints):
         return f"joint {loose[0].name} is {loose[0].type}, and nothing prescribes how it moves"
-    completed, notes = completion.completed_for_pinocchio(content)
+    completed, notes = completion.completed_for_pinocchio(sample.content)
     completed, made_up = completion.with_inertias(completed, KinematicTree.of(robot))
-    tree = KinematicTree.of(_robot(read_robot(completed, file, options)), (target.name,))
-    trials, chosen = list[Trial](), options
+    tree = KinematicTree.of(_robot(read_robot(completed, file, options)), (sample.target.name,))
+    trials = list[Trial]()
     # the reference has the smooth law and rigid drives, and the embedded compiler starts no two joints that slide
-    options = msgspec.structs.replace(options, friction="smooth", elastic="none", saturated="none")
+    simplified = msgspec.structs.replace(options, friction="smooth", elastic="none", saturated="none")
     with np.errstate(all="ignore"):  # numbers without end in the source
         try:
-            subject = Subject(completed, file, tree, target, options, imports)
+            subject = Subject(msgspec.structs.replace(sample, content=completed, options=simplified), tree)
         except OpenLoopError:
             return "Pinocchio closes its loops neither where they start nor around"
         for approach in options.approach:
@@ -62,10 +56,10 @@ def experiment(
     return Experiment(
         reference=f"Pinocchio {pinocchio().__version__}",
         content=completed,
-        options=options,
+        options=simplified,
         trials=tuple(trials),
         notes=(*notes, *made_up),
-        unchecked=(*_simplified(tree, chosen), *_not_compared(subject), *subject.unchecked),
+        unchecked=(*_simplified(tree, options), *_not_compared(subject), *subject.unchecked),
     )
 
 
@@ -131,7 +125,7 @@ def _free(subject: Subject, names: RobotVariables, name: str) -> Iterator[Trial]
 
 def _simplified(tree: KinematicTree, options: Options) -> Iterator[str]:
     """Yield the laws of joints that the package which is compared does not have."""
-    driven = driven_joints(tree, options)
+    driven = assembly(tree, options).driven
     drives = [joint for joint in tree.joints if joint.name in driven]
     joints = {
         **{law: [j.name for j in tree.joints if friction_law(j, options) == law] for law in ("stiction", "lugre")},

@@ -86,7 +86,7 @@ def loops(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
         reactions = [instant.reactions[k] for instant in solved]
         times = tuple(map(float, Instant))
         yield Compared(Quantity.CLOSURE, element, "m", values, times, Part.LOOPS), [each.gap for each in reactions]
-        if subject.assembly and subject.assembly.closures[loop.name].weaker:
+        if subject.assembly.closures[loop.name].weaker:
             subject.unchecked[f"the force in loop {loop.name}, which depends on the equations that are left out"] = None
             continue
         for unit, variable in (("N", "f"), ("N·m", "t")):

@@ -161,7 +161,7 @@ class Reference:
         self.axes = tuple(axes)
         self.projection, self._offset = self._mimic(robot, self.axes)
         self.closing: Closing | None = None
-        if assembly:
+        if loops and assembly:
             others = [name for name in assembly.joints if name not in (*self.axes, *robot.followers)]
             followers, _ = self._mimic(robot, others)
             start = self.projection @ [assembly.positions[name] for name in self.axes] + self._offset

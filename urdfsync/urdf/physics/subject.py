@@ -10,7 +10,7 @@ from xml.etree.ElementTree import Element
 
 import numpy as np
 
-from urdfsync.domain import Import, Target
+from urdfsync.domain import Import, Sample
 from urdfsync.urdf.drives import assembly
 from urdfsync.urdf.kinematics.poses import start_positions
 from urdfsync.urdf.kinematics.tree import KinematicTree
@@ -29,22 +29,15 @@ _SHARES = tuple(0.25**k for k in range(8))
 class Subject:
     """A robot at all instants of the comparison."""
 
-    def __init__(
-        self,
-        content: bytes,
-        file: str,
-        tree: KinematicTree,
-        target: Target,
-        options: Options,
-        imports: Mapping[str, Import],
-    ) -> None:
+    def __init__(self, sample: Sample, tree: KinematicTree) -> None:
+        options: Options = sample.options
         self.assembly, closed = assembly(tree, options), loop_data(tree, options)
-        self.tree, self.target, self.options = closed.tree, target, options
-        self.root: Element = xml.parse(content).root
+        self.tree, self.target, self.options = closed.tree, sample.target, options
+        self.root: Element = xml.parse(sample.content).root
         self.axes = tuple(joint for joint in motion.driven_axes(tree) if joint.name not in closed.dependent)
         sensed = {sensor.at for sensor in tree.sensors if sensor.kind == "force_torque"}
         names = [joint.name for joint in self.axes]
-        self.reference = Reference(read(content, file, sensed), names, tree.loops, self.assembly)
+        self.reference = Reference(read(sample.content, sample.file, sensed), names, tree.loops, self.assembly)
         self.base = motion.base_courses()
         self.stand: contacts.Stand | None = None
         self.unchecked = dict[str, None]()
@@ -65,20 +58,20 @@ class Subject:
             strains[instant] = {self.axes[n].name: float(gain) for n, gain in zip(outside, gains, strict=True)}
         self.courses = self._courses(self.share, strains)
         if options.base == "floating" and "package" in options.approach:
-            self._put_down(imports)
+            self._put_down(sample.imports)
         self.states = {float(instant): self._state(instant, self.courses) for instant in Instant}
         self.solved = {time: self.reference.solve(state) for time, state in self.states.items()}
 
     def is_in_loop(self, joint: Joint) -> bool:
         """Return whether loops restrict the motion of a joint."""
-        return self.assembly is not None and joint.name in self.assembly.joints
+        return joint.name in self.assembly.joints
 
     def _closable_share(self) -> float:
         """Return the greatest amplitude with which all loops stay closed around each instant.
 
         Raises OpenLoopError if there is none.
         """
-        if self.assembly is None:
+        if not self.assembly.joints:
             return 1.0
         for share in _SHARES:
             with contextlib.suppress(OpenLoopError):

@@ -11,7 +11,7 @@ from urdfsync.modelica.parser import parse
 from urdfsync.modelica.syntax import Class, Component, Modifier, Name
 from urdfsync.modelica.tree import SyntaxTree, read_tree
 from urdfsync.urdf.connectors import Drive, connector_names, input_vector
-from urdfsync.urdf.drives import dependent_joints
+from urdfsync.urdf.drives import assembly
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options
 
@@ -22,7 +22,7 @@ _BENCHES = ("PartialBench", "PartialMobileBench")
 
 def wiring(texts: Mapping[str, bytes], tree: KinematicTree, target: Target, options: Options) -> Iterator[Deviation]:
     """Yield whether each axis has a source of its own, with its own input; and whether gravity is that of the bench."""
-    names, dependent, numbered = connector_names(tree, options), dependent_joints(tree, options), 0
+    names, dependent, numbered = connector_names(tree, options), assembly(tree, options).dependent, 0
     classes = {bench: _read(texts, f"{target.name}{bench}") for bench in ("Run", "Test")}
     for bench, (definition, _) in classes.items():
         yield _deviation("robot", f"gravity of {bench}", definition is not None and _has_own_gravity(definition))

@@ -1,7 +1,11 @@
-"""Read the contact properties of links, in the words of gazebo, SDFormat and Bullet."""
+"""Read what Gazebo says of links: their contact properties, and what moves a robot otherwise than its model.
+
+Contact properties are also read in the words of SDFormat and Bullet.
+"""
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Mapping
 from xml.etree.ElementTree import Element
 
@@ -17,6 +21,9 @@ _IN_GAZEBO = {
 }
 _IN_LINK = {"mu": ("contact/lateral_friction",), "kp": ("contact/stiffness",), "kd": ("contact/damping",)}
 """Fields of `Contact`, and paths of their elements in gazebo blocks (gazebo's, then SDFormat's) and in links."""
+
+_FORCES = ("force_element", "cable", "drake:linear_spring_damper", "drake:linear_bushing_rpy")
+"""Elements of a robot that act between its links."""
 
 
 def read_contacts(reader: Reader, root: Element) -> Mapping[str, Contact]:
@@ -52,3 +59,27 @@ def read_contacts(reader: Reader, root: Element) -> Mapping[str, Contact]:
                 message = f"link {name}: {field} {number:g} contradicts the first one, {numbers[field]:g}, which counts"
                 reader.add(element, "duplicate-element", message)
     return {name: Contact(**numbers) for name, numbers in contacts.items() if numbers}
+
+
+def warn_of_left_out(reader: Reader, root: Element) -> None:
+    """Add a warning for each element that changes the motion and is in no model."""
+    links = {link.get("name", ""): link for link in root.iterfind("link")}
+    for gazebo in root.iterfind("gazebo"):
+        name = gazebo.get("reference", "")
+        for part in gazebo:
+            text = (part.get("value") or part.text or "").strip().lower()
+            if part.tag in ("gravity", "turnGravityOff") and text in ("0", "1", "false", "true"):
+                is_heavy = (text in ("1", "true")) == (part.tag == "gravity")
+                if is_heavy:
+                    reader.used.add(part)
+                elif name in links and links[name].find("inertial") is not None:
+                    reader.add(part, "gravity-off", f"link {name!r} has no weight in Gazebo, but has it in the model")
+            elif part.tag in ("springStiffness", "dampingFactor"):
+                with contextlib.suppress(ValueError):  # Gazebo ignores it, too
+                    if float(text):
+                        what = f"{part.tag} {text} of {name!r} acts in Gazebo, but not in the model"
+                        reader.add(part, "force-left-out", what)
+    for part in root:
+        if part.tag in _FORCES:
+            words = f"<{part.tag}> {part.get('name', '')}".rstrip()
+            reader.add(part, "force-left-out", f"{words} acts between links, but not in the model")
