@@ -125,7 +125,7 @@ def build(
 def build_and_check(config: Config, robots: Sequence[RobotConfig], options: BuildOptions) -> Iterator[Result]:
     """Build robots, and check the packages of those with `on_build = "check"`; a dry run checks nothing."""
     results = build_robots(config, robots, options)
-    if options.dry or not any(robot.checking for robot in robots):
+    if options.dry or not any(robot.on_build == "check" for robot in robots):
         return results
     dependencies.mark_incomplete()  # checks look at more
     from urdfsync.checks import afterbuild

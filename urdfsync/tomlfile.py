@@ -69,22 +69,19 @@ def strings(document: dict[str, Any]) -> Iterator[tuple[tuple[str, ...], str]]:
                 waiting.append((place, value))
 
 
-def key_lines(text: str) -> dict[tuple[str, ...], int]:
-    """Return the first line of each key or table, counted from 1, by its full path."""
+def find_lines(text: str) -> tuple[dict[tuple[str, ...], int], dict[tuple[str, ...], list[int]]]:
+    """Return the first line of each key or table, and the lines of the items of each array of tables, `[[…]]`.
+
+    Both are by full paths; lines count from 1.
+    """
     lines: dict[tuple[str, ...], int] = {}
-    for number, (_, path) in enumerate(_paths(text), start=1):
+    items: dict[tuple[str, ...], list[int]] = {}
+    for number, (line, (opens, path)) in enumerate(zip(text.split("\n"), _paths(text), strict=True), start=1):
         for length in range(1, min(len(path), DEEPEST) + 1):
             lines.setdefault(path[:length], number)
-    return lines
-
-
-def item_lines(text: str) -> dict[tuple[str, ...], list[int]]:
-    """Return the lines of the items of each array of tables, `[[…]]`, by its path."""
-    lines: dict[tuple[str, ...], list[int]] = {}
-    for number, (line, (opens, path)) in enumerate(zip(text.split("\n"), _paths(text), strict=True), start=1):
         if opens and line.lstrip().startswith("[["):
-            lines.setdefault(path, []).append(number)
-    return lines
+            items.setdefault(path, []).append(number)
+    return lines, items
 
 
 def _paths(text: str) -> Iterator[tuple[bool, tuple[str, ...]]]:

@@ -129,9 +129,13 @@ def save_answer(config_file: str, command: str, key: str, answer: list[str], dep
     checks = [text for pair in recorded for text in pair]
     if any(not text or "\0" in text for text in (*checks, key, *answer)):
         return  # the file can't hold that
-    temporary = os.path.join(os.path.dirname(stamp), ".stamp.urdfsync-tmp")
+    folder = os.path.dirname(stamp)
+    temporary = os.path.join(folder, ".stamp.urdfsync-tmp")
+    if os.path.islink(folder):  # a repository may have committed one that leads elsewhere
+        return
     try:
-        descriptor = _create(temporary)
+        _remove(temporary)  # left by a process that was killed
+        descriptor = os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666)
         try:
             status = os.fstat(descriptor)  # which the file is bound to
             os.utime(descriptor, ns=(0, 0))
@@ -148,17 +152,6 @@ def save_answer(config_file: str, command: str, key: str, answer: list[str], dep
             _remove(temporary)
     except (OSError, ValueError):
         return  # the next command runs, as this one did
-
-
-def _create(path: str) -> int:
-    """Create and open a file in a state folder. Raises OSError.
-
-    No link is followed: a repository may have committed some that lead elsewhere.
-    """
-    if os.path.islink(os.path.dirname(path)):
-        raise NotADirectoryError
-    _remove(path)  # left by a process that was killed
-    return os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666)
 
 
 def _remove(path: str) -> None:

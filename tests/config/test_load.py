@@ -79,7 +79,7 @@ def test_everything_set() -> None:
     assert arm.target == Target("Plant.Robots.Arm", "SixAxis")
     assert arm.templates == ROOT / "own"
     assert arm.package_paths == (ROOT / "ros", Path(os.path.normpath(ROOT / "/opt/ros")))
-    assert (arm.create_parents, arm.merging, arm.checking) == (True, True, True)
+    assert (arm.create_parents, arm.on_conflict, arm.on_build) == (True, "merge", "check")
     assert msgspec.to_builtins(arm.options) == {"ground": False, "prefix": "n"}
 
 
@@ -91,7 +91,7 @@ def test_defaults_table_reaches_all_robots_but_what_they_set_themselves() -> Non
     )
     arm, other = parse(text).robots
     assert (arm.output, other.output) == (ROOT / "lib", ROOT / "lib")
-    assert (arm.checking, other.checking) == (True, False)
+    assert (arm.on_build, other.on_build) == ("check", "nothing")
     assert (arm.options.prefix, other.options.prefix) == ("d", "b")
 
 

@@ -82,7 +82,7 @@ def with_checks(config: Config, request: BuildOptions, results: Iterable[Result]
     try:
         built.extend(results)
         fresh = [result.robot for result in built if not (result.failed or result.dry or result.checked)]
-        due = [robots[name] for name in fresh if robots[name].checking]
+        due = [robots[name] for name in fresh if robots[name].on_build == "check"]
         checks = BuildChecker(config, request).check(due, request.progress)
         for result in built:
             if robots[result.robot] in due:

@@ -127,7 +127,7 @@ class _Reader:
     def __init__(self, text: str, file: str, root: Path) -> None:
         self.problems: list[Diagnostic] = []
         self._document = tomlfile.parse(text, file, ConfigError)
-        self._lines, self._item_lines = tomlfile.key_lines(text), tomlfile.item_lines(text)
+        self._lines, self._item_lines = tomlfile.find_lines(text)
         self._file, self._root = file, root
 
     def check_characters(self) -> None:

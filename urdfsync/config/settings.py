@@ -42,7 +42,9 @@ class SharedKeys(msgspec.Struct, frozen=True, kw_only=True):
     """Files and folders that hold models of the user's, beside the configuration's folder and `output`."""
     create_parents: bool = False
     on_conflict: Literal["keep", "merge"] = "keep"
+    """Whether a file that both sides changed gets their merge, if that is without doubt."""
     on_build: Literal["nothing", "check"] = "nothing"
+    """Whether the package is checked after each build."""
     ignore: frozenset[str] = frozenset()
     """Codes of warnings and notes that are not shown."""
     renamed: Mapping[str, str] = {}
@@ -86,16 +88,6 @@ class RobotConfig(SharedKeys, frozen=True, kw_only=True):
     """Arguments of xacro; None for a source whose name or content may give it to xacro."""
     lines: Mapping[str, int] = {}
     """Line of every key in the configuration; of the robot's table for `""`, of an entry of a table for `KEY.NAME`."""
-
-    @property
-    def merging(self) -> bool:
-        """Whether a file that both sides changed gets their merge, if that is without doubt."""
-        return self.on_conflict == "merge"
-
-    @property
-    def checking(self) -> bool:
-        """Whether the package is checked after each build."""
-        return self.on_build == "check"
 
     @property
     def folder(self) -> Path:

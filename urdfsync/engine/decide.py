@@ -74,7 +74,7 @@ def decide_package(generation: Generation) -> Decision:
     pending = {path if path in last.files else inputs.folder.key(path): choice for path, choice in pending.items()}
     choices = {**valid_choices(pending, actions, is_pending=True), **chosen}
     conflicts, choices = _without_misfits(generation, actions, conflicts, choices)
-    actions, merged = resolve(actions, conflicts, choices, inputs.robot.merging)
+    actions, merged = resolve(actions, conflicts, choices, merging=inputs.robot.on_conflict == "merge")
     merged |= undone
     actions = keep_needed(generation, actions, merged)
 

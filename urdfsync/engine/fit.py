@@ -261,7 +261,11 @@ class Package(Mapping[str, bytes]):
     def _passed_statements(self) -> dict[str, frozenset[str]]:
         """Return the files to look at, with their statements that mean what they mean in generated texts."""
         artifacts, statements = self._generation.package.artifacts, dict[str, frozenset[str]]()
-        names, classes = self._missing_classes(), set[str]()
+        # first the names of classes that generated texts mention, and that are not there
+        before = self._inputs.last.files
+        expected = set(map(self._inputs.folder.path, before)) if self._is_waiting else set(artifacts)
+        missing = expected - set(map(_as_file, self)) - self._files.keys()
+        names, classes = {class_of(path) for path in missing if path.endswith(".mo")}, set[str]()
         edited = [path for path, file in self._files.items() if file.is_edited]
         for path in edited:
             difference = self._differences[path] = compare(text_of(self[path]), self._generated_text(path))
@@ -281,13 +285,6 @@ class Package(Mapping[str, bytes]):
     def _is_waiting(self) -> bool:
         """Whether files stay as they are in the package of the last complete build."""
         return any(action.held for action in self._actions)
-
-    def _missing_classes(self) -> set[str]:
-        """Return the names of classes that generated texts mention, and that are not there."""
-        recorded = map(self._inputs.folder.path, self._inputs.last.files)
-        paths = {*recorded} if self._is_waiting else self._generation.package.artifacts.keys()
-        known = set(map(_as_file, self))
-        return {class_of(path) for path in paths - known - self._files.keys() if path.endswith(".mo")}
 
     def _generated_text(self, path: str) -> str:
         """Return the text in the place of an edited one that all other generated texts fit; empty if there is none."""

@@ -256,7 +256,10 @@ def expand(request: Request) -> Answer:
             xacro.init_stacks(request.source)
             document = xacro.parse(None, request.source)
             xacro.process_doc(document, mappings=arguments)
-            text = _with_package_uris(document.toprettyxml(indent="  "), files.packages)
+            text = document.toprettyxml(indent="  ")
+            # the text is the same on every machine
+            for name, folder in sorted(files.packages.items(), key=lambda item: -len(item[1])):
+                text = re.sub(rf"(?<![\w./-])(?:file://)?{re.escape(folder)}/", f"package://{name}/", text)
             places = tuple(_places(document, text))
     except Exception as error:  # noqa: BLE001 - expressions raise whatever they like
         problem = _problem(error, xacro.filestack[-1] if xacro.filestack else request.source)
@@ -289,13 +292,6 @@ def _raise_at_limit(seconds: float) -> None:
     end, hardest = math.ceil(time.process_time() + seconds) + _GRACE, resource.getrlimit(resource.RLIMIT_CPU)[1]
     if hardest == resource.RLIM_INFINITY or end < hardest:
         resource.setrlimit(resource.RLIMIT_CPU, (end, hardest))
-
-
-def _with_package_uris(text: str, packages: Mapping[str, str]) -> str:
-    """Replace the folders of packages by `package://NAME`, so that the text is the same on every machine."""
-    for name, folder in sorted(packages.items(), key=lambda item: -len(item[1])):
-        text = re.sub(rf"(?<![\w./-])(?:file://)?{re.escape(folder)}/", f"package://{name}/", text)
-    return text
 
 
 def _places(document: Any, text: str) -> Iterator[tuple[int, str, int]]:

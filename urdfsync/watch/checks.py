@@ -71,7 +71,7 @@ class CheckQueue:
 
     def check(self, robot: RobotConfig) -> Sequence[events.Event]:
         """Check the package of a robot as it is now, unless such a check runs, or found it right."""
-        if not robot.checking:
+        if robot.on_build != "check":
             return ()
         key, job = self._checker.key(robot), self._jobs.get(robot.name)
         if job is not None and key is not None and job.key == key:
