@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 import shutil
-import subprocess
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -48,18 +47,13 @@ def repository(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, execute: Execute
 
 
 def unite(repository: Repository, execute: Execute, ours: Mapping[str, Any], theirs: Mapping[str, Any]) -> None:
-    """Merge two branches that each exported and built; what git can't merge is ours, but never the state."""
+    """Merge two branches that each exported and built."""
     for branch, changes in {"theirs": theirs, "ours": ours}.items():
         repository.git("checkout", "-q", "-b", branch, "main")
         export(**changes)
         execute("build")
         repository.commit()
-    subprocess.run(["git", "merge", "-q", "--no-edit", "theirs"], capture_output=True)
-    unmerged = {*repository.git("diff", "--name-only", "--diff-filter=U").split()}
-    assert not [path for path in unmerged if path.startswith(".urdfsync/")]
-    for path in unmerged:
-        if subprocess.run(["git", "checkout", "-q", "ours", "--", path], capture_output=True).returncode:
-            Path(path).unlink(missing_ok=True)
+    repository.merge("theirs")
 
 
 def fresh(execute: Execute, folder: Path, monkeypatch: pytest.MonkeyPatch) -> dict[str, str]:

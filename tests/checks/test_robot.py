@@ -57,13 +57,12 @@ end MyBench;
 
 
 @pytest.fixture
-def arm(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def arm(folder: Path) -> Path:
     """A project with the robot, built; the package's folder."""
-    monkeypatch.chdir(tmp_path)
     Path("arm.urdf").write_text(ARM)
     Path("urdfsync.toml").write_text('[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\n')
     rebuild()
-    return tmp_path / "modelica" / "Arm"
+    return folder / "modelica" / "Arm"
 
 
 @pytest.fixture

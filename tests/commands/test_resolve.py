@@ -139,17 +139,6 @@ def test_keep_is_remembered_until_the_generated_text_changes_again(contradictory
     assert Path(MODEL).read_text() == mine
 
 
-def test_what_a_kept_file_uses_stays(contradictory: Path, execute: Execute) -> None:
-    assert conflicts(execute) == ["Ladder.mo"]
-    assert execute("resolve", MODEL, "--keep").err == ""
-    kept = {name: Path(f"{LADDER}/Elements/{name}.mo").exists() for name in ("R2", "R2Parameters", "R3")}
-    assert kept == {"R2": True, "R2Parameters": True, "R3": True}
-    assert execute("build").err == ""
-    edit(MODEL, "R2", "R3")
-    execute("build")
-    assert not Path(f"{LADDER}/Elements/R2.mo").exists(), "nothing uses it any more"
-
-
 @pytest.fixture
 def misfit(execute: Execute, project: Path) -> Path:
     """The network's model is kept, and uses an element that the source has no more, and whose file the user deleted."""
@@ -251,9 +240,6 @@ def test_a_choice_that_waits_can_be_made_again(several: Path, execute: Execute) 
     execute("resolve", MODEL, "--take", code=3)
     execute("resolve", "--all", "--keep")
     assert "parameter Real mine = 1;" not in Path(MODEL).read_text()
-
-
-# Imported files
 
 
 # What a path may be
@@ -374,9 +360,6 @@ def test_a_file_that_moves_can_be_kept_and_gets_its_new_name(moved: Path, execut
     kept = Path(f"{LADDER}/Elements/R5.mo").read_text()
     assert kept == mine.replace("model R2", "model R5").replace("end R2", "end R5").replace("R2Param", "R5Param")
     execute("build", "--check")
-
-
-# Undo, and saves that take back a merge
 
 
 # What is saved meanwhile
@@ -661,14 +644,6 @@ def test_an_edited_text_that_uses_what_is_gone_is_a_conflict(
     assert "there is no class `Elements.R2`" in printed.out
     assert "what you edited was not used" in printed.err
     assert Path(MODEL).read_text() == mine
-
-
-def test_without_an_editor_it_says_what_to_set(
-    contradictory: Path, execute: Execute, editor: Editor, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.delenv("VISUAL")
-    monkeypatch.delenv("EDITOR", raising=False)
-    assert "set $VISUAL or $EDITOR" in execute("resolve", MODEL, "--edit", code=2).err
 
 
 # Robots, locks, programs

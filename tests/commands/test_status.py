@@ -97,14 +97,6 @@ def test_a_broken_source_does_not_hide_the_others(built: Path, execute: Execute)
     assert execute("status", "ladder").lines == ["ladder: in step, 14 files"]
 
 
-def test_what_is_left_of_a_robot_that_is_no_longer_configured(built: Path, execute: Execute) -> None:
-    edit(built / "urdfsync.toml", "[robots.ladder]", "[robots.other]")
-    edit(built / "urdfsync.toml", '"Ladder"', '"Other"')
-    found = execute("status", code=None)
-    assert found.lines[0].startswith("other: not built yet: ")
-    assert "the state of `ladder` is still there" in found.err
-
-
 def test_without_its_state_a_package_is_out_of_step(built: Path, execute: Execute) -> None:
     for file in (built / ".urdfsync/robots").iterdir():
         file.unlink()

@@ -6,15 +6,7 @@ from pathlib import Path
 
 import pytest
 from support.files import unchanged
-from support.networks import (
-    LADDER,
-    Snapshot,
-    edit,
-    resistor,
-    run,
-    said,
-    source,
-)
+from support.networks import LADDER, Snapshot, edit, resistor, run, said, source
 from support.networks import inner_kinds as kinds
 from support.networks import set_keys as configure
 

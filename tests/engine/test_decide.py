@@ -13,7 +13,6 @@ from typing import Any
 import pytest
 from support.files import unchanged
 from support.networks import (
-    BASES,
     C1,
     LADDER,
     MANIFEST,
@@ -342,14 +341,6 @@ def test_of_an_ambiguous_base_every_text_counts(project: Path) -> None:
     resistor(170, before=150)
     (found,) = run().conflict_texts
     assert "two branches recorded different bases" in found.rejected
-
-
-def test_a_text_that_could_not_be_given_back_is_not_deleted(project: Path) -> None:
-    run()
-    for file in BASES.iterdir():
-        file.write_bytes(b"")
-    drop("C1")
-    assert kinds(run())[C1] is Reason.ORPHAN
 
 
 @pytest.mark.parametrize("adopts", [False, True])

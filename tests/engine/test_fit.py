@@ -9,6 +9,7 @@ import pytest
 import support.urdfs as urdfs
 from support.commands import Execute
 from support.git import Repository
+from support.networks import edit
 
 ARM = Path("modelica/Arm")
 ELBOW, MODEL = ARM / "Joints/Elbow.mo", ARM / "Arm.mo"
@@ -20,20 +21,13 @@ def write_source(joint: str = "elbow", mass: float = 1.0) -> None:
     Path("arm.urdf").write_text(urdfs.robot(*links, urdfs.joint(joint, "continuous", "base", "limb")))
 
 
-def edit(path: Path, old: str, new: str) -> None:
-    text = path.read_text()
-    assert old in text
-    path.write_text(text.replace(old, new))
-
-
 @pytest.fixture
-def arm(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, execute: Execute) -> Path:
+def arm(folder: Path, execute: Execute) -> Path:
     """An arm that was built."""
-    monkeypatch.chdir(tmp_path)
     Path("urdfsync.toml").write_text(CONFIG)
     write_source()
     execute("build")
-    return tmp_path
+    return folder
 
 
 def undone_merge(execute: Execute) -> None:

@@ -6,12 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from support.networks import (
-    edit,
-    resistor,
-    run,
-    source,
-)
+from support.networks import edit, resistor, run, source
 from support.networks import inner_kinds as kinds
 from support.networks import set_keys as configure
 

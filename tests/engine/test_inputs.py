@@ -7,18 +7,7 @@ from pathlib import Path
 
 import pytest
 from support.files import unchanged
-from support.networks import (
-    LADDER,
-    MANIFEST,
-    ROBOT,
-    edit,
-    failure,
-    make_parent,
-    run,
-    run_all,
-    said,
-    source,
-)
+from support.networks import LADDER, MANIFEST, ROBOT, edit, failure, make_parent, run, run_all, said, source
 from support.networks import inner_kinds as kinds
 from support.networks import set_keys as configure
 
@@ -45,8 +34,8 @@ def test_a_robot_with_another_name_takes_its_state_along(project: Path) -> None:
 def test_state_of_robots_that_are_gone_is_mentioned_once_and_kept(project: Path) -> None:
     run()
     Path("urdfsync.toml").write_text(ROBOT.format("filter", "Filter") + ROBOT.format("third", "Third"))
-    for _ in range(3):
-        first, second = run_all()
+    for dry in (True, False, False):
+        first, second = run_all(dry=dry)
         assert said(first) == [
             "urdfsync.toml: note: the state of `ladder` is still there, but the configuration has no such robot; "
             "bring the robot back, or delete .urdfsync/robots/ladder.* and what is left of its package [stray-state]"

@@ -82,16 +82,6 @@ def test_a_package_moves_together_with_new_templates(execute: Execute, project: 
     assert not (project / "modelica/Ladder").exists()
 
 
-def test_what_stays_is_told_once(hostile: Path, execute: Execute) -> None:
-    said = " ".join(execute("build").err.split())
-    assert (
-        "the package moved from modelica/Mine to modelica/Ladder; these files are not deleted, since urdfsync did not "
-        "write them: modelica/Mine/Pump.mo, modelica/Mine/Resources/table.csv, modelica/Mine/package.order; take over "
-        "what you need, then delete the old folder [left-behind]"
-    ) in said
-    assert "left-behind" not in execute("build").err
-
-
 @pytest.mark.parametrize("left_out", [("stamp-*",), ()], ids=["clone", "copy"])
 def test_a_clone_moves_its_package(execute: Execute, project: Path, tmp_path: Path, left_out: Sequence[str]) -> None:
     execute("build")

@@ -7,19 +7,7 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import cast
 
-from support.networks import (
-    C1,
-    LADDER,
-    R2,
-    RECORD,
-    conflicts,
-    drop,
-    edit,
-    inner_kinds,
-    rename,
-    run,
-    source,
-)
+from support.networks import C1, LADDER, R2, RECORD, conflicts, drop, edit, inner_kinds, rename, run, source
 
 from urdfsync.domain import Role
 from urdfsync.engine.actions import Action, Reason

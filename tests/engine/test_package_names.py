@@ -17,12 +17,11 @@ CONFIG = '[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\n'
 
 
 @pytest.fixture
-def project(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "urdfsync.toml").write_text(CONFIG)
-    (tmp_path / "arm.urdf").write_text(urdfs.robot(*LINKS[:2], SWING))
+def project(folder: Path) -> Path:
+    (folder / "urdfsync.toml").write_text(CONFIG)
+    (folder / "arm.urdf").write_text(urdfs.robot(*LINKS[:2], SWING))
     assert cli.main(["build", "-q"]) == 0
-    return tmp_path
+    return folder
 
 
 def test_a_leaf_that_gets_a_child_loses_its_frame_and_both_commands_say_so(project: Path, execute: Execute) -> None:

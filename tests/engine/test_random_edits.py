@@ -336,18 +336,13 @@ def errors(edit: Edit, execute: Execute) -> list[str]:
 
 
 @pytest.mark.parametrize("seed", SEEDS)
-def test_what_is_wrong_is_found_and_nothing_else(project: Path, execute: Execute, seed: str) -> None:
+def test_what_is_wrong_is_found_and_nothing_else(
+    project: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch, seed: str
+) -> None:
+    """A look at what is edited finds what one at all finds."""
     edit = edit_package(project, seed)
     found = errors(edit, execute)
     assert bool(found) is bool(edit.kind), (edit.kind, edit.path, edit.harmless, found, edit.text)
-
-
-@pytest.mark.parametrize("seed", SEEDS)
-def test_a_look_at_what_is_edited_finds_what_one_at_all_finds(
-    project: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch, seed: str
-) -> None:
-    edit = edit_package(project, seed)
-    found = errors(edit, execute)
 
     def compare_whole(mine: str, generated: str) -> Difference:
         return compare(mine, generated)._replace(same=frozenset(), is_whole=True)

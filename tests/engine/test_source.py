@@ -168,13 +168,6 @@ def test_what_a_macro_says_twice_is_listed_once(project: Path, execute: Execute)
     ]
 
 
-def test_an_input_that_changes_nothing_is_recorded(built: Path, execute: Execute) -> None:
-    with (built / "urdf/masses.yaml").open("a") as file:
-        file.write("# a comment\n")
-    assert execute("build").lines == ["arm: in step, 15 files"]
-    assert execute("status").lines == ["arm: in step, 15 files"]
-
-
 def test_the_expansion_is_written_if_a_hash_changed_and_only_then(built: Path, execute: Execute) -> None:
     package, before = outputs(built), EXPANDED.read_bytes()
     (built / "urdf/parts/other.xacro").write_text("nobody reads this")
@@ -295,14 +288,6 @@ def test_an_optional_file_that_appears_is_an_input(project: Path, execute: Execu
     execute("build")
     (project / "urdf/more.xacro").write_text(f"{xacros.HEAD.format('more')}</robot>")
     assert execute("status", code=1).lines[1:] == ["  urdf/more.xacro"]
-
-
-def test_status_before_the_first_build(project: Path, execute: Execute) -> None:
-    with unchanged(project):
-        assert execute("status", code=1).lines[:2] == [
-            "arm: not expanded, so its files were not compared",
-            "  no expansion is recorded",
-        ]
 
 
 @pytest.mark.parametrize("damage", ["<<<<<<< ours\n{}", "{}\n</robot>", "no JSON"])

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import itertools
-import json
 from collections.abc import Callable
 from pathlib import Path
 
@@ -17,6 +16,7 @@ from support.networks import (
     R2,
     RECORD,
     configure,
+    drop,
     edit,
     kinds,
     mentioned,
@@ -45,13 +45,6 @@ def conflict(project: Path) -> str:
     edit("ladder.json", '"farad": 4.7e-6', '"ohm": 7')
     assert kinds(run())[C2] is Reason.CONFLICT
     return C2
-
-
-def take_out(name: str) -> None:
-    """Remove an element from the source."""
-    network = json.loads(Path("ladder.json").read_text())
-    network["elements"] = [one for one in network["elements"] if one["name"] != name]
-    Path("ladder.json").write_text(json.dumps(network))
 
 
 def move_package() -> None:
@@ -89,7 +82,7 @@ def test_a_base_is_rendered_with_the_import_that_it_was_written_with(conflict: s
 def test_an_element_that_was_away_for_a_while_is_known_by_its_other_name(conflict: str) -> None:
     edit(R1, "end R1", "  // mine\nend R1")
     text = Path("ladder.json").read_text()
-    take_out("R1")
+    drop("R1")
     run()
     Path("ladder.json").write_text(text.replace('"R1"', '"R9"'))
     assert R1 in {action.origin for action in run().actions}
@@ -97,7 +90,7 @@ def test_an_element_that_was_away_for_a_while_is_known_by_its_other_name(conflic
 
 def test_an_element_may_get_the_name_of_one_that_is_gone(conflict: str) -> None:
     edit(R1, "end R1", "  // mine\nend R1")
-    take_out("R2")
+    drop("R2")
     run()
     rename("R1", "R2")
     run(), run()
@@ -119,7 +112,7 @@ def test_a_record_that_was_renewed_moves_with_its_package(conflict: str) -> None
 def test_a_choice_on_an_orphan_waits_while_the_package_moves(project: Path) -> None:
     run()
     edit(C1, "end C1", "  // mine\nend C1")
-    take_out("C1")
+    drop("C1")
     move_package()
     blocked = block_moved_package()
     run(choices={C1: Choice.TAKE})
@@ -140,7 +133,7 @@ def test_a_robot_that_is_renamed_in_case_only_keeps_its_record(project: Path) ->
 def test_what_the_user_does_with_a_file_that_is_his_is_his_business(project: Path, how: str) -> None:
     run()
     edit(C1, "end C1", "  // mine\nend C1")
-    take_out("C1")
+    drop("C1")
     run()
     run(choices={C1: Choice.KEEP})
     path = Path(C1)

@@ -96,17 +96,6 @@ def test_a_merge_that_was_undone_can_be_made_again(merged: Path, execute: Execut
     assert Path(MODEL).read_text() == Path("mine.txt").read_text()
 
 
-def test_what_is_given_back_and_does_not_fit_is_told(execute: Execute, project: Path) -> None:
-    execute("build")
-    edit(MODEL, "Elements.C1 elementC1", "parameter Real mine = 1;\n\n  Elements.C1 elementC1")
-    edit("ladder.json", '"C1"', '"C3"')
-    execute("build", "--merge")
-    for command in (("resolve", MODEL, "--undo"), ("build",)):
-        assert "there is no class `Elements.C1`" in execute(*command, code=3).err
-    for words in (("build", "--check"), ("status",)):
-        assert "broken" in execute(*words, code=1).lines[0]
-
-
 def test_a_merge_with_a_rename_that_was_undone_can_be_made_again(execute: Execute, project: Path) -> None:
     execute("build")
     edit(MODEL, "Elements.C1 elementC1", "Elements.C1 mine;\n\n  Elements.C1 elementC1")
@@ -131,13 +120,6 @@ def test_a_merge_that_another_export_goes_beyond_is_not_undone(merged: Path) -> 
     add_resistor("R4")
     assert conflicts(choices={MODEL: Choice.UNDO}) == [MODEL]
     assert Path(MODEL).read_text() == both
-
-
-def test_undo_outlives_builds_that_write_other_files(merged: Path, execute: Execute) -> None:
-    edit("ladder.json", "220.5", "330")
-    execute("build")
-    execute("resolve", MODEL, "--undo")
-    assert Path(MODEL).read_text() == Path("mine.txt").read_text()
 
 
 def test_what_was_taken_can_be_given_back(project: Path, execute: Execute) -> None:

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 import pytest
-from support.networks import C1, configure, rename, run, source
+from support.networks import C1, configure, drop, rename, run
 
 from urdfsync.dependencies import Dependencies
 from urdfsync.engine import users_files
@@ -23,10 +23,6 @@ def write(files: Mapping[str, str]) -> None:
     for path, text in files.items():
         Path(path).parent.mkdir(parents=True, exist_ok=True)
         Path(path).write_text(text)
-
-
-def drop_capacitor() -> None:
-    source('    {"name": "C1", "between": ["middle", "ground"], "farad": 1e-6},\n', "")
 
 
 def users(result: Result) -> list[str]:
@@ -49,7 +45,7 @@ def test_models_anywhere_below_the_configuration_and_where_it_says_are_looked_th
     write({path: model(Path(path).stem) for path in (*found, *others)})
     write({"venv/pyvenv.cfg": "", "nested/urdfsync.toml": ""})
     Path("models/Link.mo").symlink_to(Path("../elsewhere/X.mo").absolute())
-    drop_capacitor()
+    drop("C1")
     assert users(run()) == sorted(str(Path(path).absolute().resolve()) if path[:2] == ".." else path for path in found)
 
 
@@ -66,7 +62,7 @@ def test_a_class_of_a_package_elsewhere_is_resolved_in_that_package(project: Pat
             "Common.mo": "package Common\n  model Frame\n    Real z;\n  end Frame;\nend Common;\n",
         }
     )
-    drop_capacitor()
+    drop("C1")
     (found,) = run().diagnostics
     assert (found.file, found.line, found.code) == ("Plant/Cell.mo", 5, "unresolved")
 
@@ -83,7 +79,7 @@ def test_of_files_that_are_no_modelica_only_the_names_are_read(project: Path) ->
 def test_words_about_a_robot_use_nothing(project: Path) -> None:
     run()
     write({"Words.mo": 'model Words "Ladder"\n  // Ladder.Elements.C1\n  Nowhere.To.Be it;\nend Words;\n'})
-    drop_capacitor()
+    drop("C1")
     assert not run().diagnostics
     assert not Path(C1).exists()
 
@@ -101,7 +97,7 @@ def test_more_folders_than_a_project_has_are_not_looked_through(project: Path, m
     write({"Bench.mo": model("Bench")})
     monkeypatch.setattr(users_files, "_MOST", 50)
     run()
-    drop_capacitor()
+    drop("C1")
     with Dependencies() as dependencies:
         (found,) = run(dry=True).diagnostics
     assert (found.severity, found.code, found.file) == ("warning", "too-many-folders", "urdfsync.toml")
@@ -113,7 +109,7 @@ def test_of_a_text_without_end_no_names_are_looked_at(project: Path) -> None:
     run()
     text = model("Bench", body=f"{USE}  parameter Real table[:] = {{{', '.join(['0.125'] * 150_000)}}};\n")
     write({"Bench.mo": text})
-    drop_capacitor()
+    drop("C1")
     (found,) = run().diagnostics
     assert (found.severity, found.code, found.file) == ("warning", "too-long", "Bench.mo")
     edited = Path("modelica/Ladder/Ladder.mo")

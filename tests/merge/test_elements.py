@@ -174,18 +174,3 @@ def test_equations_too_many_to_compare_each_with_each_merge_by_lines() -> None:
     texts = ("".join(f"  x{i} + {n} = y*{i + n};\n" for i in range(1_000)) for n in range(3))
     base, mine, generated = (f"model A\nequation\n{text}end A;\n" for text in texts)
     assert merge(base, mine, generated, is_modelica=True).text is None
-
-
-@pytest.mark.parametrize(
-    ("base", "mine", "generated"),
-    [
-        pytest.param("parameter Integer n = 3000000;", "3000001", "3000002", id="Integers have no rounding"),
-        pytest.param(
-            "Real n = 3000000;", "protected\n  Real n = 3000000;", "", id="moved by one, removed by the other"
-        ),
-    ],
-)
-def test_what_both_sides_say_otherwise_is_a_contradiction(base: str, mine: str, generated: str) -> None:
-    texts = (base, *(base.replace("3000000", side) if side.isdigit() else side for side in (mine, generated)))
-    found = merge(*(f"model A\n  Real x;\n  {text}\nend A;\n" for text in texts), is_modelica=True)
-    assert (found.text, len(found.contradictions)) == (None, 1)

@@ -9,18 +9,7 @@ import msgspec
 import numpy as np
 import pytest
 from support import generic, physics
-from support.modelica import (
-    GRAVITY,
-    URDFSYNC,
-    Array,
-    Run,
-    Task,
-    bench,
-    compile_task,
-    execute,
-    simulate,
-    simulate_all,
-)
+from support.modelica import GRAVITY, URDFSYNC, Array, Run, Task, bench, compile_task, execute, simulate, simulate_all
 from support.packages import generate
 from support.urdfs import joint, link, links, mimic, robot
 

@@ -9,17 +9,16 @@ from typing import Any, NamedTuple
 import numpy as np
 import pinocchio as pin
 import pytest
-from support import generic, physics
+from support import physics
 from support.cases import sampled
-from support.modelica import DRIVES, Array, Run, Task, bench, simulate
-from support.packages import Package, generate
+from support.modelica import DRIVES, Run, Task, bench, simulate
+from support.packages import generate
 from support.urdfs import dynamics, joint, limit, link, links, mimic, robot
 
 from urdfsync.domain import Target
 from urdfsync.urdf.physics import motion
 from urdfsync.urdf.physics.motion import Course
 from urdfsync.urdf.physics.reference import Reference, read
-from urdfsync.urdf.robot import MOTION_KINDS
 
 pytestmark = pytest.mark.slow
 
@@ -102,45 +101,6 @@ def test_joints_move_and_push_as_pinocchio_says(names: Sequence[str], modelica_l
     """Some in one process of the compiler."""
     cases = [physics.prepare(DRIVEN[name].encode(), name.capitalize()) for name in names]
     assert [physics.fault(found) for found in physics.compare(modelica_library, tmp_path, cases)] == [None] * len(cases)
-
-
-NAMES = {"rotational": ("revolute", "phi", "w"), "translational": ("prismatic", "s", "v")}
-
-
-def release(name: str, urdf: str) -> tuple[Package, Task, Array]:
-    """A robot that begins at given positions and speeds and moves as the forces want; its accelerations at once."""
-    package = generate(urdf.encode(), Target(name, name))
-    axes = motion.driven_axes(package.skeleton)
-    courses = [motion.axis_course(joint) for joint in axes]
-    starts, values = [], []
-    for each, course in zip(axes, courses, strict=True):
-        component, (inner, q, v) = package.skeleton.joint(each.name).component, NAMES[MOTION_KINDS[each.type]]
-        starts.append(f"{component}({q}_start = {course.position!r}, {v}_start = {course.speed!r})")
-        values.append(f"robot.{component}.{inner}.a")
-    body = f"{name}.{name} robot({', '.join(starts)});\n  equation\n    connect(world.frame_b, robot.frame_a);"
-    task = bench(body, [Run(1e-6, 1e-6)], values, packages=[name], gravity=motion.GRAVITY)
-    return package, task, accelerations(urdf, [each.name for each in axes], courses)
-
-
-def accelerations(urdf: str, axes: Sequence[str], courses: Sequence[Course]) -> Array:
-    """Accelerations of axes without drives, the base at rest."""
-    reference = Reference(read(urdf.encode(), "robot.urdf"), axes)
-    state = reference.state(courses)
-    v = reference.projection @ [course.speed for course in courses]
-    state.q[:7] = pin.neutral(reference.model)[:7]
-    load = pin.nonLinearEffects(reference.model, reference.model.createData(), state.q, v) + reference.losses(v)
-    return generic.forward(reference, state, load)
-
-
-@pytest.mark.large  # as does the free motion of each check
-def test_free_joints_accelerate_as_pinocchio_says(modelica_library: Path, tmp_path: Path) -> None:
-    """Without drives."""
-    robots = {name: DRIVEN[name] for name in ("geared", "types", "massless", "gripper")}
-    packages, tasks, accelerations = zip(*(release(name.title(), urdf) for name, urdf in robots.items()), strict=True)
-    runs = simulate(modelica_library, [package.write(tmp_path) for package in packages], tasks)
-    for name, task, expected, series in zip(robots, tasks, accelerations, runs, strict=True):
-        found = np.array([series.values[value][0] for value in task.values])
-        assert found == pytest.approx(expected, rel=1e-9, abs=1e-9 * np.abs(expected).max()), name
 
 
 class Flange(NamedTuple):

@@ -32,11 +32,6 @@ def lines(*found: Change, everything: bool = False) -> list[str]:
     return [line for title, rows in elements.items() for line in (title, *(f"  {row}" for row in rows))]
 
 
-def test_a_number_has_its_unit_and_its_percentage() -> None:
-    found = lines(change("joint elbow / limit / effort", 54.0, 60.0, "N·m"))
-    assert found == ["joint elbow", "  limit / effort 54 → 60 N·m (+11.1 %)"]
-
-
 def test_angles_are_also_in_degrees() -> None:
     found = lines(change("joint elbow / limit / upper", 0.0, math.pi / 2, "rad"))
     assert found[1] == "  limit / upper 0 → 1.5708 rad (0° → 90°)"

@@ -8,26 +8,12 @@ from pathlib import Path
 
 import pytest
 from support.git import NEEDS_GIT, Repository
-from support.networks import (
-    BASES,
-    LADDER,
-    R1,
-    RECORD,
-    configure,
-    edit,
-    mentioned,
-    own_model,
-    resistor,
-    run,
-    source,
-    stored,
-)
+from support.networks import BASES, LADDER, R1, RECORD, configure, edit, mentioned, own_model, resistor, run, stored
 
 from urdfsync.dependencies import LSTAT, Dependencies
 from urdfsync.engine.actions import Reason
 from urdfsync.files import text_digest
-from urdfsync.state import bases, file_operations
-from urdfsync.state.record import Choice
+from urdfsync.state import bases
 
 NOTE = "  // mine\nend R1"
 
@@ -90,23 +76,6 @@ def test_an_answer_depends_on_all_files_and_one_number_touches_two_at_most(proje
     assert mentioned() <= stored().keys()
 
 
-def test_texts_are_stored_before_the_files_that_were_generated_with_them(
-    project: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    order = []
-    place = file_operations.place
-
-    def noted(path: Path, target: Path) -> None:
-        order.append(target.relative_to(project).as_posix())
-        place(path, target)
-
-    monkeypatch.setattr(file_operations, "place", noted)
-    run()
-    kinds = [next(one for one in ("bases", "robots", "modelica", "git") if one in path) for path in order]
-    assert kinds.index("modelica") > max(i for i, kind in enumerate(kinds) if kind == "bases")
-    assert kinds[-1] == "robots"
-
-
 TEMPLATES = "  Real heat;"
 """What new templates declare in the model of each element."""
 
@@ -131,19 +100,6 @@ def test_an_edit_new_templates_and_an_export_in_one_interval_are_merged(
     assert "// mine" in Path(R1).read_text()
     assert "150" in Path(RECORD).read_text()
     assert "// mine" in Path(RECORD).read_text()
-
-
-def test_an_edit_that_lies_over_many_builds_has_its_base(project: Path) -> None:
-    run()
-    edit(RECORD, "end R1", NOTE)
-    for count in range(5):
-        source(f'"ohm": {220.5 + count:g}}}', f'"ohm": {221.5 + count:g}}}')
-        run()
-    resistor(150)
-    (found,) = run().conflict_texts
-    assert found.base is not None
-    run(choices={RECORD: Choice.MERGE})
-    assert "150" in Path(RECORD).read_text()
 
 
 @NEEDS_GIT

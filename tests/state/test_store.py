@@ -12,17 +12,6 @@ from support.networks import BASES, MANIFEST, edit, failure, resistor, run, stor
 from urdfsync.state.store import Store
 
 
-def test_a_manifest_with_a_name_that_no_robot_can_have_is_no_state(execute: Execute, project: Path) -> None:
-    execute("build")
-    (project / ".urdfsync/robots/...state").write_text((project / MANIFEST).read_text())
-    edit("urdfsync.toml", "[robots.ladder]", "[robots.filter]")
-    (project / MANIFEST).unlink()
-    ignore = (project / ".urdfsync/.gitignore").read_bytes()
-    execute("build")
-    assert (project / ".urdfsync/.gitignore").read_bytes() == ignore
-    assert Store(project).names() == ["filter"]
-
-
 def test_bases_follow_the_name_of_their_robot_and_go_with_it(project: Path, execute: Execute) -> None:
     run()
     before = stored()

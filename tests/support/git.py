@@ -34,3 +34,12 @@ class Repository:
         """Commit everything that is there."""
         self.git("add", "-A")
         self.git("commit", "-q", "--allow-empty", "-m", message)
+
+    def merge(self, branch: str) -> None:
+        """Merge a branch; what git can't merge is as it was here, but recorded states it always can."""
+        subprocess.run(["git", "merge", "-q", "--no-edit", branch], cwd=self.folder, capture_output=True)
+        for path in self.git("diff", "--name-only", "--diff-filter=U").split():
+            assert not path.startswith(".urdfsync/")
+            done = subprocess.run(["git", "checkout", "-q", "HEAD", "--", path], cwd=self.folder, capture_output=True)
+            if done.returncode:  # it is deleted here
+                (self.folder / path).unlink(missing_ok=True)

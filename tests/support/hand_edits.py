@@ -1,10 +1,12 @@
-"""Edits as people make them in generated models, by kind; each leaves Modelica that reads as before."""
+"""Edits as people make them in generated models, by kind; `edits` has those of lines, numbers and files."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping
 from random import Random
+
+from support.printer import STYLES, resaved
 
 Edit = Callable[[str, Random], str | None]
 """A text with one more edit; None where there is nothing of the kind to edit."""
@@ -14,7 +16,6 @@ MARK = "byHand"
 
 _PART = re.compile(r"\n  (?:replaceable )?[A-Z][\w.]* (\w+)(?:\(|\n| constrainedby)")
 _MODIFIER = re.compile(r"(?<=[\n(] )\s*\b(\w+) = ([\w.]+)(?=[,)])")
-_NUMBER = re.compile(r"(?<== )-?\d+(?:\.\d+)?(?:e-?\d+)?(?=[,)])")
 _EXTENT = re.compile(r"transformation\(extent=\{\{(-?\d+), (-?\d+)\}, \{(-?\d+), (-?\d+)\}\}")
 _NOTE = "\n  annotation ("
 
@@ -26,18 +27,6 @@ def add_component(text: str, _: Random) -> str | None:
     new = f'\n  {added}\n    "Added by hand";\n'
     place = next((text.find(word) for word in ("\nequation\n", _NOTE) if word in text), -1)
     return f"{text[:place]}{new}{text[place:]}" if place >= 0 else None
-
-
-def add_connection(text: str, random: Random) -> str | None:
-    """A sensor at some part, connected behind all other connections."""
-    names = re.findall(r"connect\((\w+\.frame_[ab]), ", text)
-    if not names or _NOTE not in text:
-        return None
-    sensor = f"\n  Modelica.Mechanics.MultiBody.Sensors.AbsoluteSensor {MARK}Sensor;\n"
-    text = text.replace("\nequation\n", f"{sensor}\nequation\n", 1)
-    place = text.rfind(_NOTE)
-    place = place - 1 if text[place - 1] == "\n" else place
-    return f"{text[:place]}\n  connect({random.choice(names)}, {MARK}Sensor.frame_a);{text[place:]}"
 
 
 def add_equation(text: str, _: Random) -> str | None:
@@ -58,15 +47,6 @@ def change_modifier(text: str, random: Random) -> str | None:
         if place[2] == "true"
         else (f"{text[: place.start(2)]}{MARK}.{place[1]}{text[place.end(2) :]}")
     )
-
-
-def change_number(text: str, random: Random) -> str | None:
-    """Another number."""
-    places = list(_NUMBER.finditer(text))
-    if not places:
-        return None
-    place = random.choice(places)
-    return f"{text[: place.start()]}7171.5{text[place.end() :]}"
 
 
 def change_type(text: str, random: Random) -> str | None:
@@ -98,21 +78,12 @@ def rename_part(text: str, random: Random) -> str | None:
     return re.sub(rf"(?<![\w.\"]){name}(?=[.,()\s])(?!\")", f"{MARK}_{name}", text)
 
 
-def save_again(text: str, _: Random) -> str | None:
-    """The same text with other blanks, as an editor may save it; documentation is left alone."""
-    code, mark, documentation = text.partition("Documentation(")
-    lines = (re.sub(r", (?=\S)", ",", line) if '"' not in line else line for line in code.split("\n"))
-    return re.sub(r"\n\n+", "\n", "\n".join(lines)) + mark + documentation
-
-
 EDITS: Mapping[str, Edit] = {
     "add a component": add_component,
-    "add a connection": add_connection,
     "add an equation": add_equation,
     "change a modifier": change_modifier,
-    "change a number": change_number,
     "change a type": change_type,
     "move a part": move_part,
     "rename a part": rename_part,
-    "save again in another style": save_again,
+    "save again in another style": lambda text, _: resaved(text, STYLES["Dymola"]),
 }

@@ -16,11 +16,10 @@ BUILDS = {"create", "update", "delete"}
 
 
 @pytest.fixture
-def robot(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def robot(folder: Path) -> Path:
     """The source of a configured robot, in the working folder; the file does not exist yet."""
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "urdfsync.toml").write_text('[robots.r]\nsource = "r.urdf"\npackage = "R"\n')
-    return tmp_path / "r.urdf"
+    (folder / "urdfsync.toml").write_text('[robots.r]\nsource = "r.urdf"\npackage = "R"\n')
+    return folder / "r.urdf"
 
 
 def document(capsys: pytest.CaptureFixture[str], *arguments: str) -> dict[str, object]:
