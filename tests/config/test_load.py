@@ -159,6 +159,7 @@ URDF_MISTAKES = {
     'base = "ä"': '`base` must be "fixed" or "floating", not "ä"',
     'frames = "leafs"': '`frames` must be "leaves" or "all" or a list of strings, not "leafs"',
     'frames = ["a", 3]': '`frames` must be "leaves" or "all" or a list of strings, not ["a", 3]',
+    "loops = ['pin']": '`loops` must be a list of tables, not ["pin"]',
     "driven = [true]": "`driven` must be a list of strings, not [true]",
 }
 """By a line of a robot of the other domain: what is wrong is repeated as it was written."""

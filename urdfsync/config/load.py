@@ -108,6 +108,8 @@ def in_words(kind: Any) -> str:
         words = in_words(arguments[1]) if is_choice else kinds.get(arguments[1], "strings, numbers, true and false")
         return f"a table of {words}"
     if origin in (tuple, list, frozenset):
+        if isinstance(arguments[0], type) and issubclass(arguments[0], msgspec.Struct):
+            return "a list of tables"
         kinds = {str: "strings", Path: "paths"}
         return f"a list of {kinds.get(arguments[0]) or in_words(arguments[0])}"
     return _WORDS.get(kind, f"of the type {kind}")
