@@ -25,6 +25,9 @@ from urdfsync.files import shown
 from urdfsync.modelica.names import LIBRARY
 from urdfsync.state.store import Store
 
+PHYSICS = "-physics"
+"""The end of the key of a check with physics; without it, the key is that of a check without."""
+
 
 def result_key(robot: RobotConfig, tools: Sequence[Tool], needed: libraries.Libraries, *facts: object) -> str | None:
     """Return the key of a result: a hash of `facts`, and of the contents of all else that any result rests on.
@@ -65,14 +68,15 @@ def fingerprint(config: Config, robot: RobotConfig, options: CheckOptions) -> st
         templates = source.templates(config, robot, domain).digest
     except (UrdfsyncError, OSError):
         return None
-    return result_key(
+    key = result_key(
         robot,
         options.tools,
         msgspec.structs.replace(needed, others=others),
-        *(options.physics, robot.options, content, templates),
+        *(robot.options, content, templates),
         shown(robot.folder),  # findings name files as they are seen from the working folder
         *(sorted(files.items()) for files in (texts, around, users)),
     )
+    return f"{key}{PHYSICS}" if key and options.physics else key
 
 
 @functools.cache

@@ -127,7 +127,7 @@ def _wait(
         limits.peak = max(limits.peak, used)
         if time.monotonic() >= limits.deadline:
             message = f"{limits.owner} takes more than {limits.seconds:g} s"
-            hint = "allow more with `--timeout`"
+            hint = "allow more with `--timeout`, or try another compiler with `--tool`"
             raise LimitError(Diagnostic(Severity.ERROR, "out-of-time", message, hint=hint))
         if used > limits.memory:
             message = f"{limits.owner} takes more memory than its limit, {limits.memory / 1e9:.2g} GB"

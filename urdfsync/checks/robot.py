@@ -13,7 +13,7 @@ from urdfsync import registry
 from urdfsync.checks import compilers, process, texts
 from urdfsync.checks.cache import UserCache
 from urdfsync.checks.compilation import Compilation, compare_all
-from urdfsync.checks.fingerprint import fingerprint
+from urdfsync.checks.fingerprint import PHYSICS, fingerprint
 from urdfsync.checks.libraries import Libraries, find_libraries
 from urdfsync.checks.names import check_names
 from urdfsync.checks.package import RobotPackage, read_package, users_models
@@ -37,11 +37,9 @@ def known_check(config: Config, robot: RobotConfig) -> CheckResult | None:
     """
     if config.check.tool != "rumoca":  # the key has the version of OpenModelica, which nobody wants to start here
         return None
-    cache = UserCache.default()
-    for physics in (True, False):
-        key = fingerprint(config, robot, CheckOptions(physics=physics))
-        if key and (result := cache.load(key, CheckResult)):
-            return result
+    if key := fingerprint(config, robot, CheckOptions()):  # once for both: it reads the libraries
+        cache = UserCache.default()
+        return cache.load(f"{key}{PHYSICS}", CheckResult) or cache.load(key, CheckResult)
     return None
 
 
