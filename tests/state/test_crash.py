@@ -200,7 +200,8 @@ def test_what_the_user_does_after_a_crash_is_kept(changed: Path, tmp_path: Path)
             assert (project / path).read_bytes() == mine, operation
             assert not result.failed
             assert bool(result.conflicts) is not was_new, operation
-            assert run(project).conflicts == result.conflicts
+            again = run(project)
+            assert [file.action for file in again.conflicts] == [file.action for file in result.conflicts]
 
 
 def test_a_source_that_changes_after_a_crash(changed: Path, tmp_path: Path) -> None:
