@@ -51,15 +51,18 @@ def run(args: argparse.Namespace, console: Console) -> int:
 
     configuration, robot = arguments.select_robot(args, console)
     file = args.output or default_file(f"{robot.name}.html", is_page)
-    written = prepare_page(args, console, file)(check=known_check(configuration, robot))
+    written = prepare_page(args, console, file, against=args.against)(check=known_check(configuration, robot))
     console.add(written)
     console.tell([line((robot.name, "bold"), (f": {written.summary}", "")), line((f"  page: {written.file}", ""))])
     return console.end(Exit.IN_STEP)
 
 
-def prepare_page(args: argparse.Namespace, console: Console, file: Path) -> Callable[..., PageDocument]:
+def prepare_page(
+    args: argparse.Namespace, console: Console, file: Path, *, against: str | None = None, motion: Path | None = None
+) -> Callable[..., PageDocument]:
     """Return a function that writes the page of one robot, with the results that `page` takes.
 
+    `against` is the older version, `motion` a file that the command reads and the page must not replace.
     Raises an error for a file that can't be written, before what it shows is worked out.
     """
     from urdfsync.pages.content import gather  # see above
@@ -67,8 +70,7 @@ def prepare_page(args: argparse.Namespace, console: Console, file: Path) -> Call
 
     configuration = load(args.config)
     robot = configuration.select_one([*args.robots, *(args.robot or [])], args.command)
-    check_page(file, input_files(configuration, robot, getattr(args, "motion", None)))
-    against = getattr(args, "against", None)
+    check_page(file, input_files(configuration, robot, motion))
 
     def write(**results: Any) -> PageDocument:
         content = gather(configuration, robot, against, arguments.request(args, console), working_folder())

@@ -57,7 +57,7 @@ def add(commands: arguments.Commands) -> None:
 def run(args: argparse.Namespace, console: Console) -> int:
     """Simulate one robot, write what was asked for, and show what came out."""
     files = {kind: file for kind in ("csv", "parquet", "plot") if (file := getattr(args, kind)) is not None}
-    write_report = prepare_page(args, console, args.report) if args.report else None
+    write_report = prepare_page(args, console, args.report, motion=args.motion) if args.report else None
     extra = {"files": files, "tool": args.tool, "trusted": args.trusted}
     result = arguments.call(simulate, SimulateOptions, args, console, **extra)
     if write_report:
