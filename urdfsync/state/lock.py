@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from filelock import BaseFileLock
 
 _FLAGS = getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0)
+_LEAST_WAIT = 0.2
+"""Seconds for some attempts: one alone takes a lock file that is deleted meanwhile for one that somebody holds."""
 
 
 class LockedError(UrdfsyncError):
@@ -28,7 +30,7 @@ class Lock:
     """A lock file in a state folder. It stays there, and has the number of the process that held the lock last."""
 
     def __init__(self, file: Path, wait: float) -> None:
-        """`wait` is in seconds."""
+        """`wait` is in seconds; less than 0.2 is 0.2."""
         self._file, self._wait = file, wait
         self._lock: BaseFileLock | None = None
 
@@ -46,7 +48,7 @@ class Lock:
         lock = FileLock(self._file, thread_local=False)
         try:
             Tree(self._file.parent.parent).check_folder(self._file.parent)  # FileLock follows a link to a folder
-            lock.acquire(self._wait, cancel_check=lambda: bool(waiting()))
+            lock.acquire(max(self._wait, _LEAST_WAIT), cancel_check=lambda: bool(waiting()))
         except Timeout:
             self._wait = 0
             message = f"{self.holder()} is building here, and did not finish in time"
