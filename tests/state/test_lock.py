@@ -88,7 +88,7 @@ def test_a_file_that_is_deleted_while_it_is_locked_is_held_by_nobody(
     with build_lock(file.parent, 0) as lock:
         lock.acquire()
     file.touch()
-    opened = []
+    opened: list[str] = []
     real = os.open
 
     def open_deleted(path: str, flags: int, *arguments: int, **names: int) -> int:

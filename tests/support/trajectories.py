@@ -12,7 +12,8 @@ from scipy.io import savemat
 def write_trajectory(file: Path, constants: Mapping[str, float], series: Mapping[str, Sequence[float]]) -> None:
     """Write a result as OpenModelica does; a name that begins with - is stored negated, as an alias is."""
     names = [*series, *constants]
-    letters = zip(*(name.removeprefix("-").ljust(20) for name in names), strict=True)  # a column for each name
+    width = max(map(len, names))
+    letters = zip(*(name.removeprefix("-").ljust(width) for name in names), strict=True)  # a column for each name
     rows = {name: (2, number) for number, name in enumerate(series, 1)}
     rows |= {name: (1, number) for number, name in enumerate(constants, 2)}
     info = [[table, -row if name[0] == "-" else row, 0, -1] for name, (table, row) in rows.items()]

@@ -99,7 +99,10 @@ USERS = frozenset(
 
 
 class Action(msgspec.Struct, frozen=True):
-    """The decision about one file, and the hashes that it rests on; `path` is the file's key."""
+    """The decision about one file, and the hashes that it rests on; `path` is the file's key.
+
+    Whoever acts on it takes `path` for all that it changes: a file that moves has two actions, MOVE and MOVED_AWAY.
+    """
 
     KEYS = ("path", "origin", "status", "kind", "reason", "held", "owner", "role", "text")
 
@@ -132,7 +135,10 @@ class Action(msgspec.Struct, frozen=True):
 
     @property
     def text(self) -> str:
-        """Why it happens, and what it waits for, as the end of a sentence that begins with the path."""
+        """Why it happens, and what it waits for, as the end of a sentence that begins with the path; for scripts.
+
+        People read `output.phrases.reason`.
+        """
         return "; ".join(filter(None, (self.reason.text, self.waits_for)))
 
     @property

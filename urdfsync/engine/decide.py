@@ -62,7 +62,7 @@ def decide_package(generation: Generation) -> Decision:
     Raises OutputError for what can't be worked with, such as links or merge markers.
     """
     inputs, files, last = generation.inputs, generation.inputs.files, generation.inputs.last
-    actions = tuple(_limit(inputs, action) for action in decide(_find_files(generation), generation.moves))
+    actions = tuple(_adjust(inputs, action) for action in decide(_find_files(generation), generation.moves))
     chosen = valid_choices(inputs.options.choices, actions)
     actions, undone = apply_undo(inputs, actions, chosen)
 
@@ -110,7 +110,7 @@ def _find_files(generation: Generation) -> dict[str, File]:
     return files
 
 
-def _limit(inputs: Inputs, action: Action) -> Action:
+def _adjust(inputs: Inputs, action: Action) -> Action:
     """Keep a text that could not be given back, and with `adopt` a file that urdfsync did not write."""
     # the record may be a stranger's, who has put the hash of a file of the user's into it
     if action.reason is Reason.DELETE and action.role is not Role.IMPORT and inputs.last.base(action.base) is None:

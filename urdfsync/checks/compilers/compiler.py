@@ -50,7 +50,10 @@ class Export(msgspec.Struct, frozen=True):
 
 
 class CompileTask(msgspec.Struct, frozen=True):
-    """A model to compile, which is in the text `source`; then to simulate, if there are `runs`."""
+    """A model to compile, which is in the text `source`; then to simulate, if there are `runs`.
+
+    A compiler that can't do what a task asks for says so in the problem of its result, or of each run.
+    """
 
     model: str
     source: str
@@ -88,6 +91,7 @@ class CompileResult(msgspec.Struct, frozen=True):
     warnings: str = ""
     """Findings about a model that compiles, in the compiler's words."""
     runs: tuple[SimulationResult, ...] = ()
+    """One for each of the task's, in order, unless there is a `problem`."""
     parameters: tuple[str, ...] = ()
     """All parameters of the model, if one that the task sets is not among them."""
     without_effect: tuple[str, ...] = ()
@@ -100,9 +104,10 @@ class CompileResult(msgspec.Struct, frozen=True):
 
 
 class CompileJob(msgspec.Struct, frozen=True):
-    """Tasks for one process, one after the other, with the libraries in the folders `roots`."""
+    """Tasks for one process, one after the other."""
 
     roots: tuple[str, ...]
+    """Files and folders of packages, and folders that hold packages: libraries, and the robot's."""
     tasks: tuple[CompileTask, ...]
     program: str = ""
     """See `Tool.program`."""
