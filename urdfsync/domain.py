@@ -90,8 +90,6 @@ class Dependency(msgspec.Struct, frozen=True):
     """Whether it is found only in a folder that does not have the name of its package."""
     facts: tuple[str, ...] = ()
     """Names of the facts that artifacts need of it, where not all conversions have the same."""
-    is_for_picture: bool = False
-    """Whether it is converted for a picture alone, for which one that is too large is simplified."""
 
 
 class Conversion(msgspec.Struct, frozen=True):
@@ -633,12 +631,18 @@ class Domain(Protocol):
         return None
 
     def scene(self, snapshot: Snapshot, imports: Mapping[str, Import], target: Target, options: Any) -> Scene | None:
-        """Return the model as a picture with axes to move, or None if the domain has none. Pure."""
+        """Return the model as a picture with axes to move, or None if the domain has none. Pure.
+
+        An import without facts is a file that is too large for the package.
+        """
         return None
 
-    def triangles(self, contents: Mapping[str, bytes]) -> tuple[Mapping[str, Triangles], Mapping[str, str]]:
-        """Return the meshes of imported files by their paths, large ones simplified, and why others have none."""
-        return {}, {}
+    def triangles(self, path: str, content: bytes, key: str, most: int) -> Triangles | str:
+        """Return at `most` so many triangles of a mesh, or about that; or why there are none.
+
+        It is an imported file at `path`, or what the dependency `key` has, if that is too large to be imported.
+        """
+        return "it is no mesh"
 
     def models(self, snapshot: Snapshot, target: Target, options: Any) -> Sequence[str]:
         """Return the classes that have to compile by themselves, by name below the package, the main one first."""

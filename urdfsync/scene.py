@@ -3,13 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TypeAlias
 
 import msgspec
-
-if TYPE_CHECKING:
-    import numpy as np
-    import numpy.typing as npt
 
 Pose: TypeAlias = tuple[float, ...]
 """16 numbers of a homogeneous matrix, column after column, as WebGL has them."""
@@ -31,7 +27,7 @@ class Shape(msgspec.Struct, frozen=True):
     color: tuple[float, ...]
     """Red, green, blue and opacity, from 0 to 1."""
     mesh: str = ""
-    """Path of an imported file."""
+    """The import's `target`, as the scene got it."""
 
 
 class Body(msgspec.Struct, frozen=True):
@@ -44,10 +40,10 @@ class Body(msgspec.Struct, frozen=True):
     facts: Facts
     shapes: tuple[Shape, ...] = ()
     mass: float = 0.0
-    inertia: Pose | None = None
-    """Pose of the principal axes in the centre of mass; None for a body without mass."""
-    box: tuple[float, ...] = ()
-    """Edges of the homogeneous box with this mass and inertia; empty if there is none."""
+    center: Pose | None = None
+    """The frame of its inertia, in the centre of mass; None for a body without mass."""
+    inertia: tuple[float, ...] = ()
+    """The moments and products xx, xy, xz, yy, yz and zz in this frame."""
 
 
 class Hinge(msgspec.Struct, frozen=True):
@@ -112,11 +108,11 @@ class Scene(msgspec.Struct, frozen=True):
 class Triangles(msgspec.Struct, frozen=True):
     """The triangles of a mesh as a page shows them."""
 
-    points: npt.NDArray[np.float32]
-    """n × 3, in metres."""
-    faces: npt.NDArray[np.uint32]
-    """m × 3, of the points."""
+    points: int
+    faces: int
+    content: bytes
+    """Three numbers of single precision for each point, in metres, then three points for each face: little-endian."""
     total: int
     """Number of triangles of the file itself."""
-    is_simplified: bool = False
+    is_simplified: bool
     """Whether corners that are apart in the file have become one."""

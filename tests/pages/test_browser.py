@@ -289,6 +289,33 @@ def test_a_robot_that_does_not_move_and_has_no_shape(report: Report, chromium: P
     assert page.problems == []
 
 
+def test_the_inertia_box_is_the_body_with_this_inertia(report: Report, chromium: Page) -> None:
+    mass, squares, (turn, _) = (
+        3.0,
+        np.square([0.2, 0.4, 0.6]),
+        np.linalg.qr(np.random.default_rng(1).normal(size=(3, 3))),
+    )
+    tensor = turn @ np.diag(mass / 12 * (squares.sum() - squares)) @ turn.T
+    names = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+    numbers = " ".join(
+        f'{name}="{part!r}"' for name, part in zip(names, tensor[np.triu_indices(3)].tolist(), strict=True)
+    )
+    inertial = f'<origin xyz="1 2 3" rpy="0 0 {math.pi / 2}"/><mass value="{mass}"/><inertia {numbers}/>'
+    page = opened(
+        chromium, report(f'<robot name="bot"><link name="base"><inertial>{inertial}</inertial></link></robot>')
+    )
+    box = "page.now.bodies.get('link base').layers.inertia[0]"
+    matrix = np.reshape(page.run(f"{box}.matrix.elements"), (4, 4)).T
+    edges = page.run(f"(({{width, height, depth}}) => [width, height, depth])({box}.geometry.parameters)")
+    assert np.linalg.det(matrix[:3, :3]) == pytest.approx(1)
+    assert matrix[:3, 3] == pytest.approx([1, 2, 3])
+    turn = np.array([[0, -1, 0], [1, 0, 0], [0, 0, 1]]) @ turn
+    shape = matrix[:3, :3] @ np.diag(np.square(edges)) @ matrix[:3, :3].T
+    assert shape == pytest.approx(turn @ np.diag(squares) @ turn.T, abs=1e-12)
+    for none in ("1, 0, 0, 1, 0, 9", "0, 0, 0, 0, 0, 0", "1, 0, 0, 1, 0, null", "1e308, 0, 0, 1e308, 0, 1e308"):
+        assert page.run(f"boxOf({{mass: 1e-3, inertia: [{none}]}})") is None
+
+
 @pytest.mark.parametrize("dark", [False, True])
 def test_a_narrow_window_needs_no_sideways_scrolling(arm: Path, report: Report, chromium: Page, dark: bool) -> None:
     page = opened(chromium, report(), width=400, dark=dark)

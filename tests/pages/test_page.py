@@ -12,7 +12,7 @@ import subprocess
 from collections.abc import Callable, Mapping
 from html.parser import HTMLParser
 from pathlib import Path
-from typing import cast
+from typing import Any, cast
 from xml.sax.saxutils import quoteattr
 
 import pytest
@@ -30,6 +30,8 @@ from urdfsync.pages import page as page_module
 from urdfsync.pages.content import gather
 from urdfsync.pages.page import FOLLOWER, SCRIPTS
 from urdfsync.pages.page import page as page_of
+from urdfsync.scene import Triangles
+from urdfsync.urdf.domain import UrdfDomain
 
 Report = Callable[..., Path]
 STILL = '<robot name="still"><link name="only"/></robot>'
@@ -68,6 +70,12 @@ def data_of(page: _Elements) -> dict[str, object]:
     (text,) = (text for _, attributes, text in page.raw if attributes.get("id") == "data")
     values: dict[str, object] = json.loads(text)
     return values
+
+
+def faces_of(file: Path) -> dict[str, int]:
+    """Return the number of triangles of each mesh."""
+    meshes = cast(Mapping[str, list[int]], data_of(read(file))["meshes"])
+    return {name: faces for name, (_, faces) in meshes.items()}
 
 
 def test_the_policy_has_the_hash_of_each_script_and_style(arm: Path, report: Report) -> None:
@@ -154,14 +162,34 @@ def test_a_mesh_that_is_missing_is_named(arm: Path, report: Report) -> None:
     assert "is not in the package" in page.words
 
 
-def test_a_large_mesh_is_simplified_and_the_page_says_so(
+def test_a_large_mesh_is_simplified_once_and_the_page_says_so(
     arm: Path, report: Report, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("urdfsync.urdf.meshes.simplify.MOST", 200)
-    page = read(report())
-    assert re.search(
-        r"Resources/\S*\.(stl|obj) is simplified for this page: \d+ of its [\d,]+ triangles are left", page.words
-    )
+    monkeypatch.setattr("urdfsync.pages.picture._MOST", 200)
+    told = r"Resources/(\S*)\.(?:stl|obj) is simplified for this page: \d+ of its [\d,]+ triangles are left"
+    page, paths, simplify = report(), list[str](), UrdfDomain.triangles
+    before, large = page.read_bytes(), re.findall(told, read(page).words)
+    assert len(large) > 1
+
+    def triangles(domain: UrdfDomain, path: str, *rest: Any) -> Triangles | str:
+        paths.append(path)
+        return simplify(domain, path, *rest)
+
+    monkeypatch.setattr(UrdfDomain, "triangles", triangles)
+    assert report().read_bytes() == before
+    assert paths
+    assert not any(name in path for path in paths for name in large)
+
+
+def test_meshes_have_equal_shares_of_what_the_page_may_have(
+    arm: Path, report: Report, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    whole = faces_of(report())
+    monkeypatch.setattr("urdfsync.pages.picture._MOST_IN_ALL", 700 * len(whole))
+    shared = faces_of(report())
+    for name, faces in whole.items():
+        assert shared[name] == faces if faces <= 700 else 200 < shared[name] <= 700
+    assert max(whole.values()) > 700
 
 
 @pytest.mark.slow
@@ -175,11 +203,14 @@ def test_a_mesh_that_is_too_large_for_the_package_is_simplified_and_one_that_is_
         f'<visual><geometry><mesh filename="{name}" scale="2 2 2"/></geometry></visual>'
         for name in ("ball.ply", "damaged.stl")
     )
-    page = read(report(f'<robot name="ball"><link name="base">{"".join(shapes)}</link></robot>'))
+    file = report(f'<robot name="ball"><link name="base">{"".join(shapes)}</link></robot>')
+    page = read(file)
     assert "it has more than 1,000,000 triangles; left out" in page.words
-    assert "ball.ply is not in the package, and simplified for this page" in page.words
-    assert "link base, visual 2: mesh damaged.stl is not in the package" in page.words
-    ((_, faces),) = cast(Mapping[str, list[int]], data_of(page)["meshes"]).values()
+    assert re.search(
+        r"ball\S*\.stl is simplified for this page: [\d,]+ of its 1,310,720 triangles are left", page.words
+    )
+    assert re.search(r"damaged\S*\.stl can't be shown: it", page.words)
+    (faces,) = faces_of(file).values()
     assert 10_000 < faces <= 60_000
 
 
@@ -220,8 +251,9 @@ def test_what_a_check_found_of_this_package_is_told(arm: Path, report: Report, m
     asked = list[str]()
 
     def load(_: UserCache, key: str, kind: type) -> CheckResult | None:
-        asked.append(key)
-        return kept if len(asked) == 2 else None
+        if kind is CheckResult:  # meshes are remembered, too
+            asked.append(key)
+        return kept if kind is CheckResult and len(asked) == 2 else None
 
     monkeypatch.setattr(UserCache, "load", load)
     page = read(report())

@@ -41,7 +41,7 @@ def result_key(robot: RobotConfig, tools: Sequence[Tool], needed: libraries.Libr
         places |= {str(path): path for path in libraries.standard_libraries()}
     try:
         return digest(
-            *(sys.version, sys.platform, _installed(), _code(urdfsync.__file__), _domain_code(robot.domain)),
+            *program(robot.domain),
             *(compilers.state(tool) for tool in tools),
             [(name, str(path), content_hash(path)) for name, path in sorted(places.items())],
             # of these a copy is used, without resources
@@ -77,6 +77,11 @@ def fingerprint(config: Config, robot: RobotConfig, options: CheckOptions) -> st
         *(sorted(files.items()) for files in (texts, around, users)),
     )
     return f"{key}{PHYSICS}" if key and options.physics else key
+
+
+def program(domain: str) -> tuple[object, ...]:
+    """Return what stands for urdfsync's code and that of a domain, Python, and all that is installed."""
+    return sys.version, sys.platform, _installed(), _code(urdfsync.__file__), _domain_code(domain)
 
 
 @functools.cache

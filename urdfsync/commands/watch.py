@@ -80,7 +80,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
             build=arguments.request(args, console),
         )
         if args.view or args.open:
-            from urdfsync.watch.view import View  # with numpy 100 ms
+            from urdfsync.watch.view import View  # with Jinja 50 ms
 
             view = stack.enter_context(contextlib.closing(View(options, args.port)))
             show(events.Viewing(address := f"http://{view.hosts[0]}/"))

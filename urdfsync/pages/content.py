@@ -2,34 +2,27 @@
 
 from __future__ import annotations
 
-import contextlib
-from collections.abc import Iterator, Mapping, Sequence
-from pathlib import Path, PurePosixPath
+from collections.abc import Mapping, Sequence
+from pathlib import Path
 
 import msgspec
 
-from urdfsync import registry
 from urdfsync.changes import Changes, compare
 from urdfsync.config import Config, RobotConfig
-from urdfsync.dependencies import read_file
 from urdfsync.diagnostics import UrdfsyncError
-from urdfsync.domain import ChangeClass, ChangeKind, Domain, Import
+from urdfsync.domain import ChangeClass, ChangeKind
 from urdfsync.engine.edits import RobotEdits, find_edited
 from urdfsync.engine.generation import Generation, generate_robot
 from urdfsync.engine.inputs import inspect
-from urdfsync.engine.last_build import NO_MODEL
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.renames import find_renames
 from urdfsync.engine.result import DisputedFile
 from urdfsync.files import digest, shown
 from urdfsync.output.outline import outline
 from urdfsync.output.sections import Section
-from urdfsync.scene import Scene, Triangles
-from urdfsync.versions.comparison import Contents, compare_sources
+from urdfsync.pages.picture import Picture, picture
+from urdfsync.versions.comparison import Comparison, Contents, compare_sources
 from urdfsync.versions.report import to_section
-
-_MOST_REFUSED = 4
-"""Files that are tried once more for the picture: each may take 16 s."""
 
 
 class Content(msgspec.Struct, frozen=True):
@@ -42,14 +35,7 @@ class Content(msgspec.Struct, frozen=True):
     """What changed, in words."""
     against: str
     """The older version, in words."""
-    now: Scene
-    before: Scene | None
-    """None if nothing changed, or there is no older version."""
-    meshes: Mapping[str, Triangles]
-    """Those of both versions, by names that follow from their contents."""
-    names_now: Mapping[str, str]
-    names_before: Mapping[str, str]
-    """The names by the paths that shapes have."""
+    picture: Picture
     statuses: Mapping[str, str]
     """Elements that are `changed`, `added`, `removed` or `renamed`; the page adds those with other meshes."""
     renamed: Mapping[str, str]
@@ -62,8 +48,6 @@ class Content(msgspec.Struct, frozen=True):
     """SVG; empty if there is none."""
     edits: RobotEdits
     conflicts: Sequence[DisputedFile]
-    notes: Sequence[str]
-    """What the picture does not show as it is."""
 
 
 def gather(
@@ -84,61 +68,39 @@ def gather(
     if compared.result.failed:
         raise UrdfsyncError(*compared.result.diagnostics)
     generation = generate_robot(inspect(config, robot, options))
-    version = generation.now, generation.imported.contents
-    changes, result = compared.result.changes, compared.result
-    older = compared.versions[0] if compared.versions else _last_build(generation)
-    domain, before = registry.domain(robot.domain), None
-    other = next((each for each in shown_before if each[0] != version[0]), None)
-    if other and not (changes and changes.changes):
-        same = find_renames(domain, other[0].snapshot, version[0].snapshot, robot.renamed)
-        older, changes = other, compare(other[0], version[0], domain, robot.options, same)
-        told = msgspec.structs.replace(result, changes=changes)
-        compared = msgspec.structs.replace(compared, result=told, against="the picture before")
-    imports, files = {**generation.imported.imports}, {**version[1]}
-    simplified = list(_add_refused(generation, domain, imports, files))
-    now = domain.scene(version[0].snapshot, imports, robot.target, robot.options)
-    if now is None:
-        message = f"packages of the domain `{robot.domain}` have no picture"
-        raise UrdfsyncError.of("no-picture", message, shown(robot.source))
-    if older and changes and changes.changes:
-        old, options_then = older[0], older[0].options or robot.options
-        with contextlib.suppress(*NO_MODEL):  # what is recorded may be no model
-            before = domain.scene(old.snapshot, old.imports or {}, robot.target, options_then)
-    contents = [_meshes(now, (version[0], files)), _meshes(before, older)]
-    paths = {name: path for every in contents for path, (name, _) in every.items()}
-    meshes, problems = domain.triangles({name: content for every in contents for name, content in every.values()})
-    names_now, names_before = ({path: name for path, (name, _) in every.items()} for every in contents)
+    compared, older = _with_older(compared, generation, shown_before)
+    changes, result = compared.result.changes or Changes(), compared.result
+    domain, snapshot = generation.inputs.domain, generation.now.snapshot
     actions = result.actions if against is None else None  # others are those of a comparison
-    renames = changes.renames if changes and before else {}
     return Content(
         robot=robot,
-        version=version,
+        version=(generation.now, generation.imported.contents),
         section=to_section(compared),
         against=(compared.against or "the last build").encode("utf-8", "replace").decode(),
-        now=now,
-        before=before,
-        meshes=meshes,
-        names_now=names_now,
-        names_before=names_before,
-        statuses=_statuses(changes) if changes else {},
-        renamed={f"{kind} {old}": f"{kind} {new}" for (kind, old), new in renames.items()},
-        changes=_change_words(changes) if changes else {},
+        picture=picture(generation, older if changes.changes else None),
+        statuses=_statuses(changes),
+        renamed={f"{kind} {old}": f"{kind} {new}" for (kind, old), new in changes.renames.items()},
+        changes=_change_words(changes),
         files=_files(generation),
-        diagram=domain.drawing(version[0].snapshot, generation.imported.imports, robot.target, robot.options) or "",
+        diagram=domain.drawing(snapshot, generation.imported.imports, robot.target, robot.options) or "",
         edits=RobotEdits(robot.name, config.root, tuple(find_edited(generation, actions))),
         conflicts=result.conflicts,
-        notes=(
-            *now.missing,
-            *simplified,
-            *(f"{paths[name]} can't be shown: {problem}" for name, problem in problems.items()),
-            # triangles without area are left out of every mesh
-            *(
-                f"{paths[name]} is simplified for this page: {len(of.faces):,} of its {of.total:,} triangles are left"
-                for name, of in meshes.items()
-                if of.is_simplified
-            ),
-        ),
     )
+
+
+def _with_older(
+    compared: Comparison, generation: Generation, shown_before: Sequence[Contents]
+) -> tuple[Comparison, Contents | None]:
+    """Return the comparison that the page tells, and the older version in it; see `gather`."""
+    older = compared.versions[0] if compared.versions else _last_build(generation)
+    other = next((each for each in shown_before if each[0] != generation.now), None)
+    if other is None or (compared.result.changes and compared.result.changes.changes):
+        return compared, older
+    domain, robot = generation.inputs.domain, generation.inputs.robot
+    same = find_renames(domain, other[0].snapshot, generation.now.snapshot, robot.renamed)
+    changes = compare(other[0], generation.now, domain, robot.options, same)
+    result = msgspec.structs.replace(compared.result, changes=changes)
+    return msgspec.structs.replace(compared, result=result, against="the picture before"), other
 
 
 def _last_build(generation: Generation) -> Contents | None:
@@ -151,27 +113,6 @@ def _last_build(generation: Generation) -> Contents | None:
         if content is not None and digest(content) == entry.target_hash:
             contents[entry.target] = content
     return last.version, contents
-
-
-def _add_refused(
-    generation: Generation, domain: Domain, imports: dict[str, Import], contents: dict[str, bytes]
-) -> Iterator[str]:
-    """Add files that are too large for the package, simplified for the picture; yield what to say of that."""
-    for dependency, file in generation.imported.refused[:_MOST_REFUSED]:
-        if dependency.key not in imports:  # else the copy of an earlier build is there
-            wanted = msgspec.structs.replace(dependency, is_for_picture=True)
-            with contextlib.suppress(UrdfsyncError, OSError):  # it is damaged, and the findings say so
-                conversion = domain.convert(wanted, file, read_file(file), {})
-                imports[dependency.key] = Import(dependency.target, "", "", None, conversion.facts)
-                contents[dependency.target] = conversion.content
-                yield f"`{dependency.uri}` is not in the package, and simplified for this page"
-
-
-def _meshes(scene: Scene | None, version: Contents | None) -> dict[str, tuple[str, bytes]]:
-    """Return the imported meshes of a scene by their paths, each with a name that follows from its content."""
-    used = {shape.mesh for body in scene.bodies for shape in body.shapes} if scene else set[str]()
-    contents = {path: content for path, content in version[1].items() if path in used} if version else {}
-    return {path: (f"{digest(each)}{PurePosixPath(path).suffix}", each) for path, each in contents.items()}
 
 
 def _statuses(changes: Changes) -> dict[str, str]:

@@ -5,10 +5,10 @@ const data = JSON.parse(document.getElementById("data").textContent);
 const SWITCHES = { visual: ["Visuals", "v"], collision: ["Collisions", "c"], frame: ["Frames", "f"], mass: ["Centres of mass", "m"], inertia: ["Inertia boxes", "i"] };
 const VERSIONS = { now: "Now", both: "Both", before: "Before" };
 
-const looks = (body, names) => JSON.stringify(body.shapes.map(({ kind, form, mesh }) => [kind, form, names[mesh]]));
+const looks = (body) => JSON.stringify(body.shapes.map(({ kind, form, mesh }) => [kind, form, mesh]));
 for (const old of data.before?.bodies || []) { // a mesh may have another content
   const body = data.now.bodies.find((each) => each.element === old.element);
-  if (body && looks(body, data.names_now) !== looks(old, data.names_before)) data.statuses[old.element] ??= "changed";
+  if (body && looks(body) !== looks(old)) data.statuses[old.element] ??= "changed";
 }
 
 /* The state of the page; tests read it. `ready` is a promise of the picture. */
@@ -201,14 +201,14 @@ async function show() {
     throw new Error("This browser shows no 3D: WebGL is not there, or switched off. All else on the page works.", { cause: error });
   }
   stage.renderer.outputEncoding = THREE.sRGBEncoding;
-  const packed = element("meshes"), meshes = packed ? await loadMeshes(packed.textContent, data.meshes) : new Map();
-  page.now = new RobotView(data.now, meshes, data.names_now);
+  const meshes = await loadMeshes(element("meshes").textContent, data.meshes);
+  page.now = new RobotView(data.now, meshes);
   stage.scene = new THREE.Scene();
   stage.lamp = new THREE.DirectionalLight(0xffffff, 0.55);
   stage.scene.add(page.now.root, new THREE.HemisphereLight(0xffffff, 0x8a8f99, 0.75), stage.lamp);
   const box = page.now.bounds();
   if (data.before) {
-    page.before = new RobotView(data.before, meshes, data.names_before);
+    page.before = new RobotView(data.before, meshes);
     stage.scene.add(page.before.root);
     box.union(page.before.bounds());
   }

@@ -42,9 +42,7 @@ _MOST_INSTANTS = 1000
 """Instants of a simulation that the page has."""
 _LEAST = 1e-17
 """The least relative error that the scale of a check has."""
-_MOST_LINES = 400
-"""Lines of one difference that are shown."""
-_DATA = "now before names_now names_before against statuses renamed changes files diagram".split()
+_DATA = "against statuses renamed changes files diagram".split()
 """What the scripts need of the content."""
 _SUFFIXES = (".html", ".htm")
 _GENERATOR, _BEGINNING = b'<meta name="generator" content="urdfsync', 2000
@@ -69,11 +67,14 @@ def page(
     styles = [style, *_STYLE.findall(content.diagram)]
     environment = html_environment(_FOLDER)
     environment.filters |= {"words": words, "findings": findings_table}
-    environment.globals |= {"difference_lines": _difference, "settle_hint": settle_hint}
+    environment.globals |= {"difference_lines": difference_lines, "settle_hint": settle_hint}
     curves = check.tools[0].curves if check and check.tools else ()
+    picture = content.picture
     data = {name: getattr(content, name) for name in _DATA} | {
         "robot": content.robot.name,
-        "meshes": {name: [len(mesh.points), len(mesh.faces)] for name, mesh in content.meshes.items()},
+        "now": picture.now,
+        "before": picture.before,
+        "meshes": {name: [mesh.points, mesh.faces] for name, mesh in picture.meshes.items()},
         "motion": simulation and _motion(simulation),
         "curves": curves,
         "build": build,
@@ -84,7 +85,7 @@ def page(
         style=markupsafe.Markup(style),  # noqa: S704 - our own
         scripts=[markupsafe.Markup(script) for script in scripts],  # noqa: S704 - our own, and those of trimesh
         data=markupsafe.Markup(_json(data)),  # noqa: S704 - escaped for a script element
-        meshes=_packed(content.meshes.values()),
+        meshes=_packed(picture.meshes.values()),
         section=content.section,
         edits=edits_section(content.edits),
         conflicts=[
@@ -135,14 +136,9 @@ def _json(values: Any) -> str:
 
 
 def _packed(meshes: Iterable[Triangles]) -> str:
-    """Return the points and the faces of meshes, one after the other; the data say how many there are of each.
-
-    GLB by trimesh would hold the same numbers, and takes 0.7 s to import: more than all else of a small robot.
-    """
-    content = b"".join(
-        part.astype(kind).tobytes() for each in meshes for part, kind in ((each.points, "<f4"), (each.faces, "<u4"))
-    )
-    return base64.b64encode(gzip.compress(content, 6, mtime=0)).decode() if content else ""
+    """Return the contents of meshes, one after the other; the data say how many points and faces there are of each."""
+    content = b"".join(mesh.content for mesh in meshes)
+    return base64.b64encode(gzip.compress(content, 6, mtime=0)).decode()
 
 
 # --- a simulation ---------------------------------------------------------------------------------------------------
@@ -167,13 +163,3 @@ def _compared(result: CheckResult) -> list[tuple[Deviation, float, float]]:
     sizes = ((each.relative, each.tolerance) for each in deviations)
     logs = [[math.log10(min(max(size, _LEAST), 1.0)) for size in pair] for pair in sizes]
     return [(each, round(log, 2), round(most, 2)) for each, (log, most) in zip(deviations, logs, strict=True)]
-
-
-# --- texts ----------------------------------------------------------------------------------------------------------
-
-
-def _difference(old: str, new: str, old_name: str, new_name: str) -> list[str]:
-    """Return how two texts differ, line by line."""
-    lines = [str(text).removeprefix("    ") for text in difference_lines(old, new, old_name, new_name)]
-    rest = len(lines) - _MOST_LINES
-    return [*lines[:_MOST_LINES], f"… and {rest} more lines"] if rest > 0 else lines

@@ -3,6 +3,7 @@
 
 const LAYERS = ["visual", "collision", "frame", "mass", "inertia"];
 const CREASE = Math.cos(35 * Math.PI / 180); // edges that are sharper are shown as edges
+const NO_EDGE = 1e-12; // square of an edge in m² below which there is none: rounding of thin bodies gives it either sign
 const MOST_AROUND = 48; // faces at one corner that are looked at: a fan has thousands
 
 const ONE_WAY = { rotational: true, translational: false }; // whether it turns
@@ -89,6 +90,32 @@ async function loadMeshes(text, sizes) {
   return meshes;
 }
 
+/* Returns the homogeneous box that has the mass and inertia of a body: its edges, and its axes in the body's `center`. Null if there is none. */
+function boxOf({ mass, inertia: [xx, xy, xz, yy, yz, zz] }) {
+  let tensor = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
+  const axes = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
+  for (let sweep = 0; sweep < 10; sweep++) { // Jacobi's method: a turn about one axis takes the product of the two others away
+    for (const [one, other] of [[0, 1], [0, 2], [1, 2]]) {
+      const angle = Math.atan(2 * tensor[one][other] / (tensor[other][other] - tensor[one][one])) / 2 || 0;
+      const turn = (rows) => {
+        const pairs = rows[one].map((part, column) => [part, rows[other][column]]);
+        rows[one] = pairs.map(([a, b]) => Math.cos(angle) * a - Math.sin(angle) * b);
+        rows[other] = pairs.map(([a, b]) => Math.sin(angle) * a + Math.cos(angle) * b);
+      };
+      turn(axes);
+      turn(tensor);
+      tensor = tensor.map((_, column) => tensor.map((row) => row[column])); // its columns are turned as its rows
+      turn(tensor);
+    }
+  }
+  const moments = tensor.map((row, axis) => row[axis]), sum = moments[0] + moments[1] + moments[2];
+  const squares = moments.map((moment) => 6 / mass * (sum - 2 * moment));
+  if (![xx, xy, xz, yy, yz, zz, ...squares].every(Number.isFinite)) return null;
+  if (Math.min(...squares) <= -NO_EDGE || Math.max(...squares) <= NO_EDGE) return null;
+  const edges = squares.map((square) => Math.sqrt(Math.max(square, 0)));
+  return { edges, axes: new THREE.Matrix4().makeBasis(...axes.map((axis) => new THREE.Vector3().fromArray(axis))) };
+}
+
 function shapeGeometry(shape, mesh) {
   const [x, y] = shape.size;
   switch (shape.form) {
@@ -113,13 +140,13 @@ function lines(points, colors, opacity = 1) {
 
 /* One version of the robot. `root` is its root frame; `bodies` and `hinges` are by their elements. */
 class RobotView {
-  constructor(scene, meshes, names) {
+  constructor(scene, meshes) {
     this.scene = scene;
     this.root = new THREE.Group();
     this.bodies = new Map();
     this.hinges = new Map(scene.hinges.map((hinge) => [hinge.element, hinge]));
     this.positions = startPositions(scene);
-    for (const body of scene.bodies) this.bodies.set(body.element, this.#body(body, meshes, names));
+    for (const body of scene.bodies) this.bodies.set(body.element, this.#body(body, meshes));
     const children = new Set();
     for (const hinge of scene.hinges) {
       this.bodies.get(hinge.parent).group.add(this.bodies.get(hinge.child).group);
@@ -131,11 +158,11 @@ class RobotView {
     for (const body of this.bodies.values()) this.#mark(body);
   }
 
-  #body(data, meshes, names) {
+  #body(data, meshes) {
     const body = { data, group: new THREE.Group(), layers: Object.fromEntries(LAYERS.map((layer) => [layer, []])) };
     body.group.matrixAutoUpdate = false;
     for (const shape of data.shapes) {
-      const geometry = shapeGeometry(shape, meshes.get(names[shape.mesh]));
+      const geometry = shapeGeometry(shape, meshes.get(shape.mesh));
       if (!geometry) continue; // a mesh that can't be shown
       const [red, green, blue, opacity] = shape.color;
       const color = new THREE.Color(red, green, blue).convertSRGBToLinear();
@@ -173,20 +200,21 @@ class RobotView {
       colors.push(.5, .5, .55, .5, .5, .55);
     }
     this.#add(body, "frame", lines(points, colors));
-    if (!data.inertia) return;
+    if (!data.center) return;
     const heaviest = Math.max(...this.scene.bodies.map((each) => each.mass));
     const ball = new THREE.Mesh(
       new THREE.SphereGeometry(0.006 * this.size * (1 + 2 * Math.cbrt(data.mass / heaviest)), 20, 14),
       new THREE.MeshBasicMaterial({ color: 0xe0a100, depthTest: false, transparent: true, opacity: 0.9 }));
     ball.renderOrder = 3;
-    ball.position.setFromMatrixPosition(new THREE.Matrix4().fromArray(data.inertia));
+    const center = new THREE.Matrix4().fromArray(data.center), equal = boxOf(data);
+    ball.position.setFromMatrixPosition(center);
     this.#add(body, "mass", ball);
-    if (data.box.length === 0) return;
-    const geometry = new THREE.BoxGeometry(...data.box.map((edge) => Math.max(edge, 1e-6)));
+    if (!equal) return;
+    const geometry = new THREE.BoxGeometry(...equal.edges.map((edge) => Math.max(edge, 1e-6)));
     const box = new THREE.Mesh(geometry, new THREE.MeshBasicMaterial({ color: 0x8f4bd6, transparent: true, opacity: 0.25, depthWrite: false }));
     box.add(new THREE.LineSegments(new THREE.EdgesGeometry(geometry), new THREE.LineBasicMaterial({ color: 0x8f4bd6 })));
     box.matrixAutoUpdate = false;
-    box.matrix.fromArray(data.inertia);
+    box.matrix.multiplyMatrices(center, equal.axes);
     this.#add(body, "inertia", box);
   }
 

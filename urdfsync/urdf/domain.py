@@ -42,6 +42,7 @@ from urdfsync.urdf.parse import beside
 from urdfsync.urdf.parse.fields import located
 from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.plausibility import find_implausible
+from urdfsync.urdf.scene import scene
 from urdfsync.urdf.snapshot import from_snapshot, joints_of, to_snapshot
 from urdfsync.urdf.unsimulated import find_unsimulated, out_of_scope
 from urdfsync.urdf.validate import ADVICE, Finding, diagnostic
@@ -190,15 +191,13 @@ class UrdfDomain(Domain):
 
     def scene(self, snapshot: Snapshot, imports: Mapping[str, Import], target: Target, options: Options) -> Scene:
         """Return the shapes of visuals and collisions, the masses, and the axes of joints."""
-        from urdfsync.urdf.scene import scene  # with numpy, which no build needs
-
         return scene(from_snapshot(snapshot), imports, target, options)
 
-    def triangles(self, contents: Mapping[str, bytes]) -> tuple[Mapping[str, Triangles], Mapping[str, str]]:
-        """Return the triangles of imported meshes, with shared corners."""
-        from urdfsync.urdf.meshes.simplify import simplified  # likewise
+    def triangles(self, path: str, content: bytes, key: str, most: int) -> Triangles | str:
+        """Return the triangles of a mesh, as the process for meshes reads it."""
+        from urdfsync.urdf.meshes.convert import triangles  # as above
 
-        return simplified(contents)
+        return triangles(path, content, key, most)
 
     def models(self, snapshot: Snapshot, target: Target, options: Options) -> Sequence[str]:
         """Return the robot, its benches, and the record if there is no robot."""

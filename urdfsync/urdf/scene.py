@@ -7,7 +7,6 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 import msgspec
-import numpy as np
 
 from urdfsync import scene as scenes
 from urdfsync.domain import Import, Target
@@ -19,14 +18,17 @@ from urdfsync.urdf.meshes import lookup
 from urdfsync.urdf.model.loop import loop_data
 from urdfsync.urdf.model.shapes import link_shapes
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS, Inertial, Joint, Link, Loop, Mesh, Robot, Unit
+from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS, Joint, Link, Loop, Mesh, Robot, Unit
 
-_NO_BOX = 1e-12
-"""Square of an edge in m² below which there is none; rounding of thin bodies gives it either sign."""
+_NO_FACTS = {"bounds": (), "hull": ()}
+"""Of a mesh that is too large for the package: a picture needs none."""
 
 
 def scene(robot: Robot, imports: Mapping[str, Import], target: Target, options: Options) -> Scene:
     """Return the picture of a robot. Shapes whose mesh is not imported are named as missing."""
+    imports = {
+        key: file if file.facts else msgspec.structs.replace(file, facts=_NO_FACTS) for key, file in imports.items()
+    }
     data = loop_data(KinematicTree.of(robot, (target.name,)), options)
     tree = data.tree
     starts = poses.start_positions(tree)
@@ -56,10 +58,11 @@ def _body(tree: KinematicTree, link: Link, imports: Mapping[str, Import], target
     visuals, collisions = link_shapes(link, imports, target.package, shown)
     shapes = [_shape(data, target) for data in (*visuals, *collisions)]
     body = Body(f"link {link.name}", tree.link(link.name).component, tuple(_facts(link)), tuple(shapes))
-    if link.inertial is None or not link.inertial.mass > 0:
+    inertial = link.inertial
+    if inertial is None or not inertial.mass > 0:
         return body
-    axes, box = _principal(link.inertial)
-    return msgspec.structs.replace(body, mass=link.inertial.mass, inertia=axes, box=box)
+    center, inertia = _matrix(poses.pose(inertial.origin)), msgspec.structs.astuple(inertial.inertia)
+    return msgspec.structs.replace(body, mass=inertial.mass, center=center, inertia=inertia)
 
 
 def _shape(data: Mapping[str, Any], target: Target) -> Shape:
@@ -86,22 +89,6 @@ def _missing(tree: KinematicTree, imports: Mapping[str, Import]) -> Iterator[str
             for number, geometry in enumerate(of_kind, 1):
                 if isinstance(geometry, Mesh) and lookup.key(geometry) not in imports:
                     yield f"link {link.name}, {kind} {number}: mesh `{geometry.filename}` is not in the package"
-
-
-def _principal(inertial: Inertial) -> tuple[Pose, tuple[float, ...]]:
-    """Return the pose of the principal axes, and the box of this inertia; no box if the inertia is that of no body."""
-    i = inertial.inertia
-    tensor = np.array([[i.ixx, i.ixy, i.ixz], [i.ixy, i.iyy, i.iyz], [i.ixz, i.iyz, i.izz]])
-    frame = poses.pose(inertial.origin)
-    if not np.isfinite(tensor).all():
-        return _matrix(frame), ()
-    moments, axes = np.linalg.eigh(tensor)
-    axes[:, 2] *= np.sign(np.linalg.det(axes))  # right-handed
-    turned = poses.compose(frame, (tuple(map(tuple, axes.tolist())), (0.0, 0.0, 0.0)))  # type: ignore[arg-type]
-    with np.errstate(over="ignore"):
-        squares = 6 / inertial.mass * (moments.sum() - 2 * moments)
-    is_body = bool(np.isfinite(squares).all() and (squares > -_NO_BOX).all() and (squares > _NO_BOX).any())
-    return _matrix(turned), tuple(np.sqrt(np.maximum(squares, 0.0)).tolist()) if is_body else ()
 
 
 def _hinge(tree: KinematicTree, joint: Joint, start: float, is_dependent: bool) -> Hinge:

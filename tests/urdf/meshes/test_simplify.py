@@ -7,8 +7,8 @@ import pytest
 import trimesh
 from support.meshes import stl
 
-from urdfsync.urdf.meshes import simplify
-from urdfsync.urdf.meshes.simplify import simplified
+from urdfsync.scene import Triangles
+from urdfsync.urdf.meshes.convert import triangles
 
 
 def ball(subdivisions: int) -> bytes:
@@ -16,41 +16,50 @@ def ball(subdivisions: int) -> bytes:
     return content
 
 
+def read(path: str, content: bytes, key: str = "", most: int = 60_000) -> tuple[Triangles, trimesh.Trimesh]:
+    """Return a mesh as it is for the page, and as the page reads it."""
+    mesh = triangles(path, content, key, most)
+    assert isinstance(mesh, Triangles), mesh
+    points = np.frombuffer(mesh.content, "<f4", 3 * mesh.points).reshape(-1, 3)
+    faces = np.frombuffer(mesh.content, "<u4", offset=12 * mesh.points).reshape(-1, 3)
+    assert len(faces) == mesh.faces
+    return mesh, trimesh.Trimesh(points, faces, process=False)
+
+
 def test_corners_are_shared_and_the_surface_stays() -> None:
-    meshes, problems = simplified({"a.stl": ball(3)})
-    mesh = meshes["a.stl"]
-    assert (len(mesh.faces), len(mesh.points), mesh.total, mesh.is_simplified) == (1280, 642, 1280, False)
-    read = trimesh.Trimesh(mesh.points, mesh.faces, process=False)
-    assert read.is_watertight
-    assert read.volume == pytest.approx(trimesh.creation.icosphere(3).volume, rel=1e-5)
-    assert problems == {}
+    mesh, surface = read("a.stl", ball(3))
+    assert (mesh.faces, mesh.points, mesh.total, mesh.is_simplified) == (1280, 642, 1280, False)
+    assert surface.is_watertight
+    assert surface.volume == pytest.approx(trimesh.creation.icosphere(3).volume, rel=1e-5)
 
 
-def test_a_large_mesh_has_fewer_triangles_and_the_same_extent(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(simplify, "MOST", 2000)
-    mesh = simplified({"a.stl": ball(6)})[0]["a.stl"]
+def test_a_large_mesh_has_fewer_triangles_and_the_same_extent() -> None:
+    mesh, surface = read("a.stl", ball(6), most=2000)
     assert (mesh.total, mesh.is_simplified) == (81920, True)
-    assert 500 < len(mesh.faces) <= 2000
-    read = trimesh.Trimesh(mesh.points, mesh.faces, process=False)
-    assert read.volume == pytest.approx(4 / 3 * np.pi, rel=0.03)
-    assert np.ptp(mesh.points, axis=0) == pytest.approx([2, 2, 2], rel=0.03)
+    assert 500 < mesh.faces <= 2000
+    assert surface.volume == pytest.approx(4 / 3 * np.pi, rel=0.03)
+    assert np.ptp(surface.vertices, axis=0) == pytest.approx([2, 2, 2], rel=0.03)
 
 
-def test_many_meshes_share_what_the_page_has(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(simplify, "_MOST_IN_ALL", 3000)
-    meshes, _ = simplified({"a.stl": ball(5), "b.stl": ball(4)})
-    assert sum(len(mesh.faces) for mesh in meshes.values()) <= 3000
-    assert len(meshes["a.stl"].faces) > len(meshes["b.stl"].faces)
+def test_a_dependency_has_the_format_and_scale_of_its_key() -> None:
+    _, surface = read("a.stl", trimesh.creation.icosphere(3).export(file_type="ply"), "a.ply scale 2.0 2.0 3.0")
+    assert np.ptp(surface.vertices, axis=0) == pytest.approx([4, 4, 6], rel=0.01)
 
 
 def test_texts_are_read_in_the_process_for_meshes() -> None:
     obj = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
-    meshes, problems = simplified({"a.stl": stl(2).encode(), "b.obj": obj, "c.obj": b"f 1 2 3\n"})
-    assert np.ptp(meshes["a.stl"].points, axis=0).tolist() == [2, 2, 0]
-    assert len(meshes["b.obj"].faces) == 1
-    assert list(problems) == ["c.obj"]
+    assert np.ptp(read("a.stl", stl(2).encode())[1].vertices, axis=0).tolist() == [2, 2, 0]
+    assert read("b.OBJ", obj)[0].faces == 1
+    assert triangles("c.obj", b"f 1 2 3\n", "", 9) == "it has no triangles"
+
+
+def test_corners_that_are_no_numbers_are_left_out() -> None:
+    content = bytearray(ball(1))
+    content[96:100] = np.float32("nan").tobytes()
+    assert read("a.stl", bytes(content))[0].faces == 79
+    assert triangles("a.stl", bytes(84), "", 9) == "it has no triangles"
 
 
 def test_a_mesh_without_area_has_no_triangles() -> None:
     flat = f"solid a\nfacet normal 0 0 1\nouter loop\n{3 * 'vertex 1 1 1 '}\nendloop\nendfacet\nendsolid a\n"
-    assert len(simplified({"a.stl": flat.encode()})[0]["a.stl"].faces) == 0
+    assert read("a.stl", flat.encode())[0].faces == 0

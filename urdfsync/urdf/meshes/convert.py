@@ -7,13 +7,12 @@ from pathlib import Path
 
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.domain import Conversion, Dependency
+from urdfsync.scene import Triangles
 from urdfsync.urdf.meshes import lookup
-from urdfsync.urdf.meshes.process import MeshError, MeshProcess, Request, is_binary_stl
+from urdfsync.urdf.meshes.process import MeshError, MeshProcess, Request
+from urdfsync.urdf.robot import Mesh
 
 _FORMATS = (".dae", ".glb", ".gltf", ".obj", ".off", ".ply", ".stl")
-
-MOST = 60_000
-"""Triangles of one mesh in a picture: a page has some 13 bytes for each."""
 
 _process = MeshProcess()
 
@@ -35,10 +34,9 @@ def convert(dependency: Dependency, file: Path, content: bytes, others: Mapping[
     try:
         if suffix not in _FORMATS:
             raise MeshError(f"its format isn't one of {', '.join(_FORMATS)}")  # noqa: TRY301 - told as what the process finds
-        most = MOST if dependency.is_for_picture else 0
-        colors = next((name for name in (lookup.PARTS, lookup.COLORS) if name in dependency.facts and not most), "")
+        colors = next((name for name in (lookup.PARTS, lookup.COLORS) if name in dependency.facts), "")
         is_obj = suffix == ".obj" and lookup.as_is(mesh)
-        request = Request(suffix, mesh.scale, lookup.HULL in dependency.facts, colors, is_obj, most)
+        request = Request(suffix, mesh.scale, lookup.HULL in dependency.facts, colors, is_obj)
         (whole, facts), *parts = _process.read(request, content, others)
     except MeshError as error:
         message = f"the mesh {mesh.filename} can't be read: {error}"
@@ -46,11 +44,18 @@ def convert(dependency: Dependency, file: Path, content: bytes, others: Mapping[
         raise SourceError(Diagnostic(Severity.ERROR, "unreadable-mesh", message, str(file), hint=hint)) from error
     is_split = colors == lookup.PARTS and parts
     more = tuple(Conversion(part, its_facts) for part, its_facts in parts)
-    return Conversion(content if lookup.as_is(mesh) and not (is_split or most) else whole, facts, more)
+    return Conversion(content if lookup.as_is(mesh) and not is_split else whole, facts, more)
 
 
-def as_stl(suffix: str, content: bytes) -> bytes:
-    """Return an imported mesh as binary STL. Raises MeshError."""
-    if suffix == ".stl" and is_binary_stl(content):
-        return content
-    return _process.read(Request(suffix, with_hull=False), content)[0][0]
+def triangles(path: str, content: bytes, key: str, most: int) -> Triangles | str:
+    """Return at `most` so many triangles of a mesh, or about that; or why there are none.
+
+    It is an imported file at `path`, or what the dependency `key` has, if that is too large to be imported.
+    """
+    mesh = lookup.mesh(key) if key else Mesh(path)
+    try:
+        request = Request(lookup.suffix(mesh.filename), mesh.scale, with_hull=False, most=most)
+        ((packed, facts),) = _process.read(request, content)
+    except MeshError as error:
+        return str(error)
+    return Triangles(content=packed, **facts)

@@ -101,11 +101,11 @@ def binary_stl(mesh: Triangles) -> bytes:
     return b"".join((_HEADER, struct.pack("<I", len(facets)), facets.view(np.uint8).data))
 
 
-def stl_corners(content: bytes) -> npt.NDArray[np.float32]:
-    """Return the corners (n × 3 × 3) of the triangles of a binary STL file; those that are no numbers are left out."""
-    facets = np.frombuffer(content, dtype=_FACET, offset=len(_HEADER) + 4)
-    corners: npt.NDArray[np.float32] = facets["corners"]
-    return corners[np.isfinite(corners).all(axis=(1, 2))]
+def stl_triangles(content: bytes) -> Triangles:
+    """Return the triangles of a binary STL file; those that are no numbers are left out. Raises MeshError for none."""
+    corners = np.frombuffer(content, dtype=_FACET, offset=len(_HEADER) + 4)["corners"].astype(np.float64)
+    points = corners[np.isfinite(corners).all(axis=(1, 2))].reshape(-1, 3)
+    return joined([Triangles(points, np.arange(len(points)).reshape(-1, 3))], math.inf)
 
 
 def obj(mesh: Triangles) -> bytes:

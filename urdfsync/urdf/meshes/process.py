@@ -17,7 +17,7 @@ from urdfsync.processes import importable, python_module
 from urdfsync.urdf.robot import Vector
 
 FOR_PICTURE = 4
-"""So many times the limits below hold for a mesh that is simplified."""
+"""So many times the limits below hold for a picture, since any mesh is simplified."""
 CPU_SECONDS = 4.0
 """CPU time for one mesh, on Linux and macOS. A command with one such mesh stays below 5 s."""
 MEMORY = 450_000_000
@@ -53,7 +53,7 @@ class Request(msgspec.Struct, frozen=True):
     as_obj: bool = False
     """Whether the parts of a mesh are OBJ, and not STL."""
     most: int = 0
-    """Triangles of a picture, to which any number is simplified; 0 refuses a mesh that is too large for a package."""
+    """Triangles for a picture, to which any number is simplified; 0 for a file of the package."""
     size: int = 0
     """Size of the mesh in bytes; `MeshProcess` fills in this field and those below."""
     others: Mapping[str, int] = {}

@@ -12,7 +12,7 @@ import msgspec
 
 from urdfsync.processes import limits, reserve_stdout
 from urdfsync.urdf.meshes.lookup import COLORLESS, COLORS, TEXTURED
-from urdfsync.urdf.meshes.process import FOR_PICTURE, MEMORY, Answer, MeshError, Request
+from urdfsync.urdf.meshes.process import FOR_PICTURE, MEMORY, Answer, MeshError, Request, is_binary_stl
 
 if sys.platform != "win32":
     import resource
@@ -40,22 +40,28 @@ def main() -> None:
 
 def _answer(request: Request, content: bytes, others: Mapping[str, bytes]) -> tuple[Answer, list[bytes]]:
     # these bring in numpy and trimesh: after `main` has put the unused packages aside, and before the limits hold
-    import numpy as np
-
     from urdfsync.urdf.meshes import geometry, simplify
-    from urdfsync.urdf.meshes.reading import read_mesh, read_parts
 
-    sys.modules.pop("PIL", None)  # trimesh goes without it, textures do not
+    is_plain = bool(request.most) and request.suffix == ".stl" and is_binary_stl(content)
+    if not is_plain:  # else trimesh, which takes half a second, has nothing to do
+        from urdfsync.urdf.meshes.reading import read_mesh, read_parts
+
+        sys.modules.pop("PIL", None)  # trimesh goes without it, textures do not
     try:
         with limits(request.seconds, MEMORY * (FOR_PICTURE if request.most else 1)):
-            if not request.colors:
-                read = read_mesh(request.suffix, content, others, math.inf if request.most else geometry.MAX_TRIANGLES)
+            if request.most:
+                read = (
+                    geometry.stl_triangles(content)
+                    if is_plain
+                    else read_mesh(request.suffix, content, others, math.inf)
+                )
+                mesh, _ = geometry.import_form(read, request.scale, with_hull=False)
+                packed, facts = simplify.packed(mesh, request.most)
+                files, all_facts = [packed], [facts]
+            elif not request.colors:
+                read = read_mesh(request.suffix, content, others)
                 mesh, facts = geometry.import_form(read, request.scale, request.with_hull)
-                if request.most:
-                    coarse = simplify.merged(mesh.points, mesh.faces, request.most)
-                    mesh = geometry.Triangles(coarse.points.astype(np.float64), coarse.faces.astype(np.int64))
-                write = geometry.obj if request.most and request.as_obj else geometry.binary_stl
-                files, all_facts = [write(mesh)], [facts]
+                files, all_facts = [geometry.binary_stl(mesh)], [facts]
             else:
                 parts, missing = read_parts(request.suffix, content, others)
                 meshes = [*parts.values()]
