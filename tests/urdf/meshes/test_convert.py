@@ -24,7 +24,7 @@ CONTENTS = {
     ".obj": b"mtllib missing.mtl\n" + BOX.export(file_type="obj").encode(),
     ".ply": BOX.export(file_type="ply"),
     ".dae": BOX.export(file_type="dae"),
-    ".glb": trimesh.Scene([BOX]).export(file_type="glb"),
+    ".glb": trimesh.Scene([trimesh.creation.box(bounds=[(0, 0, -2), (1, 3, 0)])]).export(file_type="glb"),  # y is up
 }
 UNIT = (1.0, 1.0, 1.0)
 

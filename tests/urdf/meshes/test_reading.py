@@ -16,11 +16,13 @@ from urdfsync.urdf.meshes.process import MeshError
 from urdfsync.urdf.meshes.reading import read_mesh
 
 BOX = trimesh.creation.box((0.5, 1.0, 2.0))
+Y_UP = BOX.copy().apply_transform([[1, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]])
+"""The box as glTF has it."""
 
 
 def _gltf(**replaced: str) -> bytes:
     """The box as one glTF file that holds its buffers itself."""
-    files = trimesh.Scene([BOX]).export(file_type="gltf")
+    files = trimesh.Scene([Y_UP]).export(file_type="gltf")
     tree = json.loads(files["model.gltf"])
     for buffer in tree["buffers"]:
         inline = "data:application/octet-stream;base64," + base64.b64encode(files[buffer["uri"]]).decode()
@@ -38,7 +40,7 @@ FORMATS = {
     "binary.ply": BOX.export(file_type="ply"),
     "ascii.ply": BOX.export(file_type="ply", encoding="ascii"),
     "plain.off": BOX.export(file_type="off").encode(),
-    "scene.glb": trimesh.Scene([BOX]).export(file_type="glb"),
+    "scene.glb": trimesh.Scene([Y_UP]).export(file_type="glb"),
     "scene.gltf": _gltf(),
     "plain.dae": BOX.export(file_type="dae"),
 }
@@ -84,14 +86,14 @@ def test_content_of_another_format_is_refused(name: str) -> None:
             _read(_suffix(name), content)
 
 
-def test_scene_of_gltf_places_its_meshes() -> None:
+def test_a_scene_of_gltf_places_its_meshes_and_its_y_is_up() -> None:
     scene = trimesh.Scene()
-    scene.add_geometry(BOX, transform=trimesh.transformations.translation_matrix((10, 20, 30)))
-    assert _read(".glb", bytes(scene.export(file_type="glb"))).reshape(-1, 3).mean(axis=0).tolist() == [10, 20, 30]
+    scene.add_geometry(Y_UP, transform=trimesh.transformations.translation_matrix((10, 20, 30)))
+    assert _read(".glb", bytes(scene.export(file_type="glb"))).reshape(-1, 3).mean(axis=0).tolist() == [10, -30, 20]
 
 
 def test_a_buffer_of_gltf_may_be_a_file_below_its_folder() -> None:
-    buffers = trimesh.Scene([BOX]).export(file_type="gltf")
+    buffers = trimesh.Scene([Y_UP]).export(file_type="gltf")
     content = buffers.pop("model.gltf")
     assert mentioned_files("arm.gltf", content) == [*buffers]
     mesh = read_mesh(".gltf", content, buffers)

@@ -29,6 +29,8 @@ _MOST_COLORS = 20
 """Most colours of one mesh, since each becomes a shape. Triangles of further colours are drawn in grey."""
 _LONGEST, _NAMES = 60, 3
 """Most characters of the name of a missing file in a warning, and most names."""
+_FROM_Y_UP = np.array([[1, 0, 0, 0], [0, 0, -1, 0], [0, 1, 0, 0], [0, 0, 0, 1]], dtype=np.float64)
+"""In glTF y is up, by its specification. Drake, Blender and RViz, since 2025, turn it, so that z is: ros2/rviz#1229."""
 _SOLID_LINE = re.compile(rb"^[ \t]*(?:end)?solid\b.*$", re.MULTILINE | re.IGNORECASE)
 
 
@@ -119,7 +121,8 @@ def _parts(
         content = _plain_obj(content, with_materials=bool(colors))
     if suffix == ".gltf":
         json.loads(content)  # where this fails, trimesh looks for another file
-    if suffix in (".gltf", ".glb"):
+    is_gltf = suffix in (".gltf", ".glb")
+    if is_gltf:
         for compression in _COMPRESSIONS:
             if compression in content:
                 raise MeshError(f"it is compressed ({compression.decode()})")
@@ -139,7 +142,7 @@ def _parts(
             material = getattr(geometry.visual, "material", None) if by_name else None
             points = np.asarray(geometry.vertices, dtype=np.float64)
             color = by_name.get(material.name) if material else None
-            yield color, placed(Triangles(points, np.asarray(geometry.faces)), pose)
+            yield color, placed(Triangles(points, np.asarray(geometry.faces)), _FROM_Y_UP @ pose if is_gltf else pose)
 
 
 def _announced(suffix: str, content: bytes) -> int:
