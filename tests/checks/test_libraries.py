@@ -17,6 +17,7 @@ from urdfsync.checks.libraries import (
     find_library,
     find_standard_library,
     needed_libraries,
+    own_library_copy,
     standard_library_copy,
 )
 from urdfsync.diagnostics import UrdfsyncError
@@ -182,6 +183,21 @@ def test_what_robots_need_is_copied_and_all_if_more_is_named(
     partners = {"Complex.mo", "ModelicaServices/package.mo"}
     wanted = (*COPIED, *LEFT_OUT) if whole else COPIED
     assert names(copied) == {f"Modelica/{name}.mo" for name in wanted} | partners
+
+
+@pytest.mark.parametrize(
+    ("text", "whole"), [("UrdfSync.Joints.Fixed j; // Examples", False), ("import UrdfSync.Examples.*;", True)]
+)
+def test_examples_of_urdfsync_are_copied_only_if_they_are_named(
+    text: str, whole: bool, tmp_path: Path, cache: UserCache
+) -> None:
+    own = tmp_path / "UrdfSync"
+    for name in ("package.mo", "Joints/Fixed.mo", "Joints/package.order", "Examples/FourBar.mo", "UsersGuide/Start.mo"):
+        (own / name).parent.mkdir(parents=True, exist_ok=True)
+        (own / name).touch()
+    found = own_library_copy(own, [text.encode()], cache)
+    assert (found == own, found.name) == (whole, "UrdfSync")
+    assert whole or names(found) == {"package.mo", "Joints/Fixed.mo"}
 
 
 def test_a_copy_is_made_once_for_each_state(small: Mapping[str, Path], cache: UserCache) -> None:

@@ -84,7 +84,7 @@ def run(project: Path, **request: Any) -> Result:
 
 
 def operations(project: Path, names: Sequence[str]) -> list[Operation]:
-    """Build, and return operations of these names that it consists of: of each kind the first and the last.
+    """Build, and return operations of these names that it consists of: of each kind the first or the last, in turns.
 
     All of them if the environment asks for that. Each name must be there, or a test would try nothing.
     """
@@ -99,7 +99,7 @@ def operations(project: Path, names: Sequence[str]) -> list[Operation]:
     kinds: dict[tuple[str, ...], list[Operation]] = {}
     for operation in found:
         kinds.setdefault(operation.kind, []).append(operation)
-    chosen = {op for ops in kinds.values() for op in (ops[0], ops[-1])}
+    chosen = (same[-(number % 2)] for number, same in enumerate(kinds.values()))
     return sorted(chosen, key=lambda operation: operation.number)
 
 

@@ -126,7 +126,10 @@ def execute(
     """
     found = modelica_libraries.find_standard_library(library)
     standard = modelica_libraries.standard_library_copy(found, (), CACHE)  # the part of it that robots need
-    roots, tasks = tuple(map(str, (standard, own, *packages))), []
+    folders = list(packages)
+    texts = [text for folder in folders for text in modelica_libraries.library_texts(folder).values()]
+    own = modelica_libraries.own_library_copy(own, [*texts, *(task.source.encode() for task in todo)], CACHE)
+    roots, tasks = tuple(map(str, (standard, own, *folders))), []
     for task in todo:
         runs = (Simulation(run.stop, run.step, run.parameters, run.tolerance) for run in task.runs)
         tasks.append(CompileTask(task.model, task.source, tuple(runs), tuple(task.values), task.pattern))

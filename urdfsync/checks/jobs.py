@@ -48,6 +48,7 @@ class Jobs(msgspec.Struct, frozen=True):
         around = {path: changed.get(self.robot.output / path, content) for path, content in self.around.items()}
         own = find_own_library(LIBRARY, self.robot.target.package)
         needed = {**({LIBRARY: own} if own else {}), **self.needed.others}
+        copies: dict[str, Path] = {}
         originals: dict[str, Path] = {}
         """The folders and files that people know, by those that the compiler reads."""
         roots: list[str] = []
@@ -58,9 +59,12 @@ class Jobs(msgspec.Struct, frozen=True):
             roots.append(str(standard))
             parts = self.needed.standard.items()
             originals |= {str(standard / name): path for name, path in parts if path.suffix != ".mo"}
+            if own and not any(own in file.parents for file in changed):
+                every += [task.source.encode() for task in tasks]
+                copies[LIBRARY] = libraries.own_library_copy(own, every, cache)
         top = write_package(folder, self.robot, texts, around)
-        for path in needed.values():
-            roots.append(_readable(path, folder / ".libraries", changed))
+        for name, path in needed.items():
+            roots.append(_readable(copies.get(name, path), folder / ".libraries", changed))
             originals[roots[-1]] = path
         roots.append(str(top))
         originals[roots[-1]] = self.robot.output / top.name
