@@ -23,7 +23,6 @@ pytestmark = [
 
 BALANCED = '"Check of it completed successfully.\nClass it has 4 equation(s) and 4 variable(s)."\n""\n'
 RESULT = 'record SimulationResult\n    resultFile = "{}",\n    messages = ""\nend SimulationResult;\n""\n'
-CONFIGURATION = '[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\n'
 
 Ask = Callable[[str], int]
 
@@ -36,14 +35,10 @@ def ask(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Ask:
         shutil.copytree(REPOSITORY / name, home / name, ignore=shutil.ignore_patterns("__pycache__"))
     project.mkdir()
     (project / "arm.urdf").write_text(ARM)
-    (project / "urdfsync.toml").write_text(CONFIGURATION)
+    (project / "urdfsync.toml").write_text('[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\n')
     trajectory = tmp_path / "it_res.mat"
     write_trajectory(trajectory, {"k": 7.0}, {"time": (0.0, 1.0), "p": (1.0, 2.0)})
     fake_omc.install(tmp_path / "bin", {"checkModel": BALANCED, "simulate": RESULT.format(trajectory)})
-    (tmp_path / "libraries/Pumps").mkdir(parents=True)
-    (tmp_path / "libraries/Pumps/package.mo").write_text(
-        "within;\npackage Pumps\n  model Small\n  end Small;\nend Pumps;\n"
-    )
     environment = {
         **os.environ,
         "PYTHONPATH": str(home),
@@ -62,7 +57,6 @@ def ask(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Ask:
         return sum(call.startswith(("checkModel(", "simulate(")) for call in asked.read_text().splitlines())
 
     run("build")
-    (project / "modelica/Arm/Own.mo").write_text("within Arm;\nmodel Own\n  Pumps.Small pump;\nend Own;\n")
     return run
 
 
@@ -71,15 +65,13 @@ COMMANDS = ("check --tool omc --trust", "simulate --tool omc --trust")
 
 @pytest.mark.parametrize("command", sampled(COMMANDS, 2))
 def test_one_line_of_what_a_result_rests_on_makes_it_anew(command: str, ask: Ask, tmp_path: Path) -> None:
-    """Also of urdfsync, its library and its templates: whoever develops them does not change the version."""
+    """Whoever develops urdfsync does not change the version; `test_fingerprint` shows the same of packages."""
     assert ask(command) > 0
     assert ask(command) == 0
     for file in (
         "installed/urdfsync/checks/texts.py",
         "installed/urdfsync/urdf/robot.py",
         "installed/modelica/UrdfSync/Friction/Rotational.mo",
-        "libraries/Pumps/package.mo",
-        "project/modelica/Arm/Joints/Elbow.mo",
         "bin/omc",
         *(["installed/templates/urdf/macros.jinja"] if "check" in command else []),
     ):
@@ -90,15 +82,3 @@ def test_one_line_of_what_a_result_rests_on_makes_it_anew(command: str, ask: Ask
             stream.write(comment)
         assert ask(command) > 0, file
     assert ask(command) == 0
-
-
-def test_an_option_is_another_result(ask: Ask, tmp_path: Path) -> None:
-    check, simulate = COMMANDS
-    assert ask(f"{simulate} --stop 1") > 0
-    assert ask(f"{simulate} --stop 2") > 0
-    assert ask(f"{simulate} --stop 1") == 0
-    assert ask(check) > 0
-    (tmp_path / "project/urdfsync.toml").write_text(CONFIGURATION + 'base = "floating"\n')
-    ask("build")
-    assert ask(check) > 0
-    assert ask(f"{simulate} --stop 1") > 0

@@ -197,6 +197,8 @@ class _Reader:
 
     def check_ignored(self, robots: Sequence[RobotConfig]) -> None:
         """Report ignored codes that no warning has, in any format of the robots."""
+        if not any(robot.ignore for robot in robots):
+            return  # a domain that is not ours is looked for on Python's path, which takes 3 ms
         domains = {robot.domain for robot in robots}
         codes = IGNORABLE.union(*(registry.domain(domain).warnings for domain in domains))
         wrong = {(robot.lines["ignore"], code) for robot in robots for code in robot.ignore - codes}
