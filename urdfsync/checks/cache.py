@@ -84,7 +84,8 @@ class UserCache:
         """
         entries = sorted(self._entries())
         total, freed, now = sum(size for _, _, size in entries), 0, time.time()
-        for used, path, size in entries if total > _FULL * limit else ():
+        for used, place, size in entries if total > _FULL * limit else ():
+            path = Path(place)
             in_use = path.parent == self.libraries and now - used < _IN_USE
             if total - freed <= _AFTER * limit or in_use:
                 continue
@@ -98,7 +99,7 @@ class UserCache:
                 freed += size
         return freed
 
-    def _entries(self) -> Iterator[tuple[float, Path, int]]:
+    def _entries(self) -> Iterator[tuple[float, str, int]]:
         """Yield each entry that is deleted as a whole: the time of its last use, its path, its bytes on disk.
 
         Entries are the files and folders in our folders, and each file of the compiler but for its locks.
@@ -111,8 +112,15 @@ class UserCache:
                     names = [name for name in files if not name.startswith(".")]
                 else:
                     names, folders[:] = [*files, *folders], []
-                for path in (Path(current, name) for name in names):
-                    yield from _entry(path)
+                found = dict[str, os.stat_result]()  # one look at each: the compiler leaves tens of thousands
+                for name in names:
+                    with contextlib.suppress(OSError):  # it was deleted
+                        found[name] = os.lstat(f"{current}/{name}")
+                for name, status in found.items():
+                    note = found.get(name.removesuffix(_ACCESS) + _ACCESS, status)
+                    path = f"{current}/{name}"
+                    with contextlib.suppress(OSError):
+                        yield max(status.st_mtime, note.st_mtime), path, _bytes_on_disk(path, status)
 
 
 @contextlib.contextmanager
@@ -126,14 +134,9 @@ def cache_errors(folder: Path) -> Iterator[None]:
         raise CacheError(Diagnostic(Severity.ERROR, "cache-not-writable", message, str(folder), hint=hint)) from error
 
 
-def _entry(path: Path) -> Iterator[tuple[float, Path, int]]:
-    """Yield the last use of a file or folder, its path, and its bytes on disk; nothing if it was deleted."""
-    with contextlib.suppress(OSError):
-        status, note = path.lstat(), path.with_name(path.name.removesuffix(_ACCESS) + _ACCESS)
-        used = status.st_mtime
-        with contextlib.suppress(OSError):  # nobody noted when it was used
-            used = max(used, note.lstat().st_mtime)
-        is_folder = stat.S_ISDIR(status.st_mode)
-        inside = [status, *(below.lstat() for below in (path.rglob("*") if is_folder else ()))]
-        sizes = (max(status.st_size, getattr(status, "st_blocks", 0) * 512) for status in inside)
-        yield used, path, sum(sizes)
+def _bytes_on_disk(path: str, status: os.stat_result) -> int:
+    """Return what a file or a folder with all below it takes on disk. Raises OSError for what was deleted."""
+    inside = [status]
+    if stat.S_ISDIR(status.st_mode):
+        inside += [below.lstat() for below in Path(path).rglob("*")]
+    return sum(max(each.st_size, getattr(each, "st_blocks", 0) * 512) for each in inside)
