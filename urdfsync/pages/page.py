@@ -67,7 +67,7 @@ def page(
     styles = [style, *_STYLE.findall(content.diagram)]
     environment = html_environment(_FOLDER)
     environment.filters |= {"words": words, "findings": findings_table}
-    environment.globals |= {"difference_lines": difference_lines, "settle_hint": settle_hint}
+    environment.globals |= {"difference_lines": difference_lines, "reason": reason, "settle_hint": settle_hint}
     curves = check.tools[0].curves if check and check.tools else ()
     picture = content.picture
     data = {name: getattr(content, name) for name in _DATA} | {
@@ -86,19 +86,14 @@ def page(
         scripts=[markupsafe.Markup(script) for script in scripts],  # noqa: S704 - our own, and those of trimesh
         data=markupsafe.Markup(_json(data)),  # noqa: S704 - escaped for a script element
         meshes=_packed(picture.meshes.values()),
-        section=content.section,
-        edits=edits_section(content.edits),
-        conflicts=[
-            (conflict, reason(conflict.action, conflict.result.changes, brief=True), conflict.relation)
-            for conflict in content.conflicts
-        ],
         content=content,
+        edits=edits_section(content.edits),
         motion=simulation,
         check=check,
         check_section=check and check_section(check),
         compared=_compared(check) if check else (),
-        has_curves=bool(curves),
-        follows=build is not None,
+        curves=curves,
+        build=build,
         library=library,
     )
     return text.encode("utf-8", "replace")
