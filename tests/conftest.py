@@ -9,7 +9,7 @@ import shutil
 import signal
 import sys
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -20,6 +20,7 @@ from support.cases import CASES
 from support.commands import Execute, Printed
 from support.networks import RC_FOLDER
 
+from urdfsync.checks.contents import content_hash
 from urdfsync.checks.libraries import find_standard_library
 from urdfsync.diagnostics import UrdfsyncError
 
@@ -124,7 +125,7 @@ def corpus() -> Path:
 def modelica_library() -> Iterator[Path]:
     """The folder with the Modelica Standard Library, in a version that the embedded compiler takes.
 
-    Checks in this process parse its files once: each would do that for a second.
+    Checks in this process parse its files once, and hash it and their compiler once: each would do that for a second.
     """
     from urdfsync.modelica.files import parse_file
 
@@ -132,8 +133,16 @@ def modelica_library() -> Iterator[Path]:
         folder = find_standard_library()["Modelica"].parent
     except UrdfsyncError:
         pytest.skip(NO_LIBRARY)
+    known = functools.cache(content_hash)
+
+    def hash_once(root: Path, without: Collection[str] = ()) -> str:
+        is_fixed = root.is_relative_to(folder) or root.is_relative_to(sys.prefix)
+        return known(root, tuple(without)) if is_fixed else content_hash(root, without)
+
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("urdfsync.checks.names.parse_file", functools.cache(parse_file))
+        for module in ("fingerprint", "libraries", "compilers"):
+            patch.setattr(f"urdfsync.checks.{module}.content_hash", hash_once)
         yield folder
 
 
