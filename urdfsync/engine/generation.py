@@ -112,7 +112,9 @@ def _generate(inputs: Inputs) -> Generation:
     ]
     lookup = Lookup(robot.source, robot.package_paths + options.package_paths)
     dependencies = imports.find_dependencies(domain, snapshot, lookup, robot.options, reading.lines)
-    imported = imports.import_files(robot, options, dependencies, last.imports, file, has_moved=inputs.has_moved)
+    imported = imports.import_files(
+        domain, robot, options, dependencies, last.imports, file, has_moved=inputs.has_moved
+    )
     lines = {dependency.key: dependency.line for dependency in dependencies}
     findings += imported.diagnostics
     for key, finding in domain.import_findings(imported.imports):

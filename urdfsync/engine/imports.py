@@ -12,7 +12,6 @@ from typing import Any
 
 import msgspec
 
-from urdfsync import registry
 from urdfsync.config import RobotConfig
 from urdfsync.dependencies import MAX_FILE, file_type, read_file
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError, StateError
@@ -119,6 +118,7 @@ def _further_target(target: str, number: int) -> str:
 
 
 def import_files(
+    domain: Domain,
     robot: RobotConfig,
     options: BuildOptions,
     dependencies: Sequence[Dependency],
@@ -133,7 +133,7 @@ def import_files(
     `has_moved`. What can't be found or read is left out, or its recorded copy serves.
     Raises StateError if a copy must serve of which the recorded facts are lost.
     """
-    domain, result = registry.domain(robot.domain), Imported()
+    result = Imported()
     failed: dict[tuple[str, ...], list[tuple[Dependency, Diagnostic]]] = {}
     guessed: dict[tuple[str, str], list[Dependency]] = {}
     for count, dependency in enumerate(dependencies):

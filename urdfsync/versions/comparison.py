@@ -298,6 +298,6 @@ def _read(
         joined.append(msgspec.structs.replace(same[0], candidates=tuple(candidates)))
     dependencies = version.revision.locate(joined, version.scratch) if version.revision else joined
     recorded = imports.RecordedImports({key: (file,) for key, file in known.imports.items()}, known.contents.get, {})
-    imported = imports.import_files(robot, options, dependencies, recorded, text.name)
+    imported = imports.import_files(domain, robot, options, dependencies, recorded, text.name)
     diagnostics = (*text.diagnostics, *map(text.locate, (*reading.diagnostics, *imported.diagnostics)))
     return Version(snapshot, imported.imports), imported, diagnostics
