@@ -226,11 +226,7 @@ SMALL = robot(
 COMMAND: Mapping[str, tuple[str, str, str]] = {
     "library": ("copy/modelica/UrdfSync/Friction/Rotational.mo", "+ parameters.friction", "- parameters.friction"),
     "template": ("copy/templates/urdf/joint/revolute.mo.jinja", "n = parameters.axis", "n = -parameters.axis"),
-    "reader": (
-        "copy/urdfsync/urdf/parse/fields.py",
-        "return numbers[0] if count == 1",
-        "return round(numbers[0], 1) if count == 1",
-    ),
+    "reader": ("copy/urdfsync/urdf/parse/fields.py", "numbers[0] if count == 1", "round(numbers[0], 1) if count == 1"),
 }
 """A text of a file that is replaced by another."""
 
