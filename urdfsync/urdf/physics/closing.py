@@ -24,8 +24,6 @@ _STEPS = 8
 _ITERATIONS = 30
 _CLOSED, _FARTHEST = 1e-12, 1.0
 """Largest step, in rad and m, after which Newton's method has converged, and the smallest with which it diverges."""
-_DIFFERENCE = 1e-5
-"""Way in rad and m for the derivative of J, whose error is 1e-10."""
 _NEAR_DEAD_POINT = 0.25
 """Part of the least singular value at the start below which a compiler may find another assembly."""
 
@@ -99,10 +97,7 @@ class Closing:
         """Return the velocities for a velocity of 1 of each axis, and the accelerations for none at these speeds."""
         jacobian = self._equations(positions)[1]
         ways = axes - self._others @ np.linalg.lstsq(jacobian @ self._others, jacobian @ axes)[0]
-        v = ways @ speeds
-        step = _DIFFERENCE / max(1.0, np.abs(v).max(initial=0.0))
-        behind, ahead = (self._equations(positions + side * step * v)[1] for side in (-1, 1))
-        drift = (ahead - behind) @ v / (2 * step)
+        drift = self._drift(positions, ways @ speeds)
         return ways, -self._others @ np.linalg.lstsq(jacobian @ self._others, drift)[0]
 
     def reactions(self, positions: Array, load: Array) -> list[Reaction]:
@@ -136,8 +131,7 @@ class Closing:
 
     def _data(self, positions: Array) -> Any:
         pin, model, data = self._pin, self._model, self._model.createData()
-        q = pin.integrate(model, pin.neutral(model), positions)
-        pin.computeJointJacobians(model, data, q)
+        pin.computeJointJacobians(model, data, self._q(positions))
         pin.updateFramePlacements(model, data)
         return data
 
@@ -159,3 +153,31 @@ class Closing:
                 gaps.append(float(row @ v_child))
                 rows.append(pin.skew(np.array(v_child)) @ row @ jacobian[3:])
         return np.array(gaps), np.array(rows)
+
+    def _drift(self, positions: Array, velocity: Array) -> Array:
+        """Return J̇·q̇, the second derivatives of the left sides without accelerations of the coordinates."""
+        pin, model, data = self._pin, self._model, self._model.createData()
+        pin.forwardKinematics(model, data, self._q(positions), velocity, np.zeros(model.nv))
+        pin.updateFramePlacements(model, data)
+        found = list[float]()
+        for (parent, child), closure in zip(self._frames, self._closures, strict=True):
+            pose = data.oMf[parent].actInv(data.oMf[child])
+            carried, speed = pose.actInv(self._speed(data, parent)), self._speed(data, child)
+            relative = speed - carried
+            gains = [pin.getFrameAcceleration(model, data, frame, pin.LOCAL) for frame in (parent, child)]
+            # all resolved in the child's frame, which turns
+            gain = gains[1] - pose.actInv(gains[0]) + relative.cross(carried)
+            turning = relative.angular
+            for t in closure.translations:
+                found.append(float(t @ pose.rotation @ (gain.linear + np.cross(turning, relative.linear))))
+            for u, v_child in closure.rotations:
+                row = pose.rotation.T @ u
+                rate = np.cross(v_child, np.cross(row, turning)) @ turning
+                found.append(float(rate + np.cross(v_child, row) @ gain.angular))
+        return np.array(found)
+
+    def _speed(self, data: Any, frame: int) -> Any:
+        return self._pin.getFrameVelocity(self._model, data, frame, self._pin.LOCAL)
+
+    def _q(self, positions: Array) -> Any:
+        return self._pin.integrate(self._model, self._pin.neutral(self._model), positions)
