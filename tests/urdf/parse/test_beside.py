@@ -7,6 +7,7 @@ from support.urdfs import joint, link, robot
 
 from urdfsync.diagnostics import SourceError
 from urdfsync.urdf.parse.beside import join
+from urdfsync.urdf.parse.second_reader import cross_check
 from urdfsync.urdf.parse.source import read_robot
 
 URDF = robot(
@@ -42,6 +43,13 @@ def test_loops_motors_and_joints_are_as_the_yaml_says() -> None:
     assert joints["e_y"].axis == (0.0, 1.0, 0.0)
     assert dict(places)[reading.lines["loop tip_A_tip_B"]] == 1
     assert dict(places)[reading.lines["joint e_x"]] == 4
+
+
+def test_the_second_reader_finds_the_joints_of_the_urdf() -> None:
+    """It knows none of several axes, and none that is fixed by a YAML."""
+    for kind in (b"SPHERICAL", b"FIXED"):
+        text, _ = join(URDF, YAML.replace(b"SPHERICAL", kind), "a.yaml")
+        assert cross_check(text, "a.urdf") == ()
 
 
 def test_another_yaml_says_nothing() -> None:

@@ -11,6 +11,7 @@ So its lines are known, and all that reads the URDF reads them as well. A joint 
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from typing import Any
 from xml.etree.ElementTree import Element
@@ -57,6 +58,11 @@ def join(content: bytes, other: bytes, file: str) -> tuple[bytes, Sequence[tuple
     first = content.count(b"\n", 0, end) + 2
     places = [(number, line) for number, (_, line) in enumerate(elements, first)]
     return content[:end] + lines + b"\n" + content[end:], places
+
+
+def with_plain_joints(content: bytes) -> bytes:
+    """Return such a URDF without the joints that URDF has no type for: each turns about one axis, as it is written."""
+    return re.sub(rb"<%s [^>]*/>" % AXES.encode(), b"", content)
 
 
 def _elements(document: Any) -> Iterator[tuple[str, int]]:

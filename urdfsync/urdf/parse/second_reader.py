@@ -18,6 +18,7 @@ from urdfsync.diagnostics import Diagnostic
 from urdfsync.urdf.kinematics.poses import link_poses
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import LeftOut, Options
+from urdfsync.urdf.parse.beside import with_plain_joints
 from urdfsync.urdf.parse.fields import located
 from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.robot import MOTION_KINDS, Robot
@@ -33,8 +34,9 @@ _TOLERANCE = 1e-9
 def cross_check(content: bytes, file: str) -> tuple[Diagnostic, ...]:
     """Return where yourdfpy finds other names, types, parents or poses in a URDF than `read_robot`, which accepts it.
 
-    `file` is how diagnostics name it.
+    `file` is how diagnostics name it. Both read what URDF says: a joint of several axes is none of its types.
     """
+    content = with_plain_joints(content)
     reading = read_robot(content, file, Options(allow=get_args(LeftOut)))
     if reading.robot is None:
         return ()
