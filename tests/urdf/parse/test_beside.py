@@ -9,6 +9,7 @@ from urdfsync.diagnostics import SourceError
 from urdfsync.urdf.parse.beside import join
 from urdfsync.urdf.parse.second_reader import cross_check
 from urdfsync.urdf.parse.source import read_robot
+from urdfsync.urdf.physics.completion import completed_for_pinocchio
 
 URDF = robot(
     *(link("base"), link("a", 1.0), link("b", 1.0), link("c", 1.0)),
@@ -50,6 +51,20 @@ def test_the_second_reader_finds_the_joints_of_the_urdf() -> None:
     for kind in (b"SPHERICAL", b"FIXED"):
         text, _ = join(URDF, YAML.replace(b"SPHERICAL", kind), "a.yaml")
         assert cross_check(text, "a.urdf") == ()
+
+
+def test_pinocchio_gets_the_joints_of_the_yaml() -> None:
+    for kind in (b"SPHERICAL", b"FIXED", b"UJOINT_YX"):
+        text, _ = join(URDF, YAML.replace(b"SPHERICAL", kind), "a.yaml")
+        ours, theirs = (read_robot(each, "a.urdf").robot for each in (text, completed_for_pinocchio(text).content))
+        assert ours is not None
+        assert theirs is not None
+        assert {one.name for one in theirs.links} == {one.name for one in ours.links}
+        chains = [
+            {(one.name, one.type, one.parent, one.child, one.origin, one.axis) for one in robot.joints}
+            for robot in (ours, theirs)
+        ]
+        assert chains[0] == chains[1]
 
 
 def test_another_yaml_says_nothing() -> None:
