@@ -42,6 +42,7 @@ def test_loops_motors_and_joints_are_as_the_yaml_says() -> None:
         ("e_y", "b"),
     ]
     assert joints["e_y"].axis == (0.0, 1.0, 0.0)
+    assert joints["e_y"].measured
     assert dict(places)[reading.lines["loop tip_A_tip_B"]] == 1
     assert dict(places)[reading.lines["joint e_x"]] == 4
 
@@ -65,6 +66,12 @@ def test_pinocchio_gets_the_joints_of_the_yaml() -> None:
             for robot in (ours, theirs)
         ]
         assert chains[0] == chains[1]
+
+
+def test_a_joint_of_the_yaml_that_is_none_is_told() -> None:
+    text, places = join(URDF, YAML.replace(b"'e'", b"'elbow'"), "a.yaml")
+    (finding,) = read_robot(text, "a.urdf").diagnostics
+    assert (finding.code, dict(places)[finding.line]) == ("unknown-reference", 4)
 
 
 def test_another_yaml_says_nothing() -> None:

@@ -14,14 +14,11 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 from typing import Any
-from xml.etree.ElementTree import Element
+from xml.etree.ElementTree import SubElement
 from xml.sax.saxutils import quoteattr
 
-import msgspec
-
 from urdfsync.diagnostics import SourceError
-from urdfsync.urdf.parse.fields import Reader
-from urdfsync.urdf.robot import Joint, Link, Origin, Vector
+from urdfsync.urdf.parse import xml
 
 AXES = "joint_axes"
 """Element of a joint that turns about other axes than URDF says, one after the other: `<joint_axes joint axes>`."""
@@ -32,7 +29,7 @@ _TYPES = {
     **{f"UJOINT_{a}{b}": f"{a}{b}".lower() for a in "XYZ" for b in "XYZ" if a != b},
 }
 _MARK = b"closed_loop"
-_DIRECTIONS: dict[str, Vector] = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
+_DIRECTIONS = {"x": "1 0 0", "y": "0 1 0", "z": "0 0 1"}
 
 
 def join(content: bytes, other: bytes, file: str) -> tuple[bytes, Sequence[tuple[int, int]]]:
@@ -88,31 +85,38 @@ def _elements(document: Any) -> Iterator[tuple[str, int]]:
         yield f'<{AXES} joint={quoteattr(joint.value)} axes="{_TYPES[kind.value]}"/>', joint.start_mark.line + 1
 
 
-def split_joints(
-    reader: Reader, root: Element, links: Sequence[Link], joints: Sequence[Joint]
-) -> tuple[Sequence[Link], list[Joint]]:
-    """Return links and joints with a chain in place of each joint that turns about several axes, or about none."""
-    axes = {element.get("joint", ""): element for element in root.findall(AXES)}
-    reader.used.update(axes.values())
-    known = {joint.name for joint in joints}
-    for name, element in axes.items():
-        if name not in known:
-            reader.add(element, "unknown-reference", f"there is no joint {name!r} to turn about other axes")
-    added, result = list[Link](), list[Joint]()
-    for joint in joints:
-        letters = axes[joint.name].get("axes", "") if joint.name in axes else None
-        if letters is None:
-            result.append(joint)
-        elif not letters:
-            result.append(msgspec.structs.replace(joint, type="fixed", limit=None, dynamics=None))
-        else:
-            names = [f"{joint.name}_{letter}" for letter in letters]
-            ends = [joint.parent, *names[:-1], joint.child]
-            added += map(Link, names[:-1])
-            origins = [joint.origin, *[Origin()] * (len(letters) - 1)]
-            for k, letter in enumerate(letters):
-                reader.place(axes[joint.name], f"joint {names[k]}")
-                reader.place(axes[joint.name], f"link {names[k]}")
-                chain = Joint(names[k], "continuous", ends[k], ends[k + 1], origins[k], _DIRECTIONS[letter])
-                result.append(msgspec.structs.replace(chain, measured=True))
-    return (*links, *added), result
+def split_joints(document: xml.Document) -> xml.Document:
+    """Return the document with a chain in place of each joint that turns about several axes, or fixed if about none.
+
+    The source only measures the joints of a chain. Elements that name no joint stay.
+    """
+    root, lines = document.root, dict(document.lines)
+    joints = {joint.get("name", ""): joint for joint in root.findall("joint")}
+    for element in root.findall(AXES):
+        name, letters = element.get("joint", ""), element.get("axes", "")
+        if name not in joints:
+            continue
+        root.remove(element)
+        chain = [joints[name]]
+        for part in [part for part in chain[0] if part.tag in ("axis", "limit", "dynamics")]:
+            chain[0].remove(part)
+        if not letters:
+            chain[0].set("type", "fixed")
+            continue
+        names = [f"{name}_{letter}" for letter in letters]
+        links = [SubElement(root, "link", name=inner) for inner in names[:-1]]
+        for inner in names[:-1]:
+            chain.append(SubElement(root, "joint"))
+            SubElement(chain[-1], "parent", link=inner)
+        children = [*names[:-1], *(child.get("link", "") for child in chain[0].findall("child"))]
+        control = SubElement(root, "ros2_control", name=name)
+        for joint, letter, new, child in zip(chain, letters, names, children, strict=False):
+            joint.attrib |= {"name": new, "type": "continuous"}
+            SubElement(joint, "axis", xyz=_DIRECTIONS[letter])
+            for old in joint.findall("child"):
+                joint.remove(old)
+            SubElement(joint, "child", link=child)
+            SubElement(SubElement(control, "joint", name=new), "state_interface", name="position")
+        for part in (*chain, *links, control):
+            lines |= dict.fromkeys(part.iter(), lines[element])
+    return document._replace(lines=lines)

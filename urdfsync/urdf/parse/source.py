@@ -18,7 +18,7 @@ from urdfsync.diagnostics import Diagnostic, cut
 from urdfsync.urdf import validate
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.parse import xml
-from urdfsync.urdf.parse.beside import split_joints
+from urdfsync.urdf.parse.beside import AXES, split_joints
 from urdfsync.urdf.parse.drives import configured_drives, read_drives, with_drives
 from urdfsync.urdf.parse.elements import read_joint, read_link, read_material, resolve_materials
 from urdfsync.urdf.parse.fields import Reader, quoted, summary
@@ -60,7 +60,7 @@ def read_robot(content: bytes, file: str, options: Options = _DEFAULTS) -> Robot
     All faults of the model are reported, not only the first; a fault of the XML is one error.
     """
     try:
-        document = xml.parse(content)
+        document = split_joints(xml.parse(content))
     except xml.ParseError as error:
         return RobotReading(None, summary([error.diagnostic], file), {})
     reader = Reader(document.lines, options.allow)
@@ -141,6 +141,9 @@ def _read(reader: Reader, document: xml.Document, options: Options) -> Robot:
         if child.tag == "drake:joint":
             message = f"<drake:joint> {quoted(child.get('name', ''))} is of a type that URDF does not have"
             reader.add(child, "unknown-joint-type", message)
+        elif child.tag == AXES:
+            message = f"there is no joint {quoted(child.get('joint', ''))} to turn about other axes"
+            reader.add(child, "unknown-reference", message)
         elif child.tag == "inertial":
             reader.add(child, "stray-inertial", "this <inertial> is in no link, and is left out of the model")
         if child.tag not in _MODELLED:
@@ -170,8 +173,7 @@ def _read(reader: Reader, document: xml.Document, options: Options) -> Robot:
     complete = len(links) == len(all_links) and len(joints) == len(all_joints)
     by_path = dict(zip(validate.element_paths("link", [link.name for link in links]), links, strict=True))
     defined = {material.get("name", "") for material in root.iter("material") if len(material)}
-    links_with_materials = resolve_materials(reader, by_path, materials, defined)
-    linked, joints = split_joints(reader, root, links_with_materials, joints)
+    linked = resolve_materials(reader, by_path, materials, defined)
     sensors = read_sensors(reader, root, {link.name for link in links}, joints) if complete else ()
     extensions = tuple(Extension(owner, part.tag, xml.canonical(part)) for owner, part in reader.unmodelled())
     robot = Robot(name, tuple(linked), tuple(joints), extensions, sensors)

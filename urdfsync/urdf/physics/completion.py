@@ -15,7 +15,7 @@ import msgspec
 
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.parse import xml
-from urdfsync.urdf.parse.beside import AXES
+from urdfsync.urdf.parse.beside import AXES, split_joints
 from urdfsync.urdf.robot import Inertia
 
 _NEEDED = {
@@ -38,15 +38,11 @@ class CompletedSource(NamedTuple):
 
 def completed_for_pinocchio(content: bytes) -> CompletedSource:
     """Return the URDF in UTF-8, with the elements and attributes that Pinocchio's reader requires."""
-    root = xml.parse(content).root
-    added = set() if root.get("name") else {"the robot's name"}
+    document = xml.parse(content)
+    added = set() if document.root.get("name") else {"the robot's name"}
+    added |= {"joints of several axes"} if document.root.find(AXES) is not None else set()
+    root = split_joints(document).root
     root.set("name", root.get("name") or "robot")
-    for element in root.findall(AXES):
-        root.remove(element)
-        added.add("joints of several axes")
-        for joint in root.findall("joint"):
-            if joint.get("name") == element.get("joint"):
-                _split_joint(root, joint, element.get("axes", ""))
     for joint in root.findall("joint"):
         if joint.get("type") in ("revolute", "prismatic") and joint.find("limit") is None:
             SubElement(joint, "limit", lower="-1000", upper="1000")
@@ -68,30 +64,6 @@ def completed_for_pinocchio(content: bytes) -> CompletedSource:
             return CompletedSource(content)
     notes = (f"additions for Pinocchio's reader: {', '.join(sorted(added))}",) if added else ()
     return CompletedSource(tostring(root, "UTF-8", xml_declaration=True), notes)
-
-
-def _split_joint(root: Element, joint: Element, letters: str) -> None:
-    """Write a joint of several axes, or of none, as the joints and links that `beside.split_joints` makes of it."""
-    for part in (*joint.findall("limit"), *joint.findall("dynamics")):
-        joint.remove(part)
-    if not letters:
-        joint.set("type", "fixed")
-        return
-    for axis in joint.findall("axis"):
-        joint.remove(axis)
-    names = [f"{joint.get('name')}_{letter}" for letter in letters]
-    last = joint.find("child")
-    child = "" if last is None else last.get("link", "")
-    for k, letter in enumerate(letters):
-        if k:
-            SubElement(root, "link", name=names[k - 1])
-            joint = SubElement(root, "joint")
-            SubElement(joint, "parent", link=names[k - 1])
-            last = SubElement(joint, "child")
-        joint.attrib.update(name=names[k], type="continuous")
-        SubElement(joint, "axis", xyz=" ".join(str(int(letter == other)) for other in "xyz"))
-        if last is not None:
-            last.set("link", child if k == len(letters) - 1 else names[k])
 
 
 def with_inertias(content: bytes, tree: KinematicTree) -> CompletedSource:
