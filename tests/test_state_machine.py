@@ -442,7 +442,7 @@ class Walk(RuleBasedStateMachine):
         printed = self.execute(*command.split(), "--json", code=None)
         assert printed.code in (0, 3) or SOURCE.name in printed.words, printed
         (robot,) = printed.json["results"]
-        writes = [action for action in robot["actions"] if action["kind"] == "write" and not action["held"]]
+        writes = [action for action in robot["actions"] if action["kind"] == "write" and not action["is_waiting"]]
         self.expected.move({inside(one["origin"]): inside(one["path"]) for one in writes if one["origin"]})
         now = replay.contents(PACKAGE)
         lost = [edit for edit in self.expected.lost(now) if edit[0] not in self.expected.given_up]

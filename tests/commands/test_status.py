@@ -116,8 +116,8 @@ def test_a_build_that_is_writing_is_waited_for(built: Path, execute: Execute) ->
 # Each action
 
 
-def action(reason: Reason, held: bool = False, path: str = "") -> Action:
-    return Action(path or f"Arm/{reason}.mo", reason, Role.MODEL, "link tip", base="b", mine="m", held=held)
+def action(reason: Reason, waits: bool = False, path: str = "") -> Action:
+    return Action(path or f"Arm/{reason}.mo", reason, Role.MODEL, "link tip", base="b", mine="m", is_waiting=waits)
 
 
 def result_of(*actions: Action, changes: Changes | None = None) -> Result:
@@ -212,8 +212,8 @@ def test_what_the_next_build_does(kinds: list[Reason], changes: Changes | None, 
 
 
 def test_what_waits_for_a_conflict_is_counted_and_says_so() -> None:
-    held = [action(Reason.UPDATE, held=True, path=path) for path in ("a.mo", "b.mo")]
-    found = result_of(action(Reason.CONFLICT), *held, action(Reason.CREATE), changes=changed(ChangeClass.STRUCTURAL))
+    waiting = [action(Reason.UPDATE, waits=True, path=path) for path in ("a.mo", "b.mo")]
+    found = result_of(action(Reason.CONFLICT), *waiting, action(Reason.CREATE), changes=changed(ChangeClass.STRUCTURAL))
     shown = said(found)
     assert shown[0].endswith("out of step: 1 file to write, 1 conflict, 2 files wait until the conflict is resolved")
     assert sum("waits until the conflicts are resolved" in line for line in shown) == 2

@@ -92,7 +92,7 @@ def test_base_generated_and_merge_are_put_aside_and_come_back_if_somebody_delete
 
 def test_resolving_one_conflict_releases_what_waited_which_is_told_till_then(conflict: Path) -> None:
     waited = run()
-    assert RECORD in {action.path for action in waited.actions if action.held}, "its parameter has another name"
+    assert RECORD in {action.path for action in waited.actions if action.is_waiting}, "its parameter has another name"
     first, again = waited.changes, run().changes
     assert first is not None
     assert again is not None
@@ -103,7 +103,7 @@ def test_resolving_one_conflict_releases_what_waited_which_is_told_till_then(con
     assert len(more.changes) == len(first.changes) + 1
     done = run(choices={R1: Choice.TAKE})
     assert done.changes is not None
-    assert not any(action.held for action in done.actions)
+    assert not any(action.is_waiting for action in done.actions)
     assert "C = 1e-09" in Path(RECORD).read_text()
     assert run().changes is None
 
@@ -655,7 +655,7 @@ def test_a_conflict_holds_back_structure_but_not_numbers_until_it_is_resolved(
     assert b"// mine" in after["Ladder.mo"][1]
     waiting = {f"Elements/R{n}{kind}.mo" for n in "23" for kind in ("", "Parameters")} | {"Elements/package.order"}
     for result in (first, run()):
-        assert {action.path.removeprefix(f"{LADDER}/") for action in result.actions if action.held} == waiting
+        assert {action.path.removeprefix(f"{LADDER}/") for action in result.actions if action.is_waiting} == waiting
         assert exit_code([result]) is Exit.CONFLICT
     source('"R3"', '"R2"')
     assert kinds(run(), BELOW) == {"Ladder.mo": Reason.KEEP}, "the source came back"

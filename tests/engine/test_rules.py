@@ -19,8 +19,8 @@ from urdfsync.engine.rules import (
     decide,
     decide_file,
     files_after,
-    hold,
     pending_choices,
+    put_off,
     valid_choices,
 )
 from urdfsync.state.record import Choice, FileRecord, UsersChoice, sides_hash
@@ -180,7 +180,7 @@ def test_a_choice_that_nothing_waits_for_is_not_believed() -> None:
     assert [valid_choices(pending, [action], is_pending=True) for action in actions] == [{}, pending]
 
 
-HELD = {
+WAITING = {
     "Conflict.mo": (Action("Conflict.mo", Reason.CONFLICT, Role.MODEL), False),
     "New.mo": (Action("New.mo", Reason.CREATE, Role.MODEL), True),
     "Number.mo": (Action("Number.mo", Reason.UPDATE, Role.RECORD), False),
@@ -204,17 +204,16 @@ HELD = {
 
 @pytest.mark.parametrize("moves", [False, True])
 def test_what_waits_for_a_conflict(moves: bool) -> None:
-    actions = [action for action, _ in HELD.values()]
-    held = {
-        one.path for one in hold(actions, {"Number.mo", "Renamed.mo", "Follows.mo"}, {"Renamed.mo"}, moves) if one.held
-    }
-    assert held == {path for path, (_, waits) in HELD.items() if waits or (moves and path != "Conflict.mo")}
+    actions = [action for action, _ in WAITING.values()]
+    decided = put_off(actions, {"Number.mo", "Renamed.mo", "Follows.mo"}, {"Renamed.mo"}, moves)
+    waiting = {action.path for action in decided if action.is_waiting}
+    assert waiting == {path for path, (_, waits) in WAITING.items() if waits or (moves and path != "Conflict.mo")}
 
 
 def test_choices_wait_with_their_actions_but_not_those_to_undo() -> None:
     actions = [
-        Action(choice, Reason.CONFLICT, Role.MODEL, choice=choice, held=held)
-        for choice, held in ((Choice.TAKE, True), (Choice.KEEP, False), (Choice.UNDO, True), (Choice.EDIT, True))
+        Action(choice, Reason.CONFLICT, Role.MODEL, choice=choice, is_waiting=waits)
+        for choice, waits in ((Choice.TAKE, True), (Choice.KEEP, False), (Choice.UNDO, True), (Choice.EDIT, True))
     ]
     texts: dict[str, str] = {Choice.TAKE: "generated", Choice.EDIT: "both"}
     pending = {path: choice.text for path, choice in pending_choices(actions, texts).items()}

@@ -115,7 +115,7 @@ def failure(**request: Any) -> str:
 
 def kinds(result: Result, folder: str = "") -> dict[str, Reason]:
     """What happens to each file that does not just stay and does not wait, by its path below a folder."""
-    actions = (action for action in result.actions if action.reason is not Reason.UNCHANGED and not action.held)
+    actions = (action for action in result.actions if action.reason is not Reason.UNCHANGED and not action.is_waiting)
     return {action.path.removeprefix(folder): action.reason for action in actions}
 
 

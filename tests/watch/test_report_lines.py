@@ -35,9 +35,9 @@ def change(path: str, old: Any, new: Any, unit: str = "", kind: Event = Event.CH
     return Change(tuple(path.split(" / ")), kind, ChangeClass.PARAMETER, old, new, unit)
 
 
-def action(kind: Reason, name: str = "Elbow", generated: str = "generated", held: bool = False) -> Action:
+def action(kind: Reason, name: str = "Elbow", generated: str = "generated", waits: bool = False) -> Action:
     path = f"modelica/Arm/Links/{name}.mo"
-    return Action(path, kind, Role.RECORD, "link elbow", "base", generated, mine="mine", held=held)
+    return Action(path, kind, Role.RECORD, "link elbow", "base", generated, mine="mine", is_waiting=waits)
 
 
 def built(*actions: Action, recovered: bool = False, **more: Any) -> events.Built:
@@ -221,7 +221,7 @@ def test_conflicts_are_shown_as_in_build_and_only_once_and_so_is_their_end() -> 
     assert told(CONFLICT, again) == [*first, f"{TIME}arm  {MASS}, 1 conflict"]
     assert told(CONFLICT, built(action(Reason.CONFLICT), recovered=True)) == [*first, f"{TIME}arm  1 conflict"]
     assert told(CONFLICT, IN_STEP, IN_STEP) == [*first, f"{TIME}arm  in step again"]
-    waiting = built(action(Reason.UPDATE), action(Reason.CONFLICT), action(Reason.UPDATE, "Base", held=True))
+    waiting = built(action(Reason.UPDATE), action(Reason.CONFLICT), action(Reason.UPDATE, "Base", waits=True))
     assert told(waiting)[0] == f"{TIME}arm  1 file written, 1 conflict, 1 file waits until the conflict is resolved"
 
 

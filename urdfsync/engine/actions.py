@@ -104,7 +104,7 @@ class Action(msgspec.Struct, frozen=True):
     Whoever acts on it takes `path` for all that it changes: a file that moves has two actions, MOVE and MOVED_AWAY.
     """
 
-    KEYS = ("path", "origin", "status", "kind", "reason", "held", "owner", "role", "text")
+    KEYS = ("path", "origin", "status", "kind", "reason", "is_waiting", "owner", "role", "text")
 
     path: str
     reason: Reason
@@ -120,7 +120,7 @@ class Action(msgspec.Struct, frozen=True):
     """Hash of the file on disk; None if there is none."""
     result: str | None = None
     """Hash of the merged text; None if nothing is merged."""
-    held: bool = False
+    is_waiting: bool = False
     """Waits until the robot's other conflicts are resolved."""
 
     @property
@@ -144,7 +144,7 @@ class Action(msgspec.Struct, frozen=True):
     @property
     def writes(self) -> bool:
         """Whether a file changes now."""
-        return self.kind in (Kind.WRITE, Kind.DELETE) and not self.held
+        return self.kind in (Kind.WRITE, Kind.DELETE) and not self.is_waiting
 
     @property
     def is_deletion(self) -> bool:
@@ -159,7 +159,8 @@ class Action(msgspec.Struct, frozen=True):
     @property
     def keeps_text(self) -> bool:
         """Whether the text on disk stays, and need not be the generated one."""
-        return self.held or (self.kind in (Kind.LEAVE, Kind.CONFLICT) and self.reason.status is not FileStatus.IN_STEP)
+        stays = self.kind in (Kind.LEAVE, Kind.CONFLICT) and self.status is not FileStatus.IN_STEP
+        return self.is_waiting or stays
 
     @property
     def sides(self) -> str:
@@ -169,7 +170,7 @@ class Action(msgspec.Struct, frozen=True):
     @property
     def waits_for(self) -> str:
         """The reason why it waits, as a clause; empty if it does not."""
-        if not self.held:
+        if not self.is_waiting:
             return ""
         waits = "resolved, waits until the other" if self.choice else "waits until the"
         return f"{waits} conflicts are resolved"

@@ -18,7 +18,7 @@ from urdfsync.engine.needed import keep_needed
 from urdfsync.engine.package_files import PackageFiles
 from urdfsync.engine.package_names import renamed_names
 from urdfsync.engine.parents import SharedFile, merge_order
-from urdfsync.engine.rules import File, decide, hold, valid_choices
+from urdfsync.engine.rules import File, decide, put_off, valid_choices
 from urdfsync.engine.undo import apply_undo, former_names
 from urdfsync.files import shown
 from urdfsync.modelica.files import class_parts
@@ -53,7 +53,7 @@ class Decision(msgspec.Struct, frozen=True):
     @property
     def is_complete(self) -> bool:
         """Whether nothing conflicts and nothing waits."""
-        return not any(action.held or action.is_conflict for action in self.actions)
+        return not any(action.is_waiting or action.is_conflict for action in self.actions)
 
 
 def decide_package(generation: Generation) -> Decision:
@@ -82,11 +82,12 @@ def decide_package(generation: Generation) -> Decision:
     _refuse_markers(files, actions, orders.keys())
     has_conflicts = any(action.is_conflict for action in actions)
     numbers = _renumbered(generation, actions, merged, conflicts) if has_conflicts else ()
-    held = Actions(hold((*actions, *order_actions), numbers, set(generation.moves.values()), inputs.has_moved))
-    waiting = {action.path for action in held if action.held}
+    origins = set(generation.moves.values())
+    all_actions = Actions(put_off((*actions, *order_actions), numbers, origins, inputs.has_moved))
+    waiting = {action.path for action in all_actions if action.is_waiting}
     shared = [file for file in shared if files.key(file.path) not in waiting]
-    misfits = find_misfits(generation, held, {**orders, **merged})
-    return Decision(held, {**orders, **merged}, conflicts, tuple(shared), tuple(misfits))
+    misfits = find_misfits(generation, all_actions, {**orders, **merged})
+    return Decision(all_actions, {**orders, **merged}, conflicts, tuple(shared), tuple(misfits))
 
 
 def _find_files(generation: Generation) -> dict[str, File]:
@@ -194,7 +195,7 @@ def _bad_merges(
     new = package.misfits(merged.keys())
     if not new:
         return {}
-    now = Package(generation, [msgspec.structs.replace(one, held=True) for one in actions], {})
+    now = Package(generation, [msgspec.structs.replace(one, is_waiting=True) for one in actions], {})
     old = {(one.key, one.fault) for one in now.misfits({one.origin or one.path for one in conflicts.values()})}
     reasons = dict[str, str]()
     for key, conflict in conflicts.items():

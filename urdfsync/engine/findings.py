@@ -117,7 +117,7 @@ def _hint(generation: Generation, renamed: Mapping[str, str], use: Unresolved) -
 def _left_behind(inputs: Inputs, actions: Actions) -> Iterator[Diagnostic]:
     """A warning if something stays in the folder that a package had in the last build."""
     files, old, new = inputs.files, inputs.files.path(inputs.last.folder), inputs.files.path(inputs.folder)
-    if not inputs.has_moved or any(action.held for action in actions):
+    if not inputs.has_moved or any(action.is_waiting for action in actions):
         return
     gone = {files.path(action.path) for action in actions if action.is_deletion}
     # a record may be a stranger's: no look into a folder elsewhere, and no command that deletes it
@@ -166,7 +166,7 @@ def _outdated(inputs: Inputs, actions: Actions) -> Iterator[Diagnostic]:
     if inputs.last.version is None or inputs.last.record.generator.revision >= inputs.domain.fits_since:
         return
     conflicts = [shown(inputs.files.path(action.origin or action.path)) for action in actions if action.is_conflict]
-    if conflicts and any(action.held for action in actions):
+    if conflicts and any(action.is_waiting for action in actions):
         named = conflicts[0] if len(conflicts) == 1 else f"each of {len(conflicts)} conflicts"
         command = conflicts[0] if len(conflicts) == 1 else f"--all --robot {inputs.robot.name}"
         message = f"an older urdfsync wrote this package: it does not fit the library {LIBRARY} of this version"

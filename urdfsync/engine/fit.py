@@ -130,7 +130,7 @@ class Package(Mapping[str, bytes]):
             dict[str, Difference](),
         )
         self._files = self._files_after(merged, is_open=is_open)
-        orders = (one.path for one in actions if one.role is Role.ORDER and not one.held and one.path in merged)
+        orders = (one.path for one in actions if one.role is Role.ORDER and not one.is_waiting and one.path in merged)
         self._orders = {self._inputs.folder.path(key): merged[key] for key in orders}
         self.around = self._files_around(former_names)
 
@@ -145,7 +145,7 @@ class Package(Mapping[str, bytes]):
             keys.add(key)
             classes |= {key} if action.generated else set()
             file = _File(key, is_expected=action.generated is not None)
-            if not action.held and key in merged:
+            if not action.is_waiting and key in merged:
                 is_edited = text_hash(merged[key]) != action.generated
                 found[inputs.folder.path(key)] = file._replace(text=merged[key], is_edited=is_edited)
             elif is_open and action.is_conflict:
@@ -284,7 +284,7 @@ class Package(Mapping[str, bytes]):
     @cached_property
     def _is_waiting(self) -> bool:
         """Whether files stay as they are in the package of the last complete build."""
-        return any(action.held for action in self._actions)
+        return any(action.is_waiting for action in self._actions)
 
     def _generated_text(self, path: str) -> str:
         """Return the text in the place of an edited one that all other generated texts fit; empty if there is none."""
@@ -426,6 +426,6 @@ def _as_file(path: str) -> str:
 
 def find_misfits(generation: Generation, actions: Sequence[Action], merged: Mapping[str, str]) -> list[Misfit]:
     """Find what does not fit in the files that the user wrote, once all actions are done but those that wait."""
-    if generation.inputs.has_moved and any(action.held for action in actions):
+    if generation.inputs.has_moved and any(action.is_waiting for action in actions):
         return []  # the package stays where it was
     return Package(generation, actions, merged).misfits()

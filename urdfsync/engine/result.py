@@ -192,7 +192,7 @@ class Result(msgspec.Struct, frozen=True):
 
     def counts(self, silent: Container[Reason] = ()) -> list[str]:
         """Return a phrase for each reason that is not `silent`, with the number of files, and for what waits."""
-        reasons = Counter(action.reason for action in self.actions.decided if not action.held)
+        reasons = Counter(action.reason for action in self.actions.decided if not action.is_waiting)
         reasons[Reason.UPDATE] += reasons.pop(Reason.CREATE, 0)
         reasons[Reason.CONFLICT] += reasons.pop(Reason.UNOWNED, 0)
         phrases = []
@@ -207,7 +207,7 @@ class Result(msgspec.Struct, frozen=True):
             and all(reason.kind is Kind.LEAVE and reason is not Reason.ADOPT for reason in +reasons)
         ):
             phrases.append("recorded state to write")
-        if waiting := sum(action.held for action in self.actions.decided):
+        if waiting := sum(action.is_waiting for action in self.actions.decided):
             what = "the conflict is" if reasons[Reason.CONFLICT] == 1 else "all conflicts are"
             phrases.append(f"{counted(waiting, 'file')} wait{'s' if waiting == 1 else ''} until {what} resolved")
         return phrases

@@ -116,7 +116,7 @@ def _edited_moves(files: Mapping[str, File], moves: Mapping[str, str]) -> dict[s
     return edited
 
 
-def hold(
+def put_off(
     actions: Iterable[Action], numbers_only: Collection[str], origins: Collection[str], moves: bool
 ) -> tuple[Action, ...]:
     """Put off structural changes of a robot while one of its files is in conflict.
@@ -145,7 +145,7 @@ def hold(
             return False
         return action.reason not in (Reason.UPDATE, Reason.MERGE) or action.path not in numbers_only
 
-    return tuple(msgspec.structs.replace(action, held=True) if waits(action) else action for action in actions)
+    return tuple(msgspec.structs.replace(action, is_waiting=True) if waits(action) else action for action in actions)
 
 
 def files_after(
@@ -172,7 +172,7 @@ def pending_choices(actions: Iterable[Action], texts: Mapping[str, str]) -> dict
     """Return the user's choices that wait, by path; `texts` has what he made of both sides of a file."""
     pending = {}
     for action in actions:
-        if action.choice and action.held and action.choice is not Choice.UNDO:
+        if action.choice and action.is_waiting and action.choice is not Choice.UNDO:
             text = texts.get(action.path) if action.choice is Choice.EDIT else None
             pending[action.path] = UsersChoice(action.choice, action.sides, text)
     return pending

@@ -87,7 +87,7 @@ def file_table(result: Result) -> Table:
     """Return what happens to the files of a package, without those that stay."""
     actions = [action for action in result.actions if action.reason not in _SILENT]
     actions.sort(key=lambda action: (action.kind is Kind.LEAVE, action.path.rpartition("/")))
-    words = ["waiting" if action.held else action.reason for action in actions]
+    words = ["waiting" if action.is_waiting else action.reason for action in actions]
     reasons = [reason(action, result.effective_changes, brief=True) for action in actions]
     paths = [result.shown(action.path) for action in actions]
     return Table("Files", ("File", "", "Why"), list(zip(paths, words, reasons, strict=True)))

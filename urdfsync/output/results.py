@@ -27,7 +27,7 @@ _CHANGES = 12
 
 def action_word(action: Action) -> tuple[str, str]:
     """Return what happens to a file in a word, and its style."""
-    if action.held:
+    if action.is_waiting:
         return "waiting", "yellow"
     left = _STYLES_LEFT.get(action.status, "dim")
     return action.reason, _STYLES.get(action.kind, left)
@@ -104,7 +104,7 @@ def result_lines(
         actions = [
             action
             for action in actions
-            if (action.reason in _ALWAYS_LISTED and not action.held)
+            if (action.reason in _ALWAYS_LISTED and not action.is_waiting)
             or (action.path in named and not action.is_conflict)  # conflicts have lines of their own
         ]
     for action in sorted(actions, key=lambda action: action.path.rpartition("/")):

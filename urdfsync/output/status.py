@@ -52,7 +52,7 @@ def _path(action: Action) -> str:
 
 def _file_line(result: Result, action: Action, conflict: str | None) -> StyledLine:
     status = action.status or FileStatus.IN_STEP
-    says_all = action.reason in (Reason.UNCHANGED, Reason.KEEP) and not action.held
+    says_all = action.reason in (Reason.UNCHANGED, Reason.KEEP) and not action.is_waiting
     why = "" if says_all else conflict or reason(action, result.effective_changes)
     return file_line(result.shown(_path(action)), status, action_word(action)[1], why)
 

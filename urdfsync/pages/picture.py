@@ -68,7 +68,10 @@ def picture(generation: Generation, older: Contents | None) -> Picture:
     used = {shape.mesh for scene in (now, before) if scene for body in scene.bodies for shape in body.shapes}
     names = sorted(used & files.keys())
     most, code = min(_MOST, _MOST_IN_ALL // max(1, len(names))), program(robot.domain)
-    meshes = {name: _read(domain, name, files[name], most, code) for name in names}
+    cache = caches.UserCache.default()
+    meshes = {name: _read(domain, cache, name, files[name], most, code) for name in names}
+    if any(isinstance(mesh, Triangles) and mesh.is_simplified for mesh in meshes.values()):
+        cache.trim()
     notes = (f"{files[name].path} {note}" for name, mesh in meshes.items() if (note := _note(mesh)))
     shown_meshes = {name: mesh for name, mesh in meshes.items() if isinstance(mesh, Triangles)}
     return Picture(now, before, shown_meshes, (*now.missing, *notes))
@@ -82,15 +85,16 @@ def _by_hash(version: Contents) -> tuple[dict[str, Import], dict[str, _File]]:
     return {key: msgspec.structs.replace(entry, target=entry.target_hash) for key, entry in imports.items()}, files
 
 
-def _read(domain: Domain, name: str, file: _File, most: int, code: Iterable[object]) -> Triangles | str:
+def _read(
+    domain: Domain, cache: caches.UserCache, name: str, file: _File, most: int, code: Iterable[object]
+) -> Triangles | str:
     """Return the triangles of a mesh, or why it can't be shown."""
-    key, cache = caches.digest(name, file.path, most, *code), caches.UserCache.default()
+    key = caches.digest(name, file.path, most, *code)
     if known := cache.load(key, Triangles):
         return known
     mesh = domain.triangles(*file, most)
     if isinstance(mesh, Triangles) and mesh.is_simplified:  # which takes up to 16 s
         cache.save(key, mesh)
-        cache.trim()
     return mesh
 
 
