@@ -75,3 +75,13 @@ def test_a_loop_that_opens_on_the_way_is_moved_less() -> None:
         short.reference.state([Course(2.4, 0.0, 0.0)])
     assert short.share < subject(FOUR_BAR).share == 1
     assert {float(instant) for instant in Instant} == short.states.keys()
+
+
+def test_a_start_whose_rounding_opens_long_bars_is_closed_before_it_is_judged() -> None:
+    """Twelve decimals of an angle are a picometre at the end of a bar of some metres."""
+    (loop,), (pivot, pin, rocker) = FOUR_BAR.loops, FOUR_BAR.joints
+    pins = replace(pin, origin=Origin((2.0, 0.0, 0.0))), replace(rocker, origin=replace(rocker.origin, xyz=(5.0, 0, 0)))
+    long_bars = replace(loop, origin=Origin((6.0, 0.0, 0.0)), child_origin=Origin((4.0, 0.0, 0.0)))
+    moving = subject(replace(FOUR_BAR, joints=(pivot, *pins), loops=(long_bars,)))
+    assert moving.share == 1
+    assert max(abs(moving.solved[0.0].reactions[0].gap)) < 1e-14

@@ -23,7 +23,7 @@ _STEPS = 8
 """Steps of the way from the start to a pose, so that it is that of the same assembly."""
 _ITERATIONS = 30
 _CLOSED, _FARTHEST = 1e-12, 1.0
-"""Largest step, in rad and m, after which Newton's method has converged, and the smallest with which it diverges."""
+"""Largest gap and step, in rad and m, after which Newton's method has converged, and the smallest of divergence."""
 _NEAR_DEAD_POINT = 0.25
 """Part of the least singular value at the start below which a compiler may find another assembly."""
 
@@ -85,11 +85,11 @@ class Closing:
             for _ in range(_ITERATIONS):
                 gaps, jacobian = self._equations(known + self._others @ others)
                 step = np.linalg.lstsq(jacobian @ self._others, gaps)[0]
-                others, largest = others - step, np.abs(step).max(initial=0.0)
+                others, largest = others - step, np.abs([*gaps, *step]).max()
                 if not _CLOSED < largest < _FARTHEST:
                     break
             least = np.linalg.svd(jacobian @ self._others, compute_uv=False).min(initial=np.inf)
-            if not (largest <= _CLOSED and np.abs(gaps).max() <= _CLOSED and least >= self._least):
+            if not (largest <= _CLOSED and least >= self._least):
                 raise OpenLoopError
         return np.asarray(positions + self._others @ others)
 
