@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 from support.urdfs import joint, link, robot
 
+from urdfsync.diagnostics import Severity
 from urdfsync.urdf.options import LoopFrame, LoopOption, Options
 from urdfsync.urdf.parse.source import RobotReading, read_robot
 from urdfsync.urdf.robot import Loop, Origin
@@ -59,6 +60,14 @@ def test_a_joint_of_sdf_is_closed_where_all_joints_are_at_zero() -> None:
     assert loop.origin.rpy == pytest.approx((0, 0, 0.5), abs=1e-11)
     assert loop.origin.xyz == pytest.approx((0.23169, 0.25916, 0), abs=1e-5)
     assert loop.axis == (0.0, 0.0, 1.0)
+
+
+def test_a_joint_on_a_link_that_only_gazebo_has_may_be_left_out() -> None:
+    source = GAZEBO.replace("<child>rocker</child>", "<child>pad</child>"), '<gazebo><link name="pad"/></gazebo>'
+    (error,) = read(*source).diagnostics
+    assert (error.code, error.severity) == ("loop-joint", Severity.ERROR)
+    assert "link 'pad', which only Gazebo has" in error.message
+    assert loops(*source, options=Options(allow=("loop-joint",))) == ()
 
 
 def test_frames_of_onshape_to_robot_are_a_ball_that_is_told() -> None:

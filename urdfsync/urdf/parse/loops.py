@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from xml.etree.ElementTree import Element
 
 import msgspec
@@ -62,11 +62,12 @@ def read_loops(reader: Reader, root: Element, robot: Robot, options: Options) ->
     links = {link.name for link in robot.links}
     ends = {joint.name: joint.child for joint in robot.joints if joint.name not in links}
     names = [element.get("name") or f"loop_{number}" for number, element in enumerate(elements, start=1)]
+    in_gazebo = {link.get("name") for part in root.iterfind("gazebo") for link in part.iterfind("link")} - links
     for element, name, path in zip(elements, names, validate.element_paths("loop", names), strict=True):
         reader.place(element, path)
         if element.tag == "joint":
             poses = poses or link_poses(KinematicTree.of(robot), {})
-            loop = _read_joint(reader, element, path, name, poses)
+            loop = _read_joint(reader, element, path, name, poses, in_gazebo)
         else:
             read = _read_loop_joint if element.tag == "loop_joint" else _read_ball
             loop = read(reader, element, path, name)
@@ -151,13 +152,22 @@ def _read_ball(reader: Reader, element: Element, path: str, name: str) -> Loop |
     return _between(name, "ball", frames, (0.0, 0.0, 1.0), (1.0, 0.0, 0.0))
 
 
-def _read_joint(reader: Reader, element: Element, path: str, name: str, poses: Mapping[str, Pose]) -> Loop | None:
-    """Return a joint of SDF; its frame is that of the child link, moved by its <pose>."""
+def _read_joint(
+    reader: Reader, element: Element, path: str, name: str, poses: Mapping[str, Pose], in_gazebo: Collection[str | None]
+) -> Loop | None:
+    """Return a joint of SDF; its frame is that of the child link, moved by its <pose>.
+
+    `in_gazebo` are the links that only Gazebo has: such a joint closes no loop of the robot.
+    """
     kind = _kind(reader, element, path)
     parent, child = (element.findtext(tag, "").strip() for tag in ("parent", "child"))
     for tag, link in (("parent", parent), ("child", child)):
         if not link:
             reader.add(element, "missing-element", f"{path} has no <{tag}>")
+        elif kind and link in in_gazebo:
+            hint = 'add that link to the robot, or leave the loop out by `allow = ["loop-joint"]`'
+            reader.add(element, "loop-joint", f"{path} has a frame on link {link!r}, which only Gazebo has", hint)
+            kind = None
     numbers = reader.numbers(element, ["pose"], path, "bad-number", 6) or (0.0,) * 6
     axis = _vector(reader, element, "axis/xyz", path) or (0.0, 0.0, 1.0)
     second = _vector(reader, element, "axis2/xyz", path)
