@@ -355,10 +355,22 @@ def test_lines_in_messages_are_those_of_xacro(project: Path, execute: Execute) -
     files = {"parts/beam.xacro": xacros.BEAM.replace("</visual>", colour)}
     xacros.write(project, files | {"arm.urdf.xacro": xacros.ARM.replace("</robot>", f"{beams}</robot>")})
     line = 1 + xacros.BEAM[: xacros.BEAM.index("</visual")].count("\n")
-    place = f"urdf/parts/beam.xacro:{line}"
     words = execute("build").words
-    assert f"{place}: warning: " in words
-    assert f"(and 5 more like it: lines {place})" in words
+    assert f"urdf/parts/beam.xacro:{line}: warning: " in words
+    assert f"(and 5 more like it: line {line})" in words
+
+
+def test_lines_in_another_file_are_told_with_it(project: Path, execute: Execute) -> None:
+    gears = "".join(f'  <gazebo reference="gear{n}"><mu1>1</mu1></gazebo>\n' for n in range(3))
+    beam = xacros.BEAM.replace("  </xacro:macro>", f"{gears}  </xacro:macro>")
+    pinion = '  <gazebo reference="pinion"><mu1>1</mu1></gazebo>\n'
+    arm = xacros.ARM.replace('  <link name="base"/>', f'{pinion}  <link name="base"/>')
+    xacros.write(project, {"arm.urdf.xacro": arm, "parts/beam.xacro": beam})
+    first = 1 + beam[: beam.index("<gazebo")].count("\n")
+    places = ", ".join(f"urdf/parts/beam.xacro:{first + n}" for n in range(3))
+    words = execute("build").words
+    assert "urdf/arm.urdf.xacro:5: warning: <gazebo> refers to 'pinion'" in words
+    assert f"(and 3 more like it: lines {places})" in words
 
 
 def test_what_xacro_says_and_arguments_that_it_does_not_have(project: Path, execute: Execute) -> None:

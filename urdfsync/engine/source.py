@@ -72,7 +72,8 @@ class Source(msgspec.Struct, frozen=True):
         """Return a diagnostic about the text with the files and lines that the user wrote."""
         if not self.places or found.file != self.name or not found.line:
             return found
-        (file, line), message = self._place(found.line), self._with_places(found.message)
+        file, line = self._place(found.line)
+        message = self._with_places(found.message, file)
         details = tuple(dict.fromkeys(map(self._with_places, found.details)))  # a macro has the same each time
         return msgspec.structs.replace(found, message=message, file=file, line=line, column=0, details=details)
 
@@ -81,15 +82,17 @@ class Source(msgspec.Struct, frozen=True):
         number = bisect_right(self.places, line, key=lambda place: place[0])
         return self.places[max(number - 1, 0)][1:]
 
-    def _with_places(self, text: str) -> str:
-        """Return a message with files and lines in the place of the lines that it names."""
+    def _with_places(self, text: str, told: str = "") -> str:
+        """Return a message with files and lines in the place of the lines that it names; `told` is named already."""
 
         def replace(match: re.Match[str]) -> str:
             lines = [int(line) for line in match[2].split(", ")]
             if all(self._place(line) == (self.name, line) for line in lines):
                 return match[0]
             places = dict.fromkeys(map(self._place, lines))
-            return f"{match[1]} {', '.join(f'{file}:{line}' for file, line in places)}"
+            alone = all(file == told for file, _ in places)
+            listed = ", ".join(str(line) if alone else f"{file}:{line}" for file, line in places)
+            return f"line{'s' * (len(places) > 1)} {listed}"
 
         return _LINES.sub(replace, text)
 
