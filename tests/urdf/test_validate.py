@@ -78,6 +78,7 @@ def test_roots_and_cycles_are_named() -> None:
 NUMBERS = """
     continuous  <axis xyz="0 0 1.0000005"/>
     continuous  <axis xyz="0.57735 0.57735 0.57735"/>
+    continuous  <axis xyz="0.6 0 0.800003"/>
     continuous  <axis xyz="0.5773 0.5773 0.5773"/>                          warning axis-not-unit
     continuous  <axis xyz="1 1 0"/>                                         warning axis-not-unit
     continuous  <axis xyz="1e-200 0 0"/>                                    warning axis-not-unit

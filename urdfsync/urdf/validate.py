@@ -32,7 +32,8 @@ from urdfsync.urdf.robot import (
 )
 
 _EXACT = 1e-12
-_ROUNDING = 1e-6
+# By how much the length of an axis differs from 1 if its components have five digits or more.
+_ROUNDING = 1e-5
 _INERTIA_TOLERANCE = 1e-6
 # Radius of gyration, in m, below which a body is a point: its inertia is rounding then.
 _POINT = 1e-6
@@ -125,7 +126,7 @@ _WARNINGS = {
     "axis-not-unit": "write a unit vector",
     "negative-limit": "write it without sign: all limits but those of position are magnitudes",
     "negative-dynamics": "correct its sign",
-    "dynamics-without-effect": "remove them, or change the type",
+    "dynamics-without-effect": "remove what has no effect, or change the type",
     "mimic-without-effect": "remove the mimic, or change the type",
     "mimic-of-fixed": "make it fixed, or let it mimic a joint that moves",
     "unknown-actuated-joint": "correct its name, or take it out",

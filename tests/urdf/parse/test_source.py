@@ -266,6 +266,12 @@ def test_what_is_wrong_in_xml_is_said(text: str, message: str) -> None:
     assert found.hint.endswith(", or wait until the export is complete")
 
 
+def test_an_xml_declaration_below_a_comment_is_to_be_moved_up() -> None:
+    (found,) = read("<!-- licence -->\n<?xml version='1.0'?>\n<robot name='r'/>").diagnostics
+    assert (found.code, found.line) == ("xml-syntax", 2)
+    assert found.hint == "put <?xml … ?> at the beginning of the file, above all comments"
+
+
 def test_what_looks_like_a_fault_in_a_comment_is_none() -> None:
     comment = "<!--\n<<<<<<< HEAD\n<!ENTITY a 'b'> ${x} <link name='no'/>\n-->"
     robot = robot_of(f'<!DOCTYPE robot>\n<robot name="r">{comment}<link name="a"/></robot>')
@@ -472,6 +478,7 @@ NO_NUMBERS = "nan inf -inf infinity 1_000 0x10 0x1p3 1,5 1e e5 . - --1 1.2.3 1d3
 @pytest.mark.parametrize(("text", "count", "message"), [
     *((word, 1, "is not a decimal number") for word in NO_NUMBERS.split(" ")),
     *((text, 3, "numbers instead of 3") for text in ("1 2", "1 2 3 4", "")),
+    ("1", 3, "has 1 number instead of 3"),
     ("1e999", 1, "too large"),
 ])  # fmt: skip
 def test_what_is_no_decimal_number(text: str, count: int, message: str) -> None:

@@ -278,7 +278,7 @@ def parse_numbers(text: str, count: int) -> tuple[float, ...]:
     if wrong is not None:
         raise ValueError(f"is not a decimal number{f': {quoted(wrong)}' if len(words) > 1 else ''}")
     if len(words) != count:
-        raise ValueError(f"has {len(words)} numbers instead of {count}")
+        raise ValueError(f"has {len(words)} number{'s' * (len(words) != 1)} instead of {count}")
     values = tuple([float(word) + 0.0 for word in words])
     if not all(map(math.isfinite, values)):
         raise ValueError("is too large for a floating-point number")

@@ -42,6 +42,7 @@ _DECLARATION = re.compile(
 # ROS's parser accepts these. They do not name the encoding, since other parsers ignore them.
 _FAULTY_DECLARATION = r"(?ia)\s*<\?xml\s[^<>]*\?>"
 _UNCLOSED = expat.errors.XML_ERROR_TAG_MISMATCH, expat.errors.XML_ERROR_NO_ELEMENTS
+_HINTS = {expat.errors.XML_ERROR_MISPLACED_XML_PI: "put <?xml … ?> at the beginning of the file, above all comments"}
 
 
 class ParseError(Exception):
@@ -106,7 +107,8 @@ def parse(content: bytes) -> Document:
         problem = expat.ErrorString(error.code)
         if problem in _UNCLOSED and above:
             problem = f"<{above[-1].tag}> of line {lines[above[-1]]} is not closed"
-        raise ParseError("xml-syntax", f"this is not well-formed XML: {problem}", error.lineno, error.offset + 1)
+        message, hint = f"this is not well-formed XML: {problem}", _HINTS.get(problem, "")
+        raise ParseError("xml-syntax", message, error.lineno, error.offset + 1, hint)
     return Document(text, builder.close(), lines, warnings)
 
 
