@@ -68,6 +68,17 @@ def test_an_error_is_told_at_its_line(folder: Path, line: str, message: str, cod
     assert found.endswith(f" [{code}]")
 
 
+def test_a_package_whose_files_are_elsewhere_once_installed_is_named(folder: Path) -> None:
+    (folder / "package.xml").write_text("<package><name>cart</name></package>")
+    found = problem(write(folder, '<xacro:include filename="$(find cart)/control/cart.xacro"/>'))
+    assert found.startswith("arm.urdf.xacro:2: error: ")
+    assert "cart.xacro can't be read" in found
+    assert (
+        "; if package `cart` has this file once it is installed, name the installed xacro file as source [xacro]"
+        in found
+    )
+
+
 def test_an_error_in_an_included_file_is_told_there(folder: Path) -> None:
     inputs = write(folder, '<xacro:include filename="more.xacro"/>')
     more = folder / "more.xacro"

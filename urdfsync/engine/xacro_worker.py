@@ -262,7 +262,7 @@ def expand(request: Request) -> Answer:
                 text = re.sub(rf"(?<![\w./-])(?:file://)?{re.escape(folder)}/", f"package://{name}/", text)
             places = tuple(_places(document, text))
     except Exception as error:  # noqa: BLE001 - expressions raise whatever they like
-        problem = _problem(error, xacro.filestack[-1] if xacro.filestack else request.source)
+        problem = _problem(error, xacro.filestack[-1] if xacro.filestack else request.source, files.packages)
     lines = [line.strip() for line in said.getvalue().splitlines()]
     return Answer(
         text,
@@ -306,8 +306,11 @@ def _places(document: Any, text: str) -> Iterator[tuple[int, str, int]]:
         yield line, file, origin
 
 
-def _problem(error: BaseException, current: str) -> Problem:
-    """Why an expansion failed: the innermost cause, and where xacro was then; `current` is the file in hand."""
+def _problem(error: BaseException, current: str, packages: Mapping[str, str]) -> Problem:
+    """Why an expansion failed: the innermost cause, and where xacro was then; `current` is the file in hand.
+
+    `packages` are the folders of the ROS packages that the file named.
+    """
     place, frame = None, error.__traceback__
     while frame is not None:  # the innermost element that xacro has in hand
         names = frame.tb_frame.f_locals
@@ -334,7 +337,16 @@ def _problem(error: BaseException, current: str) -> Problem:
         case expat.ExpatError():
             return Problem("xacro", f"this is no XML: {expat.errors.messages[cause.code]}", current, cause.lineno)
         case OSError() if cause.filename:
-            return Problem("xacro", f"{cause.filename} can't be read: {cause.strerror}", file, line)
+            message = f"{cause.filename} can't be read: {cause.strerror}"
+            missing = Path(cause.filename).parents if isinstance(cause, FileNotFoundError) else ()
+            package = next((name for name, folder in packages.items() if Path(folder) in missing), None)
+            # the install rules of a package may give its files other folders, as those of ros2_control's demos do
+            hint = (
+                f"if package `{package}` has this file once it is installed, name the installed xacro file as source"
+                if package
+                else ""
+            )
+            return Problem("xacro", message, file, line, hint)
     if type(cause).__name__ == "ArgException":
         return Problem("no-argument", f"the argument `{cause}` is not set", file, line)
     if (mark := getattr(cause, "problem_mark", None)) is not None:  # of YAML
