@@ -369,7 +369,7 @@ def projects(tmp_path_factory: pytest.TempPathFactory) -> Mapping[str, Path]:
     return found | {"conflict": work.project}
 
 
-@often(50)
+@often(25)
 @given(st.data())
 def test_a_hostile_state(projects: Mapping[str, Path], tmp_path: Path, data: st.DataObject) -> None:
     work, draw = Workplace(tmp_path), cast(st.DrawFn, data.draw)

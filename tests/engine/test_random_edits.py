@@ -30,7 +30,7 @@ MODELS, RECORDS = (
     ("Arm.mo", "Links/Fore.mo", "Joints/Elbow.mo"),
     ("Links/ForeParameters.mo", "Joints/ElbowParameters.mo"),
 )
-SEEDS = [str(Random().random()) for _ in range(CASES)] if CASES else [str(seed) for seed in range(12)]
+SEEDS = [str(Random().random()) for _ in range(CASES)] if CASES else [str(seed) for seed in range(8)]
 
 _LINK = "inner Modelica.Mechanics.MultiBody.World world; Arm.Links.Fore fore;"
 _JOINT = f"{_LINK} Arm.Joints.Elbow elbow; equation connect(elbow.frame_b, fore.frame_a);"

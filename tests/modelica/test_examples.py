@@ -65,8 +65,9 @@ WAY = {"phi[1]": 0.8, "phi[2]": 0.7, "phi[3]": 0.2, "phi[6]": -0.6}
 
 
 def example(library: Path, model: str, stop: float, values: list[str]) -> Series:
-    """An example as it stands, with results every 10 ms."""
-    task = compile_task(f"UrdfSync.Examples.{model}", runs=[Run(stop, 0.01, tolerance=1e-6)], values=values)
+    """An example as it stands but for what is drawn, with results every 10 ms."""
+    runs = [Run(stop, 0.01, tolerance=1e-6)]
+    task = compile_task(f"UrdfSync.Examples.{model}(world(enableAnimation = false))", runs=runs, values=values)
     (series,) = simulate(library, [], [task])
     return series
 

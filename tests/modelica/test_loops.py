@@ -78,7 +78,7 @@ def test_two_compilers_keep_a_loop_closed_and_move_it_alike(
 
 @pytest.mark.slow
 @pytest.mark.parametrize("tool", ["rumoca", OPENMODELICA])
-@pytest.mark.parametrize("name", sampled([name for name in ROBOTS if name not in RECORDED], 2))
+@pytest.mark.parametrize("name", sampled([name for name in ROBOTS if name not in RECORDED], 3))
 def test_a_loop_stays_closed_and_keeps_its_energy(name: str, tool: str, tmp_path: Path, modelica_library: Path) -> None:
     swing(name, tool, tmp_path, modelica_library)
 
