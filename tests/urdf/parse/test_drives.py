@@ -160,6 +160,12 @@ def test_a_transmission_of_several_joints_drives_them_without_gears() -> None:
     assert elbow(reading).transmission is None
 
 
+def test_a_handle_of_several_joints_couples_none() -> None:
+    joints = '<joint name="elbow"/><joint name="drive wheel"/>'
+    reading = read(f"<transmission><type>arm_hw/ArmStateInterface</type>{joints}</transmission>")
+    assert not reading.diagnostics
+
+
 def interfaces(*names: str, place: str = "joint") -> str:
     inside = "".join(f"<hardwareInterface>{name}</hardwareInterface>" for name in names)
     return transmission(**{f"inside_{place}": inside})

@@ -94,7 +94,9 @@ def read_drives(reader: Reader, element: Element, path: str) -> Iterator[Drive]:
                 drive = Drive(place, name, transmission, gear, next(filter(commands.__contains__, _COMMANDS), None))
                 is_measured = commands == {None}
                 yield drive._replace(is_driven=not is_measured, is_measured=is_measured, is_coupled=len(joints) > 1)
-        if len(joints) > 1:
+        # the simulator of Franka has such ones for handles of the whole arm, which couple nothing
+        is_interface = (transmission.findtext("type") or "").strip().endswith("Interface")
+        if len(joints) > 1 and not is_interface:
             message = f"{path} couples {len(joints)} joints: they move independently of one another, without gears"
             reader.add(transmission, "coupled-transmission", message)
 
