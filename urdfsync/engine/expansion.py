@@ -36,7 +36,7 @@ COMMAND_SECONDS = 600.0
 _PACKAGE = "package://"
 _HINTS = {
     "no-xacro": install_command("xacro"),
-    "no-argument": "set it in `arguments`, or give it a default in the file",
+    "no-argument": "set it in `arguments`, or give it a default in the file, above its first use",
     "no-package": "name the folder that it is in in `package_paths`, ROS_PACKAGE_PATH or AMENT_PREFIX_PATH",
     "xacro": "correct it, then build again",
     "xacro-limits": "look for a macro or an expression that never ends",

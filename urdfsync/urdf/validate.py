@@ -82,7 +82,7 @@ _ERRORS = {
     # the tree
     "duplicate-link": "rename or remove one link",
     "duplicate-joint": "rename or remove one joint",
-    "no-link": "check that the export is complete",
+    "no-link": "check that the export is complete, or name the xacro file that uses the macros of this one",
     "several-roots": "connect them by joints, or remove what does not belong to the robot",
     "unknown-parent": "add the link, or correct its name",
     "unknown-child": "add the link, or correct its name",
