@@ -183,6 +183,7 @@ def test_of_many_colours_those_of_the_smallest_parts_are_left_out() -> None:
     ("a.obj", b"mtllib a.mtl my b.MTL\tc.mtl\nmtllib d\n", ["a.mtl", "my b.MTL", "c.mtl", "d"]),
     ("lib/a.mtl", b"  map_Kd -bm 1.0 -clamp on wood grain.png\n", ["lib/wood grain.png"]),
     ("a.dae", b"<init_from>../textures/a%20b.png</init_from><init_from>b</init_from>", ["../textures/a b.png", "b"]),
+    ("a.dae", dae(texture=True), ["wood grain.png"]),
     ("a.dae", b"<init_from>file:///etc/a.png</init_from><init_from>/etc/b.png</init_from>", []),
     ("a.obj", b"mtllib C:\\paint.mtl\nmtllib http://a.b/c.mtl\n", []),
     ("a.stl", b"mtllib a.mtl", []),

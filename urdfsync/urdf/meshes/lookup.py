@@ -44,7 +44,8 @@ _DRIVE = r"/*([A-Za-z]:/.*)"
 _MENTIONS = {
     ".obj": re.compile(rb"^[ \t]*mtllib[ \t]([^\r\n]+)", re.MULTILINE),
     ".mtl": re.compile(rb"^[ \t]*map_Kd[ \t]([^\r\n]+)", re.MULTILINE),
-    ".dae": re.compile(rb"<init_from>([^<>]+)</init_from>"),
+    # that of a surface names an image of the file itself
+    ".dae": re.compile(rb"<surface\b[^<>]*>\s*<init_from>[^<>]+</init_from>|<init_from>([^<>]+)</init_from>"),
     GLTF: re.compile(rb'"uri"\s*:\s*"([^":]+\.bin)"'),
 }
 """Names of libraries of materials, of textures and of buffers, in files of each suffix."""
