@@ -279,8 +279,6 @@ class Quantity(enum.StrEnum):
 
 TOLERANCE = 1e-10
 """The greatest difference that counts as agreement, relative to the greatest value of its kind or 1."""
-_ITERATED = 1e-7
-"""The same for robots with loops, which compilers close by iteration."""
 _TOLERANCES = {
     Quantity.ACCELERATION: 1e-7,  # equations are solved for them, where digits are lost
     Quantity.GROUND: 1e-2,  # without a reference, and stiff: 1 % of the depth makes 1 % of the force
@@ -305,8 +303,8 @@ class Deviation(msgspec.Struct, frozen=True):
     part: Part = Part.BODIES
     detail: str = ""
     """Which one of several: `below its lower position limit`."""
-    is_iterated: bool = False
-    """See `Compared.is_iterated`."""
+    least_tolerance: float = 0.0
+    """See `Compared.least_tolerance`."""
 
     @property
     def key(self) -> tuple[str, ...]:
@@ -322,7 +320,7 @@ class Deviation(msgspec.Struct, frozen=True):
     @property
     def tolerance(self) -> float:
         """The greatest relative difference that counts as agreement."""
-        return max(_TOLERANCES.get(self.quantity, TOLERANCE), _ITERATED if self.is_iterated else 0.0)
+        return max(_TOLERANCES.get(self.quantity, TOLERANCE), self.least_tolerance)
 
     @property
     def agrees(self) -> bool:
@@ -360,8 +358,8 @@ class Compared(msgspec.Struct, frozen=True):
     part: Part = Part.BODIES
     detail: str = ""
     """See `Deviation.detail`."""
-    is_iterated: bool = False
-    """Whether a compiler solves equations by iteration for it, as those of loops, and so loses digits."""
+    least_tolerance: float = 0.0
+    """The least relative difference that counts as agreement, where a compiler loses more digits than usual."""
 
 
 class Trial(msgspec.Struct, frozen=True):

@@ -277,7 +277,7 @@ def compare(compared: Iterable[Compared], series: Series, expected: Series) -> t
         deviations.append(
             Deviation(
                 *(quantity.quantity, quantity.element, greatest, value, 0.0, quantity.unit),
-                *(quantity.part, quantity.detail, quantity.is_iterated),
+                *(quantity.part, quantity.detail, quantity.least_tolerance),
             )
         )
     sizes: dict[tuple[str, str, str], float] = {}

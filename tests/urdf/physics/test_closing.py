@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 from msgspec.structs import replace
-from support.loops import FOUR_BAR, ROBOTS, to_urdf
+from support.loops import FOUR_BAR, ROBOTS, joint, to_urdf
 
 from urdfsync.domain import Sample, Target
 from urdfsync.urdf.kinematics.tree import KinematicTree
@@ -16,7 +16,7 @@ from urdfsync.urdf.physics.closing import OpenLoopError
 from urdfsync.urdf.physics.completion import completed_for_pinocchio
 from urdfsync.urdf.physics.motion import Course, Instant
 from urdfsync.urdf.physics.subject import Subject
-from urdfsync.urdf.robot import Origin, Robot
+from urdfsync.urdf.robot import Inertia, Inertial, Link, Origin, Robot
 
 
 def subject(robot: Robot) -> Subject:
@@ -85,3 +85,19 @@ def test_a_start_whose_rounding_opens_long_bars_is_closed_before_it_is_judged() 
     moving = subject(replace(FOUR_BAR, joints=(pivot, *pins), loops=(long_bars,)))
     assert moving.share == 1
     assert max(abs(moving.solved[0.0].reactions[0].gap)) < 1e-14
+
+
+def test_light_parts_on_heavy_ones_are_left_what_closed_poses_leave_open() -> None:
+    """A ball at the coupler's end turns freely."""
+    (loop,), light = FOUR_BAR.loops, Inertial(1e-6, inertia=Inertia(ixx=3e-11, iyy=3e-11, izz=3e-11))
+    turning = joint("ball_turn", "continuous", "coupler", "ball", 0.6)
+    ends = replace(loop, kind="ball", parent="ball", origin=Origin())
+    doubts = list[float]()
+    for inertial in (light, Inertial(0.1, inertia=Inertia(ixx=1e-4, iyy=1e-4, izz=1e-4))):
+        links = *FOUR_BAR.links, Link("ball", inertial)
+        moving = subject(replace(FOUR_BAR, links=links, joints=(*FOUR_BAR.joints, turning), loops=(ends,)))
+        response = moving.reference.free_gains(moving.states[0.0], np.zeros(2), is_free=False)
+        assert response
+        doubts.append(response[1])
+    assert 1e-7 < doubts[0] < 1e-2
+    assert doubts[1] < 1e-7

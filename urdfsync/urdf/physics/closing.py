@@ -22,7 +22,7 @@ Array = NDArray[np.float64]
 _STEPS = 8
 """Steps of the way from the start to a pose, so that it is that of the same assembly."""
 _ITERATIONS = 30
-_CLOSED, _FARTHEST = 1e-12, 1.0
+CLOSED, _FARTHEST = 1e-12, 1.0
 """Largest gap and step, in rad and m, after which Newton's method has converged, and the smallest of divergence."""
 _NEAR_DEAD_POINT = 0.25
 """Part of the least singular value at the start below which a compiler may find another assembly."""
@@ -86,10 +86,10 @@ class Closing:
                 gaps, jacobian = self._equations(known + self._others @ others)
                 step = np.linalg.lstsq(jacobian @ self._others, gaps)[0]
                 others, largest = others - step, np.abs([*gaps, *step]).max()
-                if not _CLOSED < largest < _FARTHEST:
+                if not CLOSED < largest < _FARTHEST:
                     break
             least = np.linalg.svd(jacobian @ self._others, compute_uv=False).min(initial=np.inf)
-            if not (largest <= _CLOSED and least >= self._least):
+            if not (largest <= CLOSED and least >= self._least):
                 raise OpenLoopError
         return np.asarray(positions + self._others @ others)
 

@@ -22,6 +22,8 @@ from urdfsync.urdf.physics.reference import pinocchio, read_gears
 from urdfsync.urdf.physics.subject import Subject
 from urdfsync.urdf.robot import MOTION_KINDS, Robot
 
+_ITERATED = 1e-7
+"""The least tolerance for robots with loops, which compilers close by iteration."""
 _MOST_AXES = 20
 """The most axes that a robot of a package moves freely with: rumoca takes 6 GB for 30."""
 
@@ -86,9 +88,10 @@ def _trials(subject: Subject, approach: str, step: float | None) -> Iterator[Tri
     if approach == "record" or len(subject.axes) <= _MOST_AXES:
         every += _free(subject, names, f"free motion{label}")
     for each in every:
-        has_loops = bool(subject.tree.loops)
+        least = _ITERATED if subject.tree.loops else 0.0
         compared = tuple(
-            msgspec.structs.replace(c, detail=c.detail or label, is_iterated=has_loops) for c in each.compared
+            msgspec.structs.replace(c, detail=c.detail or label, least_tolerance=max(c.least_tolerance, least))
+            for c in each.compared
         )
         yield msgspec.structs.replace(each, compared=compared)
 
@@ -100,16 +103,18 @@ def _free(subject: Subject, names: RobotVariables, name: str) -> Iterator[Trial]
     state = reference.free_state(courses, motion.FREE_START if is_free else {})
     reference.model.gravity.linear = np.array([0, 0, -motion.BENCH_GRAVITY])
     efforts = reference.solve(state).efforts
-    gains = reference.free_gains(state, efforts, is_free)
+    response = reference.free_gains(state, efforts, is_free)
     reference.model.gravity.linear = np.array([0, 0, -motion.GRAVITY])
-    if gains is None:
+    if response is None:
         subject.unchecked["free motion: some axis moves no mass, so that any acceleration goes with its effort"] = None
         return
+    gains, doubt = response
     pairs = list(quantities.poses(subject, names, [reference.solve(state)], time, Part.FREE_MOTION))
     rows = reference.coordinates()
     for k, joint in enumerate(subject.axes, 1):
         unit = "rad/s²" if MOTION_KINDS[joint.type] == "rotational" else "m/s²"
         compared = Compared(Quantity.ACCELERATION, f"joint {joint.name}", unit, (f"push{k}.a",), time, Part.FREE_MOTION)
+        compared = msgspec.structs.replace(compared, least_tolerance=doubt)
         pairs.append((compared, [[float(gains[rows[joint.name]])]]))
     if is_free:
         gained = tuple(f"base.freeMotion.a_rel_a[{i}]" for i in (1, 2, 3))

@@ -24,7 +24,7 @@ from urdfsync.extras import install_command
 from urdfsync.urdf.kinematics.loops import Assembly
 from urdfsync.urdf.parse import xml
 from urdfsync.urdf.physics import motion
-from urdfsync.urdf.physics.closing import Closing, Reaction
+from urdfsync.urdf.physics.closing import CLOSED, Closing, Reaction
 from urdfsync.urdf.physics.motion import Course
 from urdfsync.urdf.robot import Loop, Mimic, Sensor, Vector
 
@@ -223,10 +223,12 @@ class Reference:
         ways = state.ways[:, columns]
         return self._solved(ways.T @ self._mass(state.q) @ ways, efforts[columns] - ways.T @ load)
 
-    def free_gains(self, state: Configuration, efforts: Array, is_free: bool) -> Array | None:
+    def free_gains(self, state: Configuration, efforts: Array, is_free: bool) -> tuple[Array, float] | None:
         """Return the accelerations of all coordinates that follow from the efforts of the axes; None if none do.
 
-        The base rests, unless `is_free`: then nothing holds it.
+        With them goes the part of their size that poses leave open, which are closed to `closing.CLOSED`: with loads
+        that are off by as much, light joints that hang on heavy ones are far off. The base rests, unless `is_free`:
+        then nothing holds it.
         """
         data, nv = self.model.createData(), self.model.nv
         load = self.pin.rnea(self.model, data, state.q, state.v, state.drift) + self.losses(state.v)
@@ -237,7 +239,11 @@ class Reference:
         mass = ways.T @ self._mass(state.q) @ ways
         if len(mass) and not (np.isfinite(mass).all() and np.linalg.cond(mass) < _GREATEST_CONDITION):
             return None
-        return np.asarray(ways @ self._solved(mass, drives - ways.T @ load) + state.drift)
+        gains = np.asarray(ways @ self._solved(mass, drives - ways.T @ load) + state.drift)
+        if not (self.closing and len(mass)):
+            return gains, 0.0
+        doubt = CLOSED * np.abs(load[6:]).max() * np.linalg.norm(np.linalg.inv(mass), 2)
+        return gains, float(doubt / max(1.0, np.abs(gains).max()))
 
     def _mass(self, q: Array) -> Array:
         upper = np.triu(self.pin.crba(self.model, self.model.createData(), q))
