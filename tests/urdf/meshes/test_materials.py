@@ -122,6 +122,7 @@ MISSING = {
     "two libraries on a line": (OBJ.replace(b"mtllib", b"mtllib red paint.mtl"),
         {"red paint.mtl": RED_AND_WOOD[:25], "paint.mtl": RED_AND_WOOD[25:]}, []),
     "COLLADA": (dae(texture=True), {"wood grain.png": b""}, ["`wood grain.png` not found"]),
+    "COLLADA, bumps": (dae(texture=True), {"wood grain.png": picture(), "bumps.png": b""}, []),
     "COLLADA, damaged": (dae(texture=True), {"wood grain.png": b"?"}, NO_PART),
     "COLLADA, not bound": (dae(bound="stone", texture=True), {"wood grain.png": picture()}, NO_PART),
 }  # fmt: skip

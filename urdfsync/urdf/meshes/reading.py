@@ -81,6 +81,8 @@ def read_parts(
         parts = {color: joined(some) for color, some in by_color.items() if some}
     gc.collect()
     missing = [f"`{cut(name, _LONGEST)}` not found" for name, other in others.items() if not other][:_NAMES]
+    if suffix == ".dae" and None not in parts:
+        missing = []  # pictures that no colour comes from, such as bumps
     return parts, missing or ["a part of it has none"] * (None in parts and len(parts) > 1)
 
 
