@@ -133,6 +133,17 @@ def test_a_check_says_how_far_the_package_agrees(arm: Path, execute: Execute, mo
     assert "torque differs from Pinocchio" in found["differs"]["message"]["text"]
 
 
+def test_a_check_of_a_package_out_of_step_says_so(arm: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
+    gap = "nothing was compiled: there is no compiler"
+    result = CheckResult("arm", "Arm", in_step=False, gaps=(gap,), folder="modelica/Arm")
+    monkeypatch.setattr("urdfsync.checks.run.check_robots", lambda *_: iter([result]))
+    advice = "the package is out of step; run <code>urdfsync build</code>"
+    _head, rest = markdown(execute, "check").split("\n", 1)
+    assert rest == f"<ul>\n<li>{gap}</li>\n<li>{advice}</li>\n</ul>\n"
+    found = results(execute, "check")["out-of-step"]
+    assert found["message"]["text"] == "Arm: the package is out of step; run `urdfsync build`"
+
+
 @pytest.mark.parametrize("written", ["json", "markdown", "sarif"])
 def test_a_command_that_fails_writes_its_document(folder: Path, execute: Execute, written: str) -> None:
     printed = execute("build", "--format", written, code=Exit.ERROR)

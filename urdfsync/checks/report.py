@@ -182,7 +182,8 @@ def to_section(result: CheckResult) -> Section:
     finding = None
     if status not in (CheckStatus.RIGHT, CheckStatus.FAILED):
         file = f"{result.folder}/package.mo" if result.folder else ""
-        told = next(iter(sentences), result.summary)
+        # what is wrong comes first; gaps, and that files are out of step, come last
+        told = sentences[0 if status is CheckStatus.DIFFERS else -1]
         severity = Severity.NOTE if status is CheckStatus.INCOMPLETE else Severity.WARNING
         finding = Diagnostic(severity, status.replace(" ", "-"), f"{result.package}: {told}", file)
     marks = {CheckStatus.RIGHT: Mark.FINE, CheckStatus.FAILED: Mark.WRONG}
