@@ -19,7 +19,7 @@ from urdfsync.spelling import visible
 
 FOLDED = 30
 """Longer tables, and lists, are folded."""
-MOST_ROWS = 200
+MOST_ROWS = 100
 """So many rows of a table are written; those that are left out are counted."""
 LONGEST = 50_000
 """Characters of what a comment says of robots in detail; GitHub takes 65,536 in all."""
