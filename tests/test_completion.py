@@ -211,10 +211,12 @@ def test_zsh(command: Path, line: str, monkeypatch: pytest.MonkeyPatch) -> None:
 def test_fish(command: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("HOME", str(command))
     script = "urdfsync completion fish | source; for line in $argv; complete -C $line; echo; end"
+    Path("a folder").mkdir()
     lines = ["urdfsync bui", "urdfsync build f", "urdfsync diff --edits mod", "urdfsync init ladder.j"]
+    lines += ["urdfsync init a\\ f", "urdfsync simulate --csv=mod"]
     done = subprocess.run([shell("fish"), "-c", script, *lines], capture_output=True, text=True, check=True)
     answers = [text.split("\t")[0].strip() for text in done.stdout.split("\n\n")]
-    assert answers[:4] == ["build", "filter", "modelica/", "ladder.json"]
+    assert answers[:6] == ["build", "filter", "modelica/", "ladder.json", "a folder/", "--csv=modelica/"]
 
 
 if __name__ == "__main__":
