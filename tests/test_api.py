@@ -6,6 +6,7 @@ import os
 import re
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -83,8 +84,15 @@ def test_checks_and_simulations_are_values(project: Path, monkeypatch: pytest.Mo
     assert "</span>: Ladder.Test, 1 s in steps of 0.5 s" in result._repr_html_()
 
 
+@pytest.mark.parametrize("function", [urdfsync.check, urdfsync.simulate])
+def test_a_compiler_that_does_not_exist_is_an_error_of_urdfsync(project: Path, function: Callable[..., object]) -> None:
+    with pytest.raises(urdfsync.UrdfsyncError, match="no compiler 'omcc' to check with; use one of rumoca, omc, both"):
+        function(tool="omcc")
+
+
 def test_all_names_are_there_and_on_the_page_and_nothing_is_loaded_before() -> None:
     assert all(hasattr(urdfsync, name) for name in urdfsync.__all__)
+    assert set(urdfsync.__all__) < set(dir(urdfsync))  # notebooks complete by this
     functions = {name for name in urdfsync.__all__ if name[0].islower()}
     assert functions <= set(re.findall(r"`urdfsync\.(\w+)\(?", PAGE))
     with pytest.raises(AttributeError, match="has no attribute 'biuld'"):

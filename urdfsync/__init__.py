@@ -17,3 +17,7 @@ else:
 
             return getattr(importlib.import_module("urdfsync.api"), name)
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+    def __dir__() -> list[str]:
+        """Return names for completion in notebooks and consoles."""
+        return [*globals(), *__all__]

@@ -35,6 +35,9 @@ def choose(config: Config, name: str | None = None, *, trusted: bool = False) ->
     programs, or name its program. Who gives `--tool omc` has chosen it himself.
     """
     chosen = name or config.check.tool
+    if chosen not in {*COMPILERS, BOTH}:
+        hint = f"use one of {', '.join([*COMPILERS, BOTH])}"
+        raise ConfigError.of("unknown-compiler", f"there is no compiler {chosen!r} to check with", hint=hint)
     return tuple(
         _tool(config, compiler, is_trusted=trusted or (bool(name) and not config.check.program(compiler)))
         for compiler in (_BOTH if chosen == BOTH else [chosen])
