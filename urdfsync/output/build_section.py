@@ -25,7 +25,8 @@ _SILENT = {Reason.UNCHANGED, Reason.KEEP, Reason.FORGET} | CONFLICTS
 
 def build_section(result: Result) -> Section:
     """Return what was done with one robot, or would be."""
-    points, tables = change_parts(result.effective_changes)
+    changes = result.effective_changes
+    points, tables = change_parts(changes)
     return Section(
         result.robot,
         result.summary,

@@ -35,8 +35,7 @@ def comment(sections: Iterable[Section], findings: Sequence[Diagnostic] = ()) ->
     parts: Any = environment.get_template("comment.jinja").module
     text, order, brief = str(parts.rows(findings_table(findings))), list(Mark), []
     for section in sorted(sections, key=lambda section: order.index(section.mark)):
-        has_details = section.points or section.findings or section.verdict or any(each.rows for each in section.tables)
-        details = str(parts.robot(section)) if has_details else ""
+        details = str(parts.robot(section)) if section.has_details else ""
         is_long = len(text) + len(details) > LONGEST
         if details and not is_long:
             text += details

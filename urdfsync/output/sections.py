@@ -45,6 +45,11 @@ class Section(msgspec.Struct, frozen=True):
     verdict: Diagnostic | None = None
     """The finding that the package as a whole is not as it should be; its `hint` says what to do."""
 
+    @property
+    def has_details(self) -> bool:
+        """Whether there is more to say than one line."""
+        return bool(self.points or any(table.rows for table in self.tables) or self.findings or self.verdict)
+
 
 def findings_table(findings: Sequence[Diagnostic]) -> Table:
     """Return findings as a table, the worst first."""
