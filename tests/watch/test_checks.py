@@ -134,6 +134,7 @@ def test_a_package_that_was_right_is_not_checked_again_at_the_start(project: Pat
     until(lambda: result.stat().st_mtime > 0)  # a result that is found gets the time of its use
     daemon.after(renew, events.CheckDone)
     assert daemon.kinds()[:3] == ["Started", "Building", "Built"]
+    assert daemon.kinds().count("Checking") == 1
     assert ["330" in text for text in second.saw] == [True]
 
 

@@ -74,6 +74,13 @@ def test_a_joint_of_the_yaml_that_is_none_is_told() -> None:
     assert (finding.code, dict(places)[finding.line]) == ("unknown-reference", 4)
 
 
+def test_axes_that_are_none_are_told() -> None:
+    """Such an element may stand in a URDF itself."""
+    text = URDF.replace(b"</robot>", b'<joint_axes joint="e" axes="q"/></robot>')
+    (finding,) = read_robot(text, "a.urdf").diagnostics
+    assert (finding.code, "no such axes as 'q'" in finding.message) == ("unknown-reference", True), finding
+
+
 def test_another_yaml_says_nothing() -> None:
     assert join(URDF, b"controller: {gain: 3}\n", "a.yaml") == (URDF, ())
 

@@ -88,13 +88,15 @@ def _elements(document: Any) -> Iterator[tuple[str, int]]:
 def split_joints(document: xml.Document) -> xml.Document:
     """Return the document with a chain in place of each joint that turns about several axes, or fixed if about none.
 
-    The source only measures the joints of a chain. Elements that name no joint stay.
+    The source only measures the joints of a chain. Elements that name no joint, or no axes, stay.
     """
-    root, lines = document.root, dict(document.lines)
-    joints = {joint.get("name", ""): joint for joint in root.findall("joint")}
-    for element in root.findall(AXES):
+    root = document.root
+    if not (elements := root.findall(AXES)):
+        return document
+    lines, joints = dict(document.lines), {joint.get("name", ""): joint for joint in root.findall("joint")}
+    for element in elements:
         name, letters = element.get("joint", ""), element.get("axes", "")
-        if name not in joints:
+        if name not in joints or not _DIRECTIONS.keys() >= set(letters):
             continue
         root.remove(element)
         chain = [joints[name]]

@@ -142,7 +142,8 @@ def _read(reader: Reader, document: xml.Document, options: Options) -> Robot:
             message = f"<drake:joint> {quoted(child.get('name', ''))} is of a type that URDF does not have"
             reader.add(child, "unknown-joint-type", message)
         elif child.tag == AXES:
-            message = f"there is no joint {quoted(child.get('joint', ''))} to turn about other axes"
+            joint, axes = (quoted(child.get(name, "")) for name in ("joint", "axes"))
+            message = f"there is no joint {joint}, or no such axes as {axes} for it to turn about"
             reader.add(child, "unknown-reference", message)
         elif child.tag == "inertial":
             reader.add(child, "stray-inertial", "this <inertial> is in no link, and is left out of the model")

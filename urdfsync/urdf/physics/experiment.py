@@ -113,9 +113,8 @@ def _free(subject: Subject, names: RobotVariables, name: str) -> Iterator[Trial]
     rows = reference.coordinates()
     for k, joint in enumerate(subject.axes, 1):
         unit = "rad/s²" if MOTION_KINDS[joint.type] == "rotational" else "m/s²"
-        compared = Compared(Quantity.ACCELERATION, f"joint {joint.name}", unit, (f"push{k}.a",), time, Part.FREE_MOTION)
-        compared = msgspec.structs.replace(compared, least_tolerance=doubt)
-        pairs.append((compared, [[float(gains[rows[joint.name]])]]))
+        what = Quantity.ACCELERATION, f"joint {joint.name}", unit, (f"push{k}.a",), time, Part.FREE_MOTION
+        pairs.append((Compared(*what, least_tolerance=doubt), [[float(gains[rows[joint.name]])]]))
     if is_free:
         gained = tuple(f"base.freeMotion.a_rel_a[{i}]" for i in (1, 2, 3))
         root = f"link {subject.tree.links[0].name}"
