@@ -6,15 +6,12 @@ from pathlib import Path
 
 import pytest
 from support.files import unchanged
-from support.networks import LADDER, Snapshot, edit, resistor, run, said, source
+from support.networks import LADDER, Snapshot, edit, run, said
 from support.networks import inner_kinds as kinds
 from support.networks import set_keys as configure
 
-from urdfsync import registry
-from urdfsync.diagnostics import Severity
 from urdfsync.engine.actions import Reason
 from urdfsync.engine.result import Exit, exit_code
-from urdfsync.state.record import Choice
 
 # What a build writes
 
@@ -87,20 +84,3 @@ def test_a_package_that_cant_move_stays(project: Path, snapshot_of: Snapshot) ->
 
 
 # Other versions
-
-
-def test_a_package_for_an_older_library_is_told_while_it_waits(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    run()
-    domain = type(registry.domain("rcnetwork"))
-    monkeypatch.setattr(domain, "revision", 2)
-    monkeypatch.setattr(domain, "fits_since", 2)
-    edit(f"{LADDER}/Elements/R1Parameters.mo", "100", "101")
-    resistor(120)
-    alone = run()
-    assert kinds(alone) == {"Elements/R1Parameters.mo": Reason.CONFLICT}
-    assert alone.diagnostics == (), "nothing waits for it"
-    source('"R2"', '"R3"')
-    (found,) = run().diagnostics
-    assert (found.code, found.severity) == ("outdated-package", Severity.WARNING)
-    assert f"{LADDER}/Elements/R1Parameters.mo is resolved" in found.hint
-    assert run(choices={f"{LADDER}/Elements/R1Parameters.mo": Choice.KEEP}).diagnostics == ()

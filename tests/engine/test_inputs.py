@@ -7,44 +7,8 @@ from pathlib import Path
 
 import pytest
 from support.files import unchanged
-from support.networks import LADDER, MANIFEST, ROBOT, edit, failure, make_parent, run, run_all, said, source
-from support.networks import inner_kinds as kinds
+from support.networks import MANIFEST, edit, failure, make_parent, run, said, source
 from support.networks import set_keys as configure
-
-from urdfsync.engine.actions import Reason
-
-
-def test_a_robot_with_another_name_takes_its_state_along(project: Path) -> None:
-    run()
-    edit(f"{LADDER}/Elements/R1.mo", "end R1;", "// mine\nend R1;")
-    source("4.7e-6", "1e-5")
-    edit("urdfsync.toml", "[robots.ladder]", "[robots.filter]")
-    assert [found.code for found in run(dry=True).diagnostics] == ["renamed-robot"]
-    result = run()
-    assert kinds(result) == {"Elements/R1.mo": Reason.KEEP, "Elements/C2Parameters.mo": Reason.UPDATE}
-    assert said(result) == [
-        "urdfsync.toml:1: note: robot `filter` was called `ladder`; "
-        "its recorded state goes on under the new name [renamed-robot]"
-    ]
-    states = {path.name for path in (project / ".urdfsync/robots").iterdir()}
-    assert states == {"filter.state"}
-    assert run().diagnostics == ()
-
-
-def test_state_of_robots_that_are_gone_is_mentioned_once_and_kept(project: Path) -> None:
-    run()
-    Path("urdfsync.toml").write_text(ROBOT.format("filter", "Filter") + ROBOT.format("third", "Third"))
-    for dry in (True, False, False):
-        first, second = run_all(dry=dry)
-        assert said(first) == [
-            "urdfsync.toml: note: the state of `ladder` is still there, but the configuration has no such robot; "
-            "bring the robot back, or delete .urdfsync/robots/ladder.* and what is left of its package [stray-state]"
-        ]
-        assert second.diagnostics == ()
-        assert (project / LADDER / "package.mo").exists()
-        assert Path(MANIFEST).exists()
-        Path(MANIFEST).write_text("it need not be readable")
-
 
 REFUSED: dict[str, tuple[dict[str, str], Callable[[], object]]] = {
     "urdfsync.toml:5: error: robot `ladder`: the output folder … does not exist; create it": (

@@ -4,6 +4,11 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import pytest
+
+from urdfsync.diagnostics import SourceError
+from urdfsync.engine.expansion import Inputs, expand
+
 HEAD = '<robot name="{0}" xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
 ARM = (
     HEAD.format("arm")
@@ -52,3 +57,24 @@ def write(folder: Path, files: dict[str, str] | None = None, config: str = CONFI
         place.parent.mkdir(parents=True, exist_ok=True)
         place.write_text(text)
     (folder / "urdfsync.toml").write_text(config)
+
+
+def write_line(folder: Path, line: str, **files: str) -> Inputs:
+    """Write a source whose second line is this one, with other files beside it."""
+    for name, text in files.items():
+        (folder / f"{name}.yaml").write_text(text)
+    file = folder / "arm.urdf.xacro"
+    file.write_text(f'{HEAD.format("arm")}{line}\n<link name="a"/>\n</robot>\n')
+    return Inputs(folder, file, ())
+
+
+def problem(inputs: Inputs) -> str:
+    """The one error of an expansion."""
+    with pytest.raises(SourceError) as error:
+        expand(inputs, {})
+    (found,) = error.value.diagnostics
+    return str(found)
+
+
+def value(expression: str) -> str:
+    return f'<link name="b" mass="${{{expression}}}"/>'
