@@ -1,4 +1,9 @@
-"""What holds for all merges: random edits of real generated files, and files that editors have saved again."""
+"""Merges of classes: a catalogue of cases, random edits of real generated files, and files that editors saved again.
+
+A case is a folder below `catalogue/` with `base.mo`, `mine.mo`, `generated.mo`, `about.txt` (a sentence), and
+`expected.mo` or `contradictions.txt`. `pytest -k NAME` runs one; `python tests/merge/test_elements.py NAME …` prints
+what git's own merge makes of it.
+"""
 
 from __future__ import annotations
 
@@ -6,6 +11,8 @@ import collections
 import functools
 import itertools
 import re
+import subprocess
+import sys
 from pathlib import Path
 from random import Random
 
@@ -17,13 +24,41 @@ from support.cases import often
 from support.printer import STYLES, Style, resaved
 from support.statements import KINDS, Editor, statements
 
-from urdfsync.merge import merge
+from urdfsync.merge import Merge, merge
 from urdfsync.modelica.lexer import lex
 from urdfsync.modelica.parser import parse
 
 ROOT = Path(__file__).parents[2]
 GOLDEN = sorted((ROOT / "tests" / "golden").rglob("*.mo"))
 FILES = [*GOLDEN, *sorted((ROOT / "modelica" / "UrdfSync" / "Examples").rglob("*.mo"))]
+CATALOGUE = Path(__file__).with_name("catalogue")
+ONE_WAY = {
+    "an-annotation-that-goes-leaves-what-the-user-added",
+    "rounding-by-the-export-is-no-change",
+    "the-digits-that-the-export-rounds-are-an-edit-if-the-user-typed-them",
+    "a-component-that-the-user-renamed",
+    "a-modifier-with-the-name-of-a-component-that-the-user-renamed-stays",
+}
+"""Cases that contradict only if mine and generated change places, or do not then."""
+
+
+def merged(name: str, *texts: str) -> Merge:
+    base, mine, generated = ((CATALOGUE / name / f"{text}.mo").read_text("utf-8") for text in texts)
+    return merge(base, mine, generated, is_modelica=True)
+
+
+@pytest.mark.parametrize("name", sorted(folder.name for folder in CATALOGUE.iterdir()))
+def test_catalogue(name: str) -> None:
+    found, swapped = merged(name, "base", "mine", "generated"), merged(name, "base", "generated", "mine")
+    contradictions = CATALOGUE / name / "contradictions.txt"
+    assert found.flaw == ""
+    if contradictions.exists():
+        assert found.text is None
+        assert list(found.contradictions) == contradictions.read_text("utf-8").splitlines()
+    else:
+        assert found.text == (CATALOGUE / name / "expected.mo").read_text("utf-8"), found.proposal
+        assert found.contradictions == ()
+    assert ((swapped.text is None) != (found.text is None)) == (name in ONE_WAY)
 
 
 @functools.cache
@@ -134,9 +169,9 @@ def test_another_parser_finds_all_elements(random: Random) -> None:
     base = random.choice([text for text in simple_files() if "equation\n" in text and len(text) < 4_000])
     ours = edited(base, Editor("mine", random, 0), ["component", "connect", "equation", "component"])
     theirs = edited(base, Editor("new", random, 1), ["component", "connect", "component"])
-    merged = merge(base, ours, theirs, is_modelica=True).text
-    assert merged is not None
-    before, left, right, after = map(read_by_pymoca, (base, ours, theirs, merged))
+    found = merge(base, ours, theirs, is_modelica=True).text
+    assert found is not None
+    before, left, right, after = map(read_by_pymoca, (base, ours, theirs, found))
     assert after == (left[0] | right[0], left[1] + right[1] - before[1])
 
 
@@ -165,12 +200,18 @@ def test_a_file_that_an_editor_saved_again_takes_every_export() -> None:
 def test_many_comments_in_a_row_end() -> None:
     """One pattern for all of them tried each end of each comment with all others: minutes for 30 comments."""
     base = "model A\n  Real x = 1;\n" + 200 * "  /* note */\n" + "  Real y = 1;\nend A;\n"
-    merged = merge(base, base.replace("x = 1", "x = 2"), base.replace("y = 1", "y = 3"), is_modelica=True)
-    assert merged.text == base.replace("x = 1", "x = 2").replace("y = 1", "y = 3")
+    found = merge(base, base.replace("x = 1", "x = 2"), base.replace("y = 1", "y = 3"), is_modelica=True)
+    assert found.text == base.replace("x = 1", "x = 2").replace("y = 1", "y = 3")
 
 
-def test_equations_too_many_to_compare_each_with_each_merge_by_lines() -> None:
-    """A thousand that both sides replaced: nothing is lost, nothing is taken for another in silence."""
-    texts = ("".join(f"  x{i} + {n} = y*{i + n};\n" for i in range(1_000)) for n in range(3))
-    base, mine, generated = (f"model A\nequation\n{text}end A;\n" for text in texts)
-    assert merge(base, mine, generated, is_modelica=True).text is None
+def main() -> None:
+    """Print what git's own merge makes of the cases that are named, or of all."""
+    for name in sys.argv[1:] or sorted(folder.name for folder in CATALOGUE.iterdir()):
+        folder = CATALOGUE / name
+        command = ["git", "merge-file", "-p", "--diff3", "mine.mo", "base.mo", "generated.mo"]
+        result = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
+        sys.stdout.write(f"=== {name}: {(folder / 'about.txt').read_text('utf-8')}{result.stdout}")
+
+
+if __name__ == "__main__":
+    main()
