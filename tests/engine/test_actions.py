@@ -1,0 +1,61 @@
+"""Actions: what happens to a file follows from its reason, whether it waits, and the user's word."""
+
+from __future__ import annotations
+
+import msgspec
+import pytest
+
+from urdfsync.domain import Role
+from urdfsync.engine.actions import CONFLICTS, ORPHANS, Action, Actions, Kind, Reason
+from urdfsync.state.record import Choice
+
+
+def act(reason: Reason, path: str = "a.mo") -> Action:
+    return Action(path, reason, Role.MODEL)
+
+
+@pytest.mark.parametrize("reason", Reason)
+def test_what_waits_writes_nothing_and_keeps_its_text(reason: Reason) -> None:
+    now, later = act(reason), msgspec.structs.replace(act(reason), is_waiting=True)
+    assert now.writes == (reason.kind in (Kind.WRITE, Kind.DELETE))
+    assert not later.writes
+    assert later.keeps_text
+    assert later.is_deletion == now.is_deletion == (reason in (Reason.DELETE, Reason.MOVED_AWAY))
+    assert now.is_conflict == (reason in CONFLICTS)
+
+
+def test_the_users_text_stays_in_what_is_theirs_or_disputed() -> None:
+    kept = {reason for reason in Reason if act(reason).keeps_text}
+    assert kept == {Reason.KEEP, Reason.INCLUDED, *ORPHANS, *CONFLICTS, Reason.FORGET}
+    assert {Reason.ORPHAN, Reason.NEEDED} == ORPHANS
+    assert {Reason.CONFLICT, Reason.UNOWNED} == CONFLICTS
+
+
+def test_what_waits_says_for_what() -> None:
+    update = act(Reason.UPDATE)
+    assert update.text == "its generated text changed"
+    waiting = msgspec.structs.replace(update, is_waiting=True)
+    assert waiting.text == "its generated text changed; waits until the conflicts are resolved"
+    resolved = msgspec.structs.replace(waiting, choice=Choice.TAKE)
+    assert resolved.waits_for == "resolved, waits until the other conflicts are resolved"
+
+
+@pytest.mark.parametrize(
+    ("reason", "choice", "is_users"),
+    [
+        (Reason.FORGET, Choice.KEEP, True),
+        (Reason.FORGET, Choice.TAKE, False),
+        (Reason.FORGET, None, False),
+        (Reason.KEEP, Choice.KEEP, False),
+    ],
+)
+def test_a_file_is_the_users_once_they_keep_what_is_no_longer_generated(
+    reason: Reason, choice: Choice | None, is_users: bool
+) -> None:
+    assert msgspec.structs.replace(act(reason), choice=choice).handed_to_user == is_users
+
+
+def test_actions_have_the_order_of_their_paths() -> None:
+    actions = Actions([act(Reason.UPDATE, "b"), act(Reason.UNCHANGED, "c"), act(Reason.KEEP, "a")])
+    assert [action.path for action in actions] == ["a", "b", "c"]
+    assert [action.path for action in actions.decided] == ["a", "b"]
