@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import msgspec
 import pytest
 from support import urdfs
 from support.commands import Execute
@@ -83,11 +84,62 @@ def test_what_is_exported_meanwhile_is_written_and_the_end_is_a_fresh_build(
     assert sum("// mine" in text for text in built.values()) == bool(then)
 
 
-def test_who_keeps_his_text_has_answered_the_export() -> None:
-    action = Action("a.txt", Reason.CONFLICT, Role.MODEL, "", "base", "new", mine="mine")
-    choices = {"a.txt": UsersChoice(Choice.KEEP, action.sides)}
-    (kept,), _ = resolve([action], {"a.txt": find_conflict(action, ["1\n"], "2\n", "3\n")}, choices, merging=True)
-    assert (kept.reason, kept.base, kept.choice) == (Reason.KEEP, "new", Choice.KEEP)
+MINE, BOTH, GENERATED = "2\n\na\n", "2\n\nb\n", "1\n\nb\n"
+FITTING, DISPUTED, SAME = (("1\n\na\n", MINE, GENERATED), ("1\n", "2\n", "3\n"), ("1\n\na\n", BOTH, GENERATED))
+
+
+@pytest.mark.parametrize(
+    ("before", "texts", "choice", "after", "text"),
+    [
+        (Reason.CONFLICT, FITTING, None, Reason.CONFLICT, None),
+        (Reason.CONFLICT, FITTING, Choice.MERGE, Reason.MERGE, BOTH),
+        (Reason.CONFLICT, FITTING, Choice.KEEP, Reason.KEEP, None),
+        (Reason.CONFLICT, FITTING, Choice.TAKE, Reason.UPDATE, None),
+        (Reason.CONFLICT, FITTING, Choice.EDIT, Reason.MERGE, "edited"),
+        (Reason.CONFLICT, DISPUTED, Choice.MERGE, Reason.CONFLICT, None),
+        (Reason.CONFLICT, DISPUTED, Choice.MERGE_GENERATED, Reason.MERGE, "3\n"),
+        (Reason.CONFLICT, DISPUTED, Choice.MERGE_MINE, Reason.KEEP, None),
+        (Reason.CONFLICT, SAME, Choice.MERGE, Reason.INCLUDED, None),
+        (Reason.UNOWNED, FITTING, Choice.TAKE, Reason.UPDATE, None),
+        (Reason.MOVE, FITTING, None, Reason.MOVE, BOTH),
+        (Reason.MOVE, FITTING, Choice.KEEP, Reason.MOVE, MINE),
+        (Reason.MOVE, FITTING, Choice.TAKE, Reason.MOVE, None),
+        (Reason.MOVE, DISPUTED, None, Reason.CONFLICT, None),
+        (Reason.MOVE, DISPUTED, Choice.TAKE, Reason.MOVE, None),
+        (Reason.ORPHAN, None, None, Reason.ORPHAN, None),
+        (Reason.ORPHAN, None, Choice.KEEP, Reason.FORGET, None),
+        (Reason.ORPHAN, None, Choice.TAKE, Reason.DELETE, None),
+        (Reason.KEEP, None, Choice.TAKE, Reason.UPDATE, None),
+        (Reason.KEEP, None, Choice.KEEP, Reason.KEEP, None),
+        (Reason.UPDATE, None, Choice.KEEP, Reason.UPDATE, None),
+    ],
+)
+def test_what_the_user_chose_becomes_of_a_file(
+    before: Reason, texts: tuple[str, str, str] | None, choice: Choice | None, after: Reason, text: str | None
+) -> None:
+    action = Action("a.txt", before, Role.MODEL, "", "base", "new", mine="mine")
+    conflicts = {"a.txt": find_conflict(action, [texts[0]], *texts[1:])} if texts else {}
+    choices = {"a.txt": UsersChoice(choice, action.sides, "edited")} if choice else {}
+    (resolved,), merged = resolve([action], conflicts, choices, merging=False)
+    assert (resolved.reason, merged.get("a.txt")) == (after, text)
+    assert (resolved.result is None) == (text is None)
+    is_answered = after is Reason.KEEP and before is Reason.CONFLICT
+    assert resolved.base == ("new" if is_answered else "base"), "who keeps the text has answered the export"
+    gone = msgspec.structs.replace(action, mine=None)
+    if choice is Choice.TAKE and before is not Reason.MOVE:
+        (resolved,), _ = resolve([gone], conflicts, choices, merging=False)
+        assert resolved.reason is before, "there is no file that the generated text can replace"
+
+
+def test_clean_merges_need_no_word_of_the_user_if_the_configuration_allows_them() -> None:
+    action = Action("a.txt", Reason.CONFLICT, Role.MODEL, mine="mine")
+    for texts, reason in ((FITTING, Reason.MERGE), (DISPUTED, Reason.CONFLICT), (SAME, Reason.INCLUDED)):
+        (resolved,), _ = resolve([action], {"a.txt": find_conflict(action, texts[:1], *texts[1:])}, {}, merging=True)
+        assert (resolved.reason, resolved.choice) == (reason, None)
+    found = find_conflict(action, FITTING[:1], *FITTING[1:])
+    choices = {"a.txt": UsersChoice(Choice.EDIT, action.sides, MINE)}
+    (resolved,), _ = resolve([action], {"a.txt": found}, choices, merging=True)
+    assert (resolved.reason, resolved.choice) == (Reason.KEEP, Choice.KEEP), "edited, and left as it was"
 
 
 def test_bases_of_two_branches_that_give_different_merges_give_none() -> None:
@@ -95,3 +147,5 @@ def test_bases_of_two_branches_that_give_different_merges_give_none() -> None:
     both = find_conflict(action, ["1\n", "2\n"], "1\n", "2\n")
     assert both.merged(Choice.MERGE) is None
     assert both.rejected == "two branches recorded different bases, which give different merges"
+    same = find_conflict(action, ["1\n\na\n", "1\r\n\r\na\r\n"], MINE, GENERATED)
+    assert (same.base, same.merged(Choice.MERGE), same.rejected) == ("1\n\na\n", BOTH, "")

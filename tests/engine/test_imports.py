@@ -97,6 +97,32 @@ def test_a_further_file_of_an_import_that_is_gone_comes_back(project: Path, monk
     assert further.read_text() == "2"
 
 
+def test_a_file_is_converted_again_only_if_it_or_its_copy_changed(
+    project: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    domain, converted = registry.domain("rcnetwork"), list[str]()
+    real = domain.convert
+
+    def convert(dependency: Dependency, *arguments: Any) -> Conversion:
+        converted.append(dependency.uri)
+        return real(dependency, *arguments)
+
+    monkeypatch.setattr(type(domain), "convert", lambda _, *arguments: convert(*arguments))
+    run()
+    resistor(120)
+    run()
+    assert converted == ["step.csv"]
+    Path(LADDER, "Resources/step.txt").write_bytes(b"mine")
+    resistor(130, 120)
+    run()
+    assert converted == ["step.csv"] * 2
+    edit("step.csv", "0.1,5", "0.1,7")
+    run(dry=True)
+    assert converted == ["step.csv"] * 3
+    run(full=True)
+    assert converted == ["step.csv"] * 4
+
+
 LFS = b"version https://git-lfs.github.com/spec/v1\noid sha256:4d\nsize 12\n"
 
 POINTER = "it is a Git LFS pointer; left out; get the file itself with `git lfs pull`"

@@ -9,7 +9,8 @@ from support.commands import Execute
 from support.files import unchanged
 from support.networks import BASES, MANIFEST, edit, failure, resistor, run, stored
 
-from urdfsync.state.store import Store
+from urdfsync.state.expansion import Expansion, dumps
+from urdfsync.state.store import PutAside, Replaced, Store
 
 
 def test_bases_follow_the_name_of_their_robot_and_go_with_it(project: Path, execute: Execute) -> None:
@@ -88,3 +89,28 @@ def test_robots_are_known_by_states_with_names_that_they_can_have(tmp_path: Path
     for name in ("leg.state", "arm.state", "my arm.state", "...state", "arm.expanded"):
         (store.path("arm").parent / name).touch()
     assert store.names() == ["arm", "leg"]
+
+
+def test_what_was_never_written_is_none(tmp_path: Path) -> None:
+    store = Store(tmp_path)
+    found = store.load("arm"), store.load_expansion("arm"), store.bases("arm", "a"), store.base("arm", "ab")
+    assert found == (None,) * 4
+    assert store.put_aside("arm") == PutAside()
+
+
+def test_what_was_put_aside_and_expanded_is_read_again(tmp_path: Path) -> None:
+    aside = PutAside({"a.mo": Replaced("mine", "base", None, {"elbow": "wrist"})})
+    expanded = Expansion(source="arm.xacro", text="<robot/>")
+    for change in (
+        *Store(tmp_path).save_aside("arm", aside),
+        *Store(tmp_path).save(Store(tmp_path).expansion("arm"), dumps(expanded)),
+    ):
+        change.path.parent.mkdir(parents=True, exist_ok=True)
+        change.path.write_bytes(change.content or b"")
+    store = Store(tmp_path)
+    assert store.put_aside("arm") == aside
+    loaded = store.load_expansion("arm")
+    assert loaded is not None
+    assert (loaded.source, loaded.text) == ("arm.xacro", "<robot/>")
+    assert store.save_aside("arm", aside) == []
+    assert [change.content for change in store.save_aside("arm", PutAside())] == [None]
