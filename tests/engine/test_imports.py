@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 import os
+import shutil
 from pathlib import Path
 from typing import Any
 
 import msgspec
 import pytest
+from support import crashes
 from support.files import unchanged
 from support.networks import LADDER, edit, resistor, run, said, source
 from support.networks import inner_kinds as kinds
+from support.replay import contents
 
 from urdfsync import registry
+from urdfsync.diagnostics import Severity
 from urdfsync.domain import Conversion, Dependency
 from urdfsync.engine.actions import Reason
 
@@ -162,3 +166,109 @@ def test_what_to_do_about_a_file_that_is_not_found_goes_by_its_reference(project
     source('"step.csv"', f'"{uri}"')
     (found,) = run().diagnostics
     assert (found.message, found.hint) == (f"table `{uri}` not found; left out", hint)
+
+
+# Meshes of a robot
+
+SAMPLES = Path(__file__).parents[2] / "modelica/UrdfSync/Resources/robots"
+CONFIGURATION = """
+[robots.arm]
+source = "ws/src/six_axis_arm/six_axis_arm.urdf"
+package = "Arm"
+ignore = ["not-modelled"]
+"""
+
+
+@pytest.fixture
+def arm(tmp_path: Path) -> Path:
+    """A project that builds the sample arm from a ROS workspace of its own."""
+    shutil.copytree(SAMPLES / "six_axis_arm", tmp_path / "ws" / "src" / "six_axis_arm")
+    (tmp_path / "urdfsync.toml").write_text(CONFIGURATION)
+    return tmp_path
+
+
+def test_outermost_points_of_meshes_are_found_once_the_robot_touches_the_ground(arm: Path) -> None:
+    """Whether the meshes are there or not, what is built in the end is what one build makes of it."""
+    crashes.run(arm)
+    assert '"hull"' not in (arm / ".urdfsync/robots/arm.state").read_text()
+    meshes = arm / "ws/src/six_axis_arm/meshes"
+    meshes.rename(arm / "away")
+    floating = CONFIGURATION + 'base = "floating"\n'
+    (arm / "urdfsync.toml").write_text(floating)
+    (error,) = crashes.run(arm).diagnostics
+    assert (error.severity, error.code) == (Severity.ERROR, "lost-state")
+    assert error.message.endswith("the record of its imported copy is incomplete")
+    (arm / "away").rename(meshes)
+    crashes.run(arm)
+    assert '"hull"' in (arm / ".urdfsync/robots/arm.state").read_text()
+    found = contents(arm / "modelica")
+    shutil.rmtree(arm / "modelica")
+    shutil.rmtree(arm / ".urdfsync")
+    crashes.run(arm)
+    assert contents(arm / "modelica") == found
+    (arm / "urdfsync.toml").write_text(CONFIGURATION)
+    crashes.run(arm)
+    assert '"hull"' not in (arm / ".urdfsync/robots/arm.state").read_text()
+
+
+def test_meshes_of_a_modelica_library_are_imported(arm: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The library on MODELICAPATH comes before a folder of its name beside the source."""
+    folder = arm / "ws" / "src" / "six_axis_arm"
+    source = folder / "six_axis_arm.urdf"
+    source.write_text(source.read_text().replace("package://six_axis_arm/meshes/", "modelica://ArmMeshes/Resources/"))
+    library = arm / "libraries" / "ArmMeshes 1.2.0"
+    library.mkdir(parents=True)
+    (library / "package.mo").write_text("package ArmMeshes\nend ArmMeshes;\n")
+    shutil.move(folder / "meshes", library / "Resources")
+    monkeypatch.setenv("MODELICAPATH", "")
+    result = crashes.run(arm)
+    assert {found.code for found in result.diagnostics} == {"mesh-not-found"}
+    assert "`ArmMeshes` on MODELICAPATH" in (result.diagnostics[0].hint or "")
+    monkeypatch.setenv("MODELICAPATH", str(arm / "libraries"))
+    assert crashes.run(arm).diagnostics == ()
+    assert len(list((arm / "modelica/Arm/Resources").iterdir())) == 7
+    beside = folder / "ArmMeshes" / "Resources"
+    shutil.copytree(library / "Resources", beside)
+    (beside / "carousel.obj").write_text("no mesh")
+    assert crashes.run(arm).in_step
+    monkeypatch.setenv("MODELICAPATH", "")
+    assert {found.code for found in crashes.run(arm).diagnostics} == {"mesh-unreadable-kept"}
+
+
+def test_missing_meshes_are_one_warning_for_each_package(arm: Path) -> None:
+    shutil.rmtree(arm / "ws/src/six_axis_arm/meshes")
+    source = arm / "ws/src/six_axis_arm/six_axis_arm.urdf"
+    text = source.read_text()
+    source.write_text(text.replace("package://six_axis_arm/meshes/carousel.obj", "package://turntable/carousel.obj"))
+
+    def told(full: bool = False) -> list[str]:
+        return [str(found).partition(": ")[2] for found in crashes.run(arm, full=full).diagnostics]
+
+    warnings = [
+        "warning: 6 meshes (such as `package://six_axis_arm/meshes/base_casting.stl`) not found; left out; "
+        "put it into the package `six_axis_arm`, or add the folder that holds that to `package_paths` [mesh-not-found]",
+        "warning: mesh `package://turntable/carousel.obj` not found; left out; "
+        "put it into the package `turntable`, or add the folder that holds that to `package_paths` [mesh-not-found]",
+    ]
+    assert told() == warnings
+    source.write_text(source.read_text().replace('<mass value="', '<mass value="1'))
+    *others, jump = told()
+    assert others == warnings
+    assert jump.startswith("warning: link drive_pinion: its mass jumps, 0.045 kg → 10.045 kg (and 5 more like it); ")
+    assert told(full=True) == warnings
+
+
+def test_meshes_from_a_folder_of_another_name_are_one_warning_for_each_package(arm: Path) -> None:
+    (arm / "ws/src/six_axis_arm").rename(arm / "ws/src/arm-main")
+    (arm / "urdfsync.toml").write_text(CONFIGURATION.replace("ws/src/six_axis_arm/", "ws/src/arm-main/"))
+    (found,) = crashes.run(arm).diagnostics
+    assert (found.severity, found.code) == (Severity.WARNING, "mesh-guessed")
+    assert found.message == (
+        "7 meshes (such as `package://six_axis_arm/meshes/base_casting.stl`) are taken from a folder that is not "
+        "called like the package `six_axis_arm`"
+    )
+    for mesh in (arm / "ws/src/arm-main/meshes").iterdir():
+        if mesh.name != "carousel.obj":
+            mesh.unlink()
+    said = {found.code: found.message for found in crashes.run(arm).diagnostics}
+    assert "`package://six_axis_arm/meshes/carousel.obj` is taken from" in said["mesh-guessed"]
