@@ -11,7 +11,7 @@ import msgspec
 import pytest
 from support.commands import Execute
 from support.git import NEEDS_GIT, Repository
-from support.networks import MANIFEST, configure, edit, own_model
+from support.networks import MANIFEST, configure, edit, own_model, resistor, run
 from support.replay import contents
 
 from urdfsync.files import digest
@@ -113,3 +113,13 @@ def test_renamed_robots_and_moved_packages_take_their_files_along(
     (package,) = (path.parent for path in project.rglob("package.mo") if path.parent.name != "Elements")
     assert package.name == ("Filter" if move in steps else "Ladder")
     assert Store(project).names() == ["filter" if _rename_robot in steps else "ladder"]
+
+
+def test_changes_are_told_since_the_recorded_model_if_there_is_one(project: Path) -> None:
+    run()
+    resistor(120)
+    changes = run(dry=True).changes
+    assert changes is not None
+    assert [change.path for change in changes.changes] == [("R1", "ohm")]
+    rewrite(project / MANIFEST, snapshot=None)
+    assert run(dry=True).changes is None

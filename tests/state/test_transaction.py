@@ -231,6 +231,24 @@ def test_a_file_that_no_build_owns_is_not_lost_either(
     assert {path.name for path in tmp_path.iterdir()} <= {"mine.toml", "new"}
 
 
+def test_of_two_saves_in_between_the_earlier_one_is_kept_beside_the_file(tmp_path: Path) -> None:
+    file, saves = tmp_path / "mine.toml", iter(["first", "second"])
+
+    def save_before(found: Operation) -> None:
+        if found.name == "exchange" and (text := next(saves, None)):
+            file.write_text(text)
+
+    file.write_text("old")
+    with before_each(save_before), pytest.raises(OutputError) as error:
+        save(file, b"old", b"new")
+    assert {path.name: path.read_text() for path in tmp_path.iterdir()} == {
+        "mine.toml": "second",
+        "mine.toml.saved": "first",
+    }
+    (found,) = error.value.diagnostics
+    assert found.hint == f"an earlier save is kept as {tmp_path}/mine.toml.saved; run the command again"
+
+
 def test_a_full_disk_leaves_a_file_as_it_was(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     file = tmp_path / "mine.toml"
     file.write_text("old")

@@ -213,6 +213,8 @@ def test_masses_that_jump_are_one_warning() -> None:
     ((path, found),) = find_doubtful(old, new, {("link", "hand"): "claw"})
     assert (path, found.code) == ("link arm / inertial / mass", "mass-jump")
     assert found.message == "link arm: its mass jumps, 2 kg → 2000 kg (and 1 more like it)"
+    ((_, alone),) = find_doubtful(version(link("base", 1.0)), version(link("base", 2000.0)), {})
+    assert alone.message == "link base: its mass jumps, 1 kg → 2000 kg"
     assert list(find_doubtful(old, old, {})) == []
 
 
