@@ -46,6 +46,20 @@ Serves the rows "one mass changed in the daemon" of docs/speed.md: saves a sixth
 """
 
 
+def unchanged_state(path: str, facts: tuple[int, ...]) -> FileState | None:
+    """Return the state of a file that was read when it had these stat values; None if it has to be read."""
+    known = _unchanged.get(path)
+    return known[1] if known and known[0] == facts else None
+
+
+def note_state(path: str, facts: tuple[int, ...], content: bytes) -> FileState:
+    """Return the state of a file that was read, and remember it by its stat values before that."""
+    state = state_of(content)
+    if len(facts) > 1 and not dependencies.is_young(facts, time.time_ns()):  # else there was no file
+        _unchanged[path] = facts, state
+    return state
+
+
 class PackageFiles:
     """The files of one robot's package, by their key: the path from the configuration's folder, POSIX."""
 
@@ -117,15 +131,9 @@ class PackageFiles:
             facts = dependencies.read_stat(path)
         except OSError:  # which `read` explains
             facts = (0,)
-        before = _unchanged.get(path)
-        if before and before[0] == facts:
-            return before[1]
-        content = tree.read(path)
-        if content is None:
-            return None
-        state = state_of(content)
-        if len(facts) > 1 and not dependencies.is_young(facts, time.time_ns()):
-            _unchanged[path] = facts, state
+        state = unchanged_state(path, facts)
+        if state is None and (content := tree.read(path)) is not None:
+            state = note_state(path, facts, content)
         return state
 
     def hash(self, key: str, role: Role) -> str | None:

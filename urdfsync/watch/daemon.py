@@ -176,7 +176,7 @@ class Daemon:
         self._watch_folders()
 
     def _hash_config(self) -> str:
-        return read_state(str(self._options.file.absolute())).sha256
+        return read_state(str(self._options.file.absolute()))
 
     def _reload_config(self) -> bool:
         """Read the configuration again if it has changed; while it is invalid, the last valid one stays in force."""

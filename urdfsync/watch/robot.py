@@ -6,49 +6,34 @@ import errno
 import math
 import os
 import stat
-import time
 from collections.abc import Collection, Iterable, Mapping
 from pathlib import Path
-from typing import NamedTuple, TypeAlias
+from typing import TypeAlias
 
 import msgspec
 
 from urdfsync.config import RobotConfig
-from urdfsync.dependencies import is_young, read_unrecorded, stat_of
+from urdfsync.dependencies import read_unrecorded, stat_of
 from urdfsync.diagnostics import Diagnostic
+from urdfsync.engine.package_files import note_state, unchanged_state
 from urdfsync.engine.xacro_worker import find_matches
-from urdfsync.files import digest
 from urdfsync.watch.paths import RobotPaths
 
 Hashes: TypeAlias = Mapping[str, str]
 """Hashes of files by absolute path; of what is no file, a word."""
 
 
-class SeenFile(NamedTuple):
-    """A path when it was read."""
-
-    sha256: str
-    """The hash of its content (hex); a word for what is no file."""
-    stat: tuple[int, ...] | None = None
-    """None if it has to be read again whatever the system says of it, since it has just changed."""
-
-
-def read_state(path: str, before: SeenFile | None = None, *, follow: bool = True) -> SeenFile:
-    """Read a path; an unreadable file has a state, too, and so has a link that is not followed.
-
-    A file is not read again if it has the stat values of `before`.
-    """
+def read_state(path: str, *, follow: bool = True) -> str:
+    """Return the hash of a file's content; of what is no file, or can't be read, and of a link not followed, a word."""
     try:
         status = os.stat(path, follow_symlinks=follow)  # noqa: PTH116 - many, and often
-        facts = stat_of(status)
-        if before is not None and before.stat == facts:
-            return before
         if not stat.S_ISREG(status.st_mode):
-            return SeenFile("folder" if stat.S_ISDIR(status.st_mode) else "other")
-        content = read_unrecorded(path)
+            return "folder" if stat.S_ISDIR(status.st_mode) else "other"
+        facts = stat_of(status)
+        state = unchanged_state(path, facts) or note_state(path, facts, read_unrecorded(path))
     except OSError as error:
-        return SeenFile("missing" if error.errno in (errno.ENOENT, errno.ENOTDIR) else f"error {error.errno}")
-    return SeenFile(digest(content), None if is_young(facts, time.time_ns()) else facts)
+        return "missing" if error.errno in (errno.ENOENT, errno.ENOTDIR) else f"error {error.errno}"
+    return state.sha256
 
 
 class WatchedRobot(msgspec.Struct):
@@ -56,8 +41,8 @@ class WatchedRobot(msgspec.Struct):
 
     robot: RobotConfig
     paths: RobotPaths
-    files: dict[str, SeenFile] = msgspec.field(default_factory=dict)
-    """Inputs and outputs by absolute path, when they were last read."""
+    hashes: Hashes = {}
+    """Of inputs and outputs, when they were last read."""
     due: float = math.inf
     """When to look at the files next, in seconds of a monotonic clock; infinite at rest."""
     is_told: bool = False
@@ -82,11 +67,6 @@ class WatchedRobot(msgspec.Struct):
         """Its name in the configuration."""
         return self.robot.name
 
-    @property
-    def hashes(self) -> Hashes:
-        """All files, when they were last read."""
-        return {path: state.sha256 for path, state in self.files.items()}
-
     def settle(self, due: float, *, is_told: bool) -> None:
         """Look at the files at this time, and forget earlier looks."""
         self.due, self.is_told, self.sample, self.invalid_until = due, is_told, None, 0.0
@@ -98,36 +78,33 @@ class WatchedRobot(msgspec.Struct):
             inputs.update(os.path.join(folder, name) for name in names)  # noqa: PTH118
         for pattern in self.paths.patterns:
             inputs.update(find_matches(pattern))
-        self.files = self._read(inputs | outputs)
+        self.hashes = self._read(inputs | outputs)
 
-    def _read(self, paths: Iterable[str]) -> dict[str, SeenFile]:
+    def _read(self, paths: Iterable[str]) -> Hashes:
         outputs = self.paths.outputs  # a build refuses links there
-        return {path: read_state(path, self.files.get(path), follow=path not in outputs) for path in paths}
+        return {path: read_state(path, follow=path not in outputs) for path in paths}
 
     def has_files(self, paths: Collection[str]) -> bool:
         """Whether all paths are files of the robot, not folders or links on the way to one."""
-        return all(path in self.files or path in self.paths.outputs for path in paths)
+        return all(path in self.hashes or path in self.paths.outputs for path in paths)
 
     def has_changed(self, paths: Collection[str] = ()) -> bool:
         """Whether files have changed since they were last read; with `paths`, at these alone.
 
         If one of them is no file of the robot, but a folder or a link on the way to one, all are read.
         """
-        before, looked_at = self.files, set(paths)
+        before, looked_at = self.hashes, set(paths)
         if looked_at and looked_at <= before.keys():
-            self.files = before | self._read(looked_at)
+            self.hashes = {**before, **self._read(looked_at)}
         else:
             self.read_files()
-            looked_at = before.keys() | self.files.keys()
-        nothing = SeenFile("")
-        changed = [
-            path for path in looked_at if before.get(path, nothing).sha256 != self.files.get(path, nothing).sha256
-        ]
+            looked_at = before.keys() | self.hashes.keys()
+        changed = [path for path in looked_at if before.get(path) != self.hashes.get(path)]
         self.changed_file = min(changed, key=lambda path: (path not in self.paths.inputs, path), default="")
         return bool(changed)
 
     def has_new_input(self, before: Hashes) -> bool:
         """Whether an input is other than before: a user saved it, since the daemon writes none."""
-        changed = [path for path in self.paths.inputs if path in before and before[path] != self.files[path].sha256]
+        changed = [path for path in self.paths.inputs if path in before and before[path] != self.hashes[path]]
         self.changed_file = min(changed, default="")
         return bool(changed)
