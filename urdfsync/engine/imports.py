@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import contextlib
+import itertools
 import os
 import re
 import stat
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from functools import cached_property
 from pathlib import Path, PurePosixPath
 from typing import Any
 
@@ -19,7 +21,6 @@ from urdfsync.domain import Dependency, Domain, Import, Lookup, Snapshot, furthe
 from urdfsync.engine import ros_packages
 from urdfsync.engine.options import BuildOptions
 from urdfsync.files import digest
-from urdfsync.state.record import FileRecord
 
 _POINTER = b"version https://git-lfs"
 """How a file begins that Git LFS has not replaced by its content yet."""
@@ -37,63 +38,24 @@ _HINTS = {
 """Advice about a file that is not found, by how its URI begins; the first one counts."""
 
 
-class RecordedFile(msgspec.Struct, frozen=True):
+class RecordedFile(msgspec.Struct, frozen=True, dict=True):
     """One imported file of the last build."""
 
-    key: str
-    target: str
-    """Where it goes now."""
     entry: Import
     copy: bytes | None
     """Its content in the package."""
-    hash: str
-    """Of the copy; empty if there is none."""
+    written: tuple[str, ...] = ()
+    """The hashes that builds have recorded of it, be it not the last one."""
+
+    @cached_property
+    def hash(self) -> str:
+        """Of the copy; empty if there is none."""
+        return "" if self.copy is None else digest(self.copy)
 
     @property
     def is_intact(self) -> bool:
         """Whether the copy is what was imported."""
         return self.hash == self.entry.target_hash
-
-
-class RecordedImports:
-    """The imports of the last build, and their copies in the package."""
-
-    def __init__(
-        self,
-        imports: Mapping[str, tuple[Import, ...]],
-        copy: Callable[[str], bytes | None],
-        records: Mapping[str, FileRecord],
-    ) -> None:
-        """`copy` returns the content of a target. `records` are by target.
-
-        There are several imports for one file if git has united two states, or if it was renewed since.
-        """
-        self._imports, self._copy, self._records = imports, copy, records
-
-    def entry(self, key: str) -> Import:
-        """Return what is recorded of an imported file; of several, the one of its copy."""
-        return self._imports[key][0] if len(self._imports[key]) == 1 else self._find(key, "").entry
-
-    def _find(self, key: str, target: str) -> RecordedFile:
-        files = list[RecordedFile]()
-        for entry in self._imports[key]:
-            copy = self._copy(entry.target)
-            files.append(RecordedFile(key, target, entry, copy, "" if copy is None else digest(copy)))
-        return next((file for file in files if file.is_intact), files[0])
-
-    def find(self, dependency: Dependency) -> list[RecordedFile]:
-        """Return the files that a dependency became, its own first; none if it was not imported."""
-        found = list[RecordedFile]()
-        key, target = dependency.key, dependency.target
-        while key in self._imports:
-            found.append(self._find(key, target))
-            key, target = further_key(dependency.key, len(found)), _further_target(dependency.target, len(found))
-        return found
-
-    def is_written(self, file: RecordedFile) -> bool:
-        """Return whether a build has written the copy, be it not the last one."""
-        record = self._records.get(file.entry.target)
-        return record is not None and file.hash in record.hashes
 
 
 class Imported(msgspec.Struct):
@@ -112,9 +74,18 @@ class Imported(msgspec.Struct):
             self.contents[entry.target] = content
 
 
-def _further_target(target: str, number: int) -> str:
-    path = PurePosixPath(target)
-    return str(path.with_stem(f"{path.stem}_{number}"))
+def _places(dependency: Dependency) -> Iterator[tuple[str, str]]:
+    """Yield key and target of each file that a dependency may become, its own first."""
+    yield dependency.key, dependency.target
+    path = PurePosixPath(dependency.target)
+    for number in itertools.count(1):
+        yield further_key(dependency.key, number), str(path.with_stem(f"{path.stem}_{number}"))
+
+
+def _find_recorded(dependency: Dependency, recorded: Mapping[str, RecordedFile]) -> list[tuple[str, str, RecordedFile]]:
+    """Return the files that a dependency became, its own first, with their keys and targets now; none if it did not."""
+    places = itertools.takewhile(lambda place: place[0] in recorded, _places(dependency))
+    return [(key, target, recorded[key]) for key, target in places]
 
 
 def import_files(
@@ -122,7 +93,7 @@ def import_files(
     robot: RobotConfig,
     options: BuildOptions,
     dependencies: Sequence[Dependency],
-    recorded: RecordedImports,
+    recorded: Mapping[str, RecordedFile],
     source: str,
     *,
     has_moved: bool = False,
@@ -144,7 +115,7 @@ def import_files(
             package = dependency.uri.partition("://")[2].partition("/")[0]
             guessed.setdefault((noun, package), []).append(dependency)
         # no copy of a former folder serves: it may be the user's
-        before = [] if options.full or has_moved else recorded.find(dependency)
+        before = {} if options.full or has_moved else recorded
         trouble = _import(domain, dependency, content, before, source, result)
         if trouble is not None:
             trouble = _keep_copy(dependency, recorded, has_moved, result, trouble)
@@ -171,11 +142,11 @@ def _import(
     domain: Domain,
     dependency: Dependency,
     content: tuple[Path, bytes] | OSError | None,
-    before: Sequence[RecordedFile],
+    recorded: Mapping[str, RecordedFile],
     source: str,
     result: Imported,
 ) -> Diagnostic | None:
-    """Add one import to the result, or return what is wrong; `before` has files of the last build that may serve."""
+    """Add one import to the result, or return what is wrong; the `recorded` files of the last build may serve."""
 
     def unreadable(message: str, hint: str) -> Diagnostic:
         return Diagnostic(
@@ -190,13 +161,14 @@ def _import(
     path, text = content
     others = _read_mentioned(domain, dependency, path, text)
     sha256 = digest(b"".join((text, *others.values())))
-    if before and (before[0].entry.source_hash, before[0].entry.converter) == (sha256, domain.converter):
-        facts = _needed(dependency, before[0].entry)
-        if facts is not None and all(file.is_intact for file in before):
-            for file in before:
-                own_facts = facts if file is before[0] else file.entry.facts
-                entry = msgspec.structs.replace(file.entry, target=file.target, facts=own_facts)
-                result.add(file.key, entry, file.copy)
+    own = recorded.get(dependency.key)
+    if own and (own.entry.source_hash, own.entry.converter) == (sha256, domain.converter):
+        facts, files = _needed(dependency, own.entry), _find_recorded(dependency, recorded)
+        if facts is not None and all(file.is_intact for _, _, file in files):
+            for key, target, file in files:
+                own_facts = facts if file is own else file.entry.facts
+                entry = msgspec.structs.replace(file.entry, target=target, facts=own_facts)
+                result.add(key, entry, file.copy)
             return None
     if text.startswith(_POINTER):
         message = f"{_named([dependency])} can't be read: it is a Git LFS pointer"
@@ -206,10 +178,9 @@ def _import(
     except SourceError as error:
         result.refused.append((dependency, path))
         return unreadable(error.diagnostics[0].message, error.diagnostics[0].hint)
-    for number, part in enumerate((conversion, *conversion.more)):
-        key = further_key(dependency.key, number) if number else dependency.key
-        place = _further_target(dependency.target, number) if number else dependency.target
-        entry = Import(place, sha256, digest(part.content), domain.converter, part.facts, () if number else (*others,))
+    for (key, target), part in zip(_places(dependency), (conversion, *conversion.more), strict=False):
+        names = (*others,) if part is conversion else ()
+        entry = Import(target, sha256, digest(part.content), domain.converter, part.facts, names)
         result.add(key, entry, part.content)
     return None
 
@@ -255,33 +226,37 @@ def _not_found(dependencies: Sequence[Dependency], source: str, line: int = 0) -
 
 
 def _keep_copy(
-    dependency: Dependency, recorded: RecordedImports, has_moved: bool, result: Imported, trouble: Diagnostic
+    dependency: Dependency,
+    recorded: Mapping[str, RecordedFile],
+    has_moved: bool,
+    result: Imported,
+    trouble: Diagnostic,
 ) -> Diagnostic:
     """Let the copy serve that an earlier build made, if there is one.
 
     `trouble` says what is wrong with the source. Returns it with what follows from it.
     """
-    files = recorded.find(dependency)
-    if not files or any(file.copy is None for file in files):
+    own, files = recorded.get(dependency.key), _find_recorded(dependency, recorded)
+    if own is None or any(file.copy is None for _, _, file in files):
         return msgspec.structs.replace(trouble, message=f"{trouble.message}; left out")
-    facts = _needed(dependency, files[0].entry)
+    facts = _needed(dependency, own.entry)
     if facts is None:
         message = f"{trouble.message}, and the record of its imported copy is incomplete"
         hint = "restore the file itself, or `.urdfsync/robots` from version control"
         raise StateError.of("lost-state", message, trouble.file, trouble.line, hint=hint)
-    for file in files:
+    for key, target, file in files:
         entry = file.entry
         # an older copy, which was put back, was not made from the recorded source
-        is_older = not file.is_intact and recorded.is_written(file)
-        is_placed_anew = has_moved or entry.target != file.target
+        is_older = not file.is_intact and file.hash in file.written
+        is_placed_anew = has_moved or entry.target != target
         entry = msgspec.structs.replace(
             entry,
-            target=file.target,
+            target=target,
             target_hash=file.hash if is_older or is_placed_anew else entry.target_hash,
             converter=None if is_older else entry.converter,
-            facts=facts if file is files[0] else entry.facts,
+            facts=facts if file is own else entry.facts,
         )
-        result.add(file.key, entry, file.copy if file.hash == entry.target_hash else None)
+        result.add(key, entry, file.copy if file.hash == entry.target_hash else None)
     message = f"{trouble.message}; the imported copy is kept"
     return msgspec.structs.replace(trouble, code=f"{trouble.code}-kept", message=message, hint="")
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 from typing import Any
 
@@ -12,7 +12,7 @@ from urdfsync.config import RobotConfig
 from urdfsync.diagnostics import OutputError
 from urdfsync.domain import Domain, Import, Role, Target, Templates, Version
 from urdfsync.engine.generate import Package, generate
-from urdfsync.engine.imports import RecordedImports
+from urdfsync.engine.imports import RecordedFile
 from urdfsync.engine.package_files import Folder, PackageFiles
 from urdfsync.engine.rules import NEVER_WRITTEN, OnDisk
 from urdfsync.state.record import FileRecord, Record
@@ -72,11 +72,16 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
             return None
 
     @cached_property
-    def imports(self) -> RecordedImports:
-        """The imported files, and how their copies in the package are read."""
-        files, folder = self._files, self.folder  # not `self`, which would hold itself then
-        records = {folder.path(key): file for key, file in self.files.items()}
-        return RecordedImports(self.record.imports, lambda target: files.read(folder.key(target)), records)
+    def imports(self) -> Mapping[str, RecordedFile]:
+        """The imported files, and their copies in the package; of several records of a file, the one of its copy."""
+        return {key: self._recorded_file(entries) for key, entries in self.record.imports.items()}
+
+    def _recorded_file(self, entries: Sequence[Import]) -> RecordedFile:
+        files = list[RecordedFile]()
+        for entry in entries:
+            key = self.folder.key(entry.target)
+            files.append(RecordedFile(entry, self._files.read(key), self.files.get(key, NEVER_WRITTEN).hashes))
+        return next((file for file in files if file.is_intact), files[0])
 
     @cached_property
     def version(self) -> Version | None:
@@ -87,7 +92,7 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
 
     @cached_property
     def _version(self) -> Version:
-        imports = {key: self.imports.entry(key) for key in self.record.imports}
+        imports = {key: file.entry for key, file in self.imports.items()}
         return Version(self.record.snapshot or {}, imports, self.options)
 
     @cached_property

@@ -297,7 +297,9 @@ def _read(
         candidates = dict.fromkeys(path for dependency in same for path in dependency.candidates)
         joined.append(msgspec.structs.replace(same[0], candidates=tuple(candidates)))
     dependencies = version.revision.locate(joined, version.scratch) if version.revision else joined
-    recorded = imports.RecordedImports({key: (file,) for key, file in known.imports.items()}, known.contents.get, {})
+    recorded = {
+        key: imports.RecordedFile(entry, known.contents.get(entry.target)) for key, entry in known.imports.items()
+    }
     imported = imports.import_files(domain, robot, options, dependencies, recorded, text.name)
     diagnostics = (*text.diagnostics, *map(text.locate, (*reading.diagnostics, *imported.diagnostics)))
     return Version(snapshot, imported.imports), imported, diagnostics
