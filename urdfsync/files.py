@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from urdfsync.dependencies import file_type, read_file, read_stat, read_unrecorded, walk_files
-from urdfsync.diagnostics import Diagnostic, OutputError, Severity
+from urdfsync.diagnostics import OutputError
 
 TEMPORARY = ".urdfsync-tmp"
 """Suffix of the files that are written before they replace their targets."""
@@ -85,7 +85,7 @@ def failure(error: OSError, path: Path, what: str = "it can't be written") -> Ou
     """Return an error of the system about a file or folder, with a hint."""
     hint = "; ".join(filter(None, [_HINTS.get(error.errno or 0, ""), "then build again"]))
     message = f"{what}: {error.strerror or error}"
-    return OutputError(Diagnostic(Severity.ERROR, "output-not-writable", message, shown(path), hint=hint))
+    return OutputError.of("output-not-writable", message, shown(path), hint=hint)
 
 
 def kind_of(mode: int) -> str:
@@ -155,4 +155,4 @@ class Tree:
 
 
 def _refusal(code: str, path: str, message: str, hint: str = "") -> OutputError:
-    return OutputError(Diagnostic(Severity.ERROR, code, message, shown(Path(path)), hint=hint))
+    return OutputError.of(code, message, shown(Path(path)), hint=hint)

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import cast
 
 from urdfsync.dependencies import list_folder, read_file
-from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
+from urdfsync.diagnostics import ConfigError
 from urdfsync.domain import Domain
 from urdfsync.spelling import nearest
 
@@ -24,13 +24,13 @@ def domain(name: str) -> Domain:
     if not place:
         near = nearest(name, names())
         hint = f'did you mean "{near}"?' if near else f"use one of {', '.join(names())}"
-        raise ConfigError(Diagnostic(Severity.ERROR, "unknown-domain", f"there is no domain `{name}`", hint=hint))
+        raise ConfigError.of("unknown-domain", f"there is no domain `{name}`", hint=hint)
     module, _, attribute = place.partition(":")
     try:
         return cast("Domain", getattr(importlib.import_module(module), attribute))
     except (ImportError, AttributeError) as problem:
         message = f"the domain `{name}` can't be loaded: {problem}"
-        raise ConfigError(Diagnostic(Severity.ERROR, "broken-domain", message, hint="install it again")) from problem
+        raise ConfigError.of("broken-domain", message, hint="install it again") from problem
 
 
 def top_level(name: str) -> str:

@@ -18,7 +18,7 @@ from signal import SIG_IGN, SIGINT, signal
 from types import ModuleType
 from typing import Any, TypeVar
 
-from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
+from urdfsync.diagnostics import ConfigError
 from urdfsync.extras import install_command
 from urdfsync.processes import end_with_parent
 
@@ -98,13 +98,13 @@ def _connect(address: str) -> Any:
         from distributed import Client  # an extra, and a second to import
     except ImportError:
         message, hint = "`--executor` needs Dask, which is not installed", install_command("cluster")
-        raise ConfigError(Diagnostic(Severity.ERROR, "no-cluster", message, hint=hint)) from None
+        raise ConfigError.of("no-cluster", message, hint=hint) from None
     try:
         return Client(address, timeout=PATIENCE, set_as_default=False)
     except (OSError, ValueError, TimeoutError) as error:
         message = f"no Dask scheduler answers at `{address}`: {error or 'no answer in time'}"
         hint = "start one with `dask scheduler`, or go without `--executor`"
-        raise ConfigError(Diagnostic(Severity.ERROR, "no-cluster", message, hint=hint)) from None
+        raise ConfigError.of("no-cluster", message, hint=hint) from None
 
 
 @contextlib.contextmanager

@@ -19,7 +19,7 @@ from typing import Any, TypeVar
 import msgspec
 import platformdirs
 
-from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
+from urdfsync.diagnostics import UrdfsyncError
 from urdfsync.files import put
 
 T = TypeVar("T")
@@ -131,7 +131,7 @@ def cache_errors(folder: Path) -> Iterator[None]:
     except OSError as error:
         message = f"the cache can't be written: {error.strerror or error}"
         hint = "make room, or name another folder with XDG_CACHE_HOME"
-        raise CacheError(Diagnostic(Severity.ERROR, "cache-not-writable", message, str(folder), hint=hint)) from error
+        raise CacheError.of("cache-not-writable", message, str(folder), hint=hint) from error
 
 
 def _bytes_on_disk(path: str, status: os.stat_result) -> int:

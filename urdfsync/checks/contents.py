@@ -13,7 +13,7 @@ from collections.abc import Callable, Collection, Iterable
 from pathlib import Path
 
 from urdfsync.dependencies import read_unrecorded
-from urdfsync.diagnostics import Diagnostic, OutputError, Severity, UrdfsyncError
+from urdfsync.diagnostics import OutputError, UrdfsyncError
 from urdfsync.files import shown
 
 MOST_BYTES = 2**29
@@ -93,7 +93,7 @@ def copy_library(
 
 
 def _refusal(path: Path, message: str, hint: str) -> UrdfsyncError:
-    return UrdfsyncError(Diagnostic(Severity.ERROR, "library-not-copied", message, shown(path), hint=hint))
+    return UrdfsyncError.of("library-not-copied", message, shown(path), hint=hint)
 
 
 def package_texts(folder: Path, top: Path | None = None, without: Collection[Path] = ()) -> dict[str, bytes]:
@@ -115,7 +115,7 @@ def package_texts(folder: Path, top: Path | None = None, without: Collection[Pat
         message = f"the package can't be read: {error.strerror or error}"
         hint = "check the permissions of file and folder"
         file = shown(Path(os.fsdecode(error.filename))) if error.filename else ""
-        raise OutputError(Diagnostic(Severity.ERROR, "unreadable", message, file, hint=hint)) from error
+        raise OutputError.of("unreadable", message, file, hint=hint) from error
     return texts
 
 

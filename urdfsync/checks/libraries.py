@@ -16,7 +16,7 @@ from urdfsync.checks.cache import UserCache, cache_errors, digest
 from urdfsync.checks.contents import RESOURCES, content_hash, copy_library, package_texts
 from urdfsync.config import Config, RobotConfig, find_own_library
 from urdfsync.dependencies import read_unrecorded
-from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
+from urdfsync.diagnostics import Diagnostic, UrdfsyncError
 from urdfsync.modelica.names import LIBRARY, STANDARD_LIBRARIES
 
 Version: TypeAlias = tuple[int, ...]
@@ -72,7 +72,7 @@ def find_standard_library(configured: Path | None = None) -> Mapping[str, Path]:
         message = f"the Modelica Standard Library in {place} is {number}; the compiler takes {oldest} and newer"
     if configured:
         code, message = "wrong-library-folder", f"{message}: `library` in the table `[check]` names {configured}"
-    raise UrdfsyncError(Diagnostic(Severity.ERROR, code, message, hint=_HINT))
+    raise UrdfsyncError.of(code, message, hint=_HINT)
 
 
 def library_folders() -> list[Path]:

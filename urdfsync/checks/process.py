@@ -20,7 +20,7 @@ import msgspec
 import psutil
 
 from urdfsync import processes
-from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
+from urdfsync.diagnostics import UrdfsyncError
 
 T = TypeVar("T")
 
@@ -128,11 +128,11 @@ def _wait(
         if time.monotonic() >= limits.deadline:
             message = f"{limits.owner} takes more than {limits.seconds:g} s"
             hint = "allow more with `--timeout`, or try another compiler with `--tool`"
-            raise LimitError(Diagnostic(Severity.ERROR, "out-of-time", message, hint=hint))
+            raise LimitError.of("out-of-time", message, hint=hint)
         if used > limits.memory:
             message = f"{limits.owner} takes more memory than its limit, {limits.memory / 1e9:.2g} GB"
             hint = "allow more with `--memory`, if this machine has more"
-            raise LimitError(Diagnostic(Severity.ERROR, "out-of-memory", message, hint=hint))
+            raise LimitError.of("out-of-memory", message, hint=hint)
 
 
 def _loaded(answers: Any) -> Iterator[Any]:

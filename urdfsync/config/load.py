@@ -57,7 +57,7 @@ def find(start: Path) -> Path:
             return folder / FILE_NAME
     message = f"no {FILE_NAME} in {start} or a folder above it"
     hint = "write one with `urdfsync init SOURCE`, or name one with --config"
-    raise ConfigError(Diagnostic(Severity.ERROR, "no-config", message, hint=hint))
+    raise ConfigError.of("no-config", message, hint=hint)
 
 
 def load(file: Path) -> Config:
@@ -74,7 +74,7 @@ def load(file: Path) -> Config:
         message, hint = "the configuration is not UTF-8", "save it as UTF-8"
     except OSError as error:
         message, hint = f"the configuration can't be read: {error.strerror}", "name a file that you may read"
-    raise ConfigError(Diagnostic(Severity.ERROR, code, message, shown(file), line, hint=hint))
+    raise ConfigError.of(code, message, shown(file), line, hint=hint)
 
 
 def parse(text: str, file: Path, name: str) -> Config:

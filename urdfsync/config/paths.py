@@ -9,7 +9,7 @@ from pathlib import Path
 
 import urdfsync
 from urdfsync import dependencies
-from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
+from urdfsync.diagnostics import ConfigError
 from urdfsync.domain import Domain
 from urdfsync.modelica.names import LIBRARY
 
@@ -23,7 +23,7 @@ def working_folder() -> Path:
         return Path.cwd()
     except FileNotFoundError:
         message, hint = "the working folder does not exist any more", "change to a folder that exists"
-        raise ConfigError(Diagnostic(Severity.ERROR, "no-folder", message, hint=hint)) from None
+        raise ConfigError.of("no-folder", message, hint=hint) from None
 
 
 def ros_package_path() -> tuple[Path, ...]:

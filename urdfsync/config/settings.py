@@ -127,7 +127,7 @@ class Config(msgspec.Struct, frozen=True):
         """
         if not self.robots:
             message, hint = "the configuration has no robot", "add one with `urdfsync add SOURCE`"
-            raise ConfigError(Diagnostic(Severity.ERROR, "no-robots", message, shown(self.file), hint=hint))
+            raise ConfigError.of("no-robots", message, shown(self.file), hint=hint)
         robot_names, chosen = [robot.name for robot in self.robots], set[str]()
         for name in names:
             place = Path(os.path.normpath(working_folder() / name))
@@ -144,7 +144,7 @@ class Config(msgspec.Struct, frozen=True):
                 near = nearest(name, robot_names)
                 hint = f"did you mean `{near}`?" if near else f"name one of {', '.join(robot_names)}"
                 message = f"no robot `{name}` in the configuration"
-                raise ConfigError(Diagnostic(Severity.ERROR, "unknown-robot", message, shown(self.file), hint=hint))
+                raise ConfigError.of("unknown-robot", message, shown(self.file), hint=hint)
             chosen.update(meant)
         return tuple(robot for robot in self.robots if not names or robot.name in chosen)
 

@@ -72,7 +72,7 @@ def _find_untrusted(config: Config, message: str, line: int, code: str = "untrus
     except (OSError, UnicodeDecodeError, msgspec.ValidationError) as error:
         message = f"the file of trusted folders can't be used: {error}"
         hint = 'write `folders = ["/home/me/robots"]`, in UTF-8'
-        raise ConfigError(Diagnostic(Severity.ERROR, "trusted-folders", message, str(file), hint=hint)) from None
+        raise ConfigError.of("trusted-folders", message, str(file), hint=hint) from None
     if os.path.realpath(config.root) in {os.path.realpath(Path(folder).expanduser()) for folder in folders}:
         return None
     hint = f'if you trust this configuration, use --trust, or write `folders = ["{config.root}"]` into {file}'

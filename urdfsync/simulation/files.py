@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from urdfsync.config import Config, RobotConfig
-from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
+from urdfsync.diagnostics import ConfigError, OutputError
 from urdfsync.extras import install_command
 from urdfsync.files import kind_of, put, shown
 from urdfsync.simulation.results import SimulateResult
@@ -32,7 +32,7 @@ def check_outputs(files: Mapping[str, Path], inputs: Mapping[str, Path]) -> None
         module = _MODULES.get(kind)
         if module and importlib.util.find_spec(module) is None:
             message = f"`--{kind}` needs {module}, which is not installed"
-            raise ConfigError(Diagnostic(Severity.ERROR, "no-plot", message, hint=install_command("plot")))
+            raise ConfigError.of("no-plot", message, hint=install_command("plot"))
         if kind == "plot" and file.suffix.lower() not in PLOTS:
             raise not_writable(file, f"a plot is one of {', '.join(PLOTS)}", "name a file that ends so")
         check_file(file, inputs)
@@ -113,4 +113,4 @@ def _parquet(series: Series) -> bytes:
 
 def not_writable(file: Path, message: str, hint: str) -> OutputError:
     """Return the error for a file that can't be written."""
-    return OutputError(Diagnostic(Severity.ERROR, "output-not-writable", message, shown(file), hint=hint))
+    return OutputError.of("output-not-writable", message, shown(file), hint=hint)

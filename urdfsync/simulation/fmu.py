@@ -145,10 +145,10 @@ def _ask(request: _Request, content: bytes, limits: Limits, progress: Callable[[
             (answer,) = process.run(_examine, request, limits=limits, environment=environment, progress=progress)
         except ImportError as error:
             message, hint = f"FMPy does not start: {error}", install_command("fmu")
-            raise UrdfsyncError(Diagnostic(Severity.ERROR, "no-fmpy", message, hint=hint)) from None
+            raise UrdfsyncError.of("no-fmpy", message, hint=hint) from None
         except process.BrokenProcessError as error:
             message = f"FMPy crashed with the FMU: {error}"
-            raise UrdfsyncError(Diagnostic(Severity.ERROR, "fmu-crashed", message)) from error
+            raise UrdfsyncError.of("fmu-crashed", message) from error
         return answer
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
+from urdfsync.diagnostics import ConfigError
 from urdfsync.files import shown
 from urdfsync.modelica.classes import OPAQUE, Node, Type
 from urdfsync.modelica.files import text_of
@@ -80,7 +80,7 @@ class Model:
             if component.type.parts[-1] != "RealInput" or (_ARRAY.match(after) and not size):
                 message = f"the input `{name}` can't be driven: it is no RealInput, or the text does not say its size"
                 file, line = shown(Path(node.file)), component.name.line
-                raise ConfigError(Diagnostic(Severity.ERROR, "inputs", message, file, line))
+                raise ConfigError.of("inputs", message, file, line)
             units = re.findall(r'"([^"]*)"', unit[1]) if (unit := _UNIT.search(after)) else []
             count = int(size[1]) if size else 1
             units = units if len(units) == count else units[:1] * count or [""] * count
@@ -125,12 +125,12 @@ def find_model(scopes: Scopes, package: str, name: str, content: Callable[[str],
             if kind not in _KINDS or "partial" in node.definition.prefixes:
                 what = "partial: other models extend it" if kind in _KINDS else f"a {kind}"
                 message = f"`{name}` can't be simulated: it is {what}"
-                raise ConfigError(Diagnostic(Severity.ERROR, "no-model", message, shown(Path(node.file))))
+                raise ConfigError.of("no-model", message, shown(Path(node.file)))
             return Model(scopes, node, content)
     near = _near(scopes, package, name)
     hint = f"did you mean `{near}`?" if near else "give its full name; libraries are found beside the package, "
     hint = hint if near else f"{hint}in the folders of `users` and on MODELICAPATH"
-    raise ConfigError(Diagnostic(Severity.ERROR, "no-model", f"there is no model `{name}`", hint=hint))
+    raise ConfigError.of("no-model", f"there is no model `{name}`", hint=hint)
 
 
 def _near(scopes: Scopes, package: str, name: str) -> str:

@@ -16,7 +16,7 @@ from typing import NoReturn
 import msgspec
 
 from urdfsync.dependencies import read_unrecorded
-from urdfsync.diagnostics import Diagnostic, Severity, SourceError
+from urdfsync.diagnostics import SourceError
 from urdfsync.files import shown
 from urdfsync.simulation.models import Input
 from urdfsync.spelling import nearest
@@ -143,7 +143,7 @@ def _number(file: Path, line: int, cell: str) -> float:
 
 
 def _refuse(file: Path, message: str, line: int = 0, hint: str = "") -> NoReturn:
-    raise SourceError(Diagnostic(Severity.ERROR, "motion", message, shown(file), line, hint=hint))
+    raise SourceError.of("motion", message, shown(file), line, hint=hint)
 
 
 _FUNCTION = """

@@ -51,7 +51,7 @@ def prepare(config: Config, robot: RobotConfig, options: SimulateOptions, *, for
     place = shown(robot.folder)
     if not package.on_disk:
         message, hint = f"the package of robot `{robot.name}` is not built", "run `urdfsync build`"
-        raise ConfigError(Diagnostic(Severity.ERROR, "not-built", message, place, hint=hint))
+        raise ConfigError.of("not-built", message, place, hint=hint)
     message, hint = "the package is out of step with its source; it is taken as it is", "run `urdfsync build`"
     late = Diagnostic(Severity.WARNING, "out-of-step", message, place, hint=hint)
     bench = package.bench or Bench("", "", ())
@@ -60,7 +60,7 @@ def prepare(config: Config, robot: RobotConfig, options: SimulateOptions, *, for
     if not name:
         what = "has inputs" if options.motion else "can be simulated"
         message = f"the package of robot `{robot.name}` has no model that {what}"
-        raise ConfigError(Diagnostic(Severity.ERROR, "no-model", message, hint="name one of yours with `--model`"))
+        raise ConfigError.of("no-model", message, hint="name one of yours with `--model`")
     model, needed = _find_model(config, options, name, package)
     return Prepared(package, bench, model, needed, read_values(options.values), () if package.in_step else (late,))
 
@@ -74,7 +74,7 @@ def _check_compiler(options: SimulateOptions) -> None:
         near = nearest(options.method, compiler.METHODS)
         hint = f"did you mean `{near}`?" if near else f"use one of {', '.join(compiler.METHODS)}"
         message = f"{compiler.TITLE} has no method `{options.method}`"
-        raise ConfigError(Diagnostic(Severity.ERROR, "method", message, hint=hint))
+        raise ConfigError.of("method", message, hint=hint)
 
 
 def _find_model(

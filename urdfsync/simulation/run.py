@@ -118,7 +118,7 @@ def _task(options: SimulateOptions, prepared: Prepared) -> tuple[CompileTask, st
         motion = read_motion(options.motion, inputs) if options.motion else at_rest(inputs, stop)
         if options.motion and options.stop and options.stop > motion.times[-1]:
             message = f"the motion ends at {motion.times[-1]:g} s, before the stop time, {options.stop:g} s"
-            raise ConfigError(Diagnostic(Severity.ERROR, "motion", message, shown(options.motion)))
+            raise ConfigError.of("motion", message, shown(options.motion))
         stop, course = options.stop or motion.times[-1], in_modelica(motion)
         if options.motion and options.as_exported:
             course = course.held(motion, model.step(stop, options.step))
@@ -132,7 +132,7 @@ def _task(options: SimulateOptions, prepared: Prepared) -> tuple[CompileTask, st
     elif inputs:
         names = ",".join(["time", *(signal.name for signal in inputs)])
         hint = f"give a CSV file with `--input`; its first line is {names}"
-        raise ConfigError(Diagnostic(Severity.ERROR, "inputs", f"`{model.name}` has inputs", hint=hint))
+        raise ConfigError.of("inputs", f"`{model.name}` has inputs", hint=hint)
     tolerance = options.tolerance or model.settings.get("Tolerance", TOLERANCE)
     wanted = [_OWN, joints.pattern(prepared.bench), *(_glob(variable) for variable in options.variables)]
     task = CompileTask(

@@ -93,4 +93,4 @@ def _is_literal(value: str) -> bool:
 
 
 def _refuse(message: str, hint: str = "") -> NoReturn:
-    raise ConfigError(Diagnostic(Severity.ERROR, "set", message, hint=hint))
+    raise ConfigError.of("set", message, hint=hint)

@@ -10,7 +10,7 @@ import msgspec
 
 from urdfsync.config import STATE_FOLDER, is_robot_name
 from urdfsync.dependencies import list_folder, walk_files
-from urdfsync.diagnostics import Diagnostic, Severity, StateError
+from urdfsync.diagnostics import StateError
 from urdfsync.files import Tree, digest, normalised, shown
 from urdfsync.state import bases, expansion, statefile
 from urdfsync.state.expansion import Expansion
@@ -92,8 +92,7 @@ class Store:
             text = content.decode(errors="strict" if strict else "replace")
         except UnicodeDecodeError:
             message, hint = "the recorded state can't be read: it is not UTF-8", "restore it from version control"
-            found = Diagnostic(Severity.ERROR, "broken-state", message, shown(path), hint=hint)
-            raise StateError(found) from None
+            raise StateError.of("broken-state", message, shown(path), hint=hint) from None
         try:
             return statefile.loads(text.replace("\r\n", "\n"), shown(path), strict=strict)
         except StateError as error:

@@ -14,7 +14,7 @@ from pathlib import Path
 import msgspec
 
 from urdfsync.dependencies import read_unrecorded
-from urdfsync.diagnostics import Diagnostic, Severity, SourceError
+from urdfsync.diagnostics import SourceError
 from urdfsync.domain import Dependency
 from urdfsync.files import digest, shown
 
@@ -32,23 +32,23 @@ class Revision:
 
         self.name = name
         if name.startswith("-") or not name.strip() or not name.isprintable():
-            raise _error("bad-revision", f"{name!r} is neither a file nor a git revision", hint=_HINT)
+            raise SourceError.of("bad-revision", f"{name!r} is neither a file nor a git revision", hint=_HINT)
         try:
             ceilings = os.environ.get("GIT_CEILING_DIRECTORIES", "")
             place = pygit2.discover_repository(str(folder), False, ceilings)  # noqa: FBT003 - it has no keywords
             repository = pygit2.Repository(place) if place else None
         except (pygit2.GitError, KeyError) as problem:  # such as that of another user
             hint = "repair it, or use --against FILE"
-            raise _error("git", f"the repository can't be read: {problem}", hint=hint) from None
+            raise SourceError.of("git", f"the repository can't be read: {problem}", hint=hint) from None
         if repository is None or repository.workdir is None:
             message = f"there is no file {name!r}, and no git repository around {folder} that has it as a revision"
-            raise _error("no-repository", message, hint=_HINT)
+            raise SourceError.of("no-repository", message, hint=_HINT)
         self._top = Path(os.path.realpath(repository.workdir))
         try:
             self._tree = repository.revparse_single(name).peel(pygit2.Commit).tree
         except (pygit2.GitError, KeyError, ValueError):
             message = f"{name!r} is neither a file nor a revision of the git repository {self._top}"
-            raise _error("unknown-revision", message, hint=_HINT) from None
+            raise SourceError.of("unknown-revision", message, hint=_HINT) from None
 
     def label(self, file: Path) -> str:
         """Return the name of a file of this revision in messages."""
@@ -60,7 +60,7 @@ class Revision:
         if content is None:
             message = f"{shown(file)} does not exist in revision {self.name!r}"
             hint = "if it had another path then, save it with `git show REVISION:PATH > FILE`, and use --against FILE"
-            raise _error("not-in-revision", message, self.label(file), hint)
+            raise SourceError.of("not-in-revision", message, self.label(file), hint=hint)
         return content
 
     def holds(self, file: Path) -> bool:
@@ -87,7 +87,7 @@ class Revision:
                     contents[file] = entry.data
             except (pygit2.GitError, KeyError) as problem:
                 message, hint = f"git does not have its content: {problem}", "fetch it, or use --against FILE"
-                raise _error("git", message, self.label(file), hint) from None
+                raise SourceError.of("git", message, self.label(file), hint=hint) from None
         return contents
 
     def locate(self, dependencies: Sequence[Dependency], scratch: Path) -> Sequence[Dependency]:
@@ -118,7 +118,3 @@ def _is_on_disk(path: Path, content: bytes) -> bool:
     except OSError:
         return False
     return now == content or (pointer is not None and digest(now) == pointer[1].decode())
-
-
-def _error(code: str, message: str, file: str = "", hint: str = "") -> SourceError:
-    return SourceError(Diagnostic(Severity.ERROR, code, message, file, hint=hint))

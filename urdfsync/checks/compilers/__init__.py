@@ -100,7 +100,7 @@ def run_job(
             message = f"{compiler.TITLE} crashed at {task}: {error}"
             killed = "probably the system was out of memory: check fewer robots at a time (--jobs)"
             hint = killed if error.was_killed else f"report it to the authors of {compiler.TITLE}"
-            raise CompilerError(Diagnostic(Severity.ERROR, "compiler-crashed", message, hint=hint)) from error
+            raise CompilerError.of("compiler-crashed", message, hint=hint) from error
 
 
 def _missing(compiler: Compiler, reason: str) -> Diagnostic:

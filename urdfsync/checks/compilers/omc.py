@@ -27,7 +27,6 @@ from urdfsync.checks.compilers.compiler import (
     SimulationResult,
     one_line,
 )
-from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.modelica.names import STANDARD_LIBRARIES
 from urdfsync.processes import exit_cause
 
@@ -210,9 +209,7 @@ def _ask(job: CompileJob, folder: Path, calls: Sequence[str], seconds: float | N
             raise ImportError(": ".join(filter(None, (exit_cause(done.returncode), *last_words))))
         message = f"OpenModelica ended at `{calls[len(answers)]}` ({exit_cause(done.returncode)})"
         hint = f"{job.tasks[0].title}: report it to the authors of {TITLE}"
-        raise CompilerError(
-            Diagnostic(Severity.ERROR, "compiler-crashed", ": ".join((message, *last_words)), hint=hint)
-        )
+        raise CompilerError.of("compiler-crashed", ": ".join((message, *last_words)), hint=hint)
     return answers
 
 
