@@ -131,7 +131,7 @@ FITTING = merge("a\n\nb\n", "1\n\nb\n", "a\n\n2\n")
     ],
 )
 def test_how_the_sides_of_a_conflict_stand(merged: Merge | None, rejected: str, reason: Reason, relation: str) -> None:
-    texts = Conflict("0.mo", "", "base", "mine", "generated", merged, rejected=rejected)
+    texts = Conflict("0.mo", "base", "mine", "generated", merged, rejected=rejected)
     (disputed,) = result(reason, conflict_texts=(texts,)).conflicts
     assert disputed.relation == relation
     assert disputed.merges == disputed.offers(Choice.MERGE) == (merged is FITTING)

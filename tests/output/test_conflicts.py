@@ -29,20 +29,20 @@ OPPOSED = BASE.replace("a = 1;", "a = 7;"), BASE.replace("a = 1;", "a = 9;")
 
 def texts_of(mine: str, generated: str, base: str | None = BASE, path: str = ELBOW, **more: Any) -> Conflict:
     merged = None if base is None else merge(base, mine, generated)
-    return Conflict(path, "link elbow", base, mine, generated, merged, **more)
+    return Conflict(path, base, mine, generated, merged, **more)
 
 
 def rejected(proposal: str | None, why: str) -> Conflict:
     """A conflict whose merge, if there is one, is not offered."""
     merged = None if proposal is None else Merge(None, proposal, ())
-    return Conflict(ELBOW, "link elbow", BASE, EDITED, EXPORTED, merged, rejected=why)
+    return Conflict(ELBOW, BASE, EDITED, EXPORTED, merged, rejected=why)
 
 
 def seen(*found: Conflict, kind: Reason = Reason.CONFLICT, dry: bool = False, **options: Any) -> list[str]:
     """What a build says of these conflicts, as it appears on a terminal of this width, or in a pipe."""
     actions = Actions(
         Action(
-            one.path, kind, Role.MODEL, one.owner, origin=one.origin, mine=None if one.rejected == FOLDER else "hash"
+            one.path, kind, Role.MODEL, "link elbow", origin=one.origin, mine=None if one.rejected == FOLDER else "hash"
         )
         for one in found
     )
@@ -93,7 +93,7 @@ def test_verbose_shows_what_a_merge_changes() -> None:
 
 def test_of_many_changes_the_first_are_shown() -> None:
     many = BASE.replace("  Real b", "".join(f"  Real x{number};\n" for number in range(10)) + "  Real b")
-    found = Conflict(ELBOW, "link elbow", BASE, many, EXPORTED, merge(BASE, many, EXPORTED, is_modelica=True))
+    found = Conflict(ELBOW, BASE, many, EXPORTED, merge(BASE, many, EXPORTED, is_modelica=True))
     assert seen(found)[9:12] == [
         "                component `x4`: added",
         "                … 5 more changes",
@@ -104,7 +104,7 @@ def test_of_many_changes_the_first_are_shown() -> None:
 def test_of_a_contradiction_nothing_else_is_shown() -> None:
     base, mine, generated = (text.replace("  Real b", "\n\n\n\n  Real b") for text in (BASE, *OPPOSED))
     generated = generated.replace("b = 2", "b = 3")
-    found = Conflict(ELBOW, "link elbow", base, mine, generated, merge(base, mine, generated, is_modelica=True))
+    found = Conflict(ELBOW, base, mine, generated, merge(base, mine, generated, is_modelica=True))
     lines = seen(found)
     assert lines[3].endswith("Component `a`: you set `a = 7`, the export changes 1 to 9.")
     assert not any("b = 3" in line for line in lines)
@@ -113,7 +113,7 @@ def test_of_a_contradiction_nothing_else_is_shown() -> None:
 def test_of_a_contradiction_only_its_lines_and_those_around_it_are_shown() -> None:
     base, mine, generated = (text.replace("b = 2;", "b = 2;\n  Real c = 3;") for text in (BASE, *OPPOSED))
     generated = generated.replace("b = 2", "b = 3").replace("c = 3", "c = 4")
-    found = Conflict(ELBOW, "link elbow", base, mine, generated, merge(base, mine, generated, is_modelica=True))
+    found = Conflict(ELBOW, base, mine, generated, merge(base, mine, generated, is_modelica=True))
     assert seen(found)[7:19] == [
         "    @@ -1,5 +1,11 @@",
         "     within Arm;",
@@ -134,7 +134,7 @@ def test_between_two_contradictions_there_is_a_gap() -> None:
     between = "".join(f"  Real x{number};\n" for number in range(9))
     base, mine, generated = (text.replace("  Real b = 2", f"{between}  Real b = 2") for text in (BASE, *OPPOSED))
     mine, generated = mine.replace("b = 2", "b = 7"), generated.replace("b = 2", "b = 9")
-    found = Conflict(ELBOW, "link elbow", base, mine, generated, merge(base, mine, generated, is_modelica=True))
+    found = Conflict(ELBOW, base, mine, generated, merge(base, mine, generated, is_modelica=True))
     lines = seen(found, verbose=True)
     gap = lines.index("       Real x0;") + 1
     assert lines[gap].startswith("    @@ -")

@@ -23,7 +23,7 @@ from urdfsync.engine.inputs import inspect
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.users_files import find_users_files
 from urdfsync.files import normalised, shown
-from urdfsync.modelica.files import files_that_use, has_word, text_of
+from urdfsync.modelica.files import has_word, text_of
 from urdfsync.modelica.lexer import lex
 from urdfsync.modelica.names import within
 from urdfsync.modelica.parser import parse
@@ -165,9 +165,9 @@ def files_around(config: Config, robot: RobotConfig, texts: Mapping[str, bytes])
     return around
 
 
-def users_files(config: Config, robot: RobotConfig) -> dict[Path, bytes]:
+def users_files(config: Config, robot: RobotConfig) -> Mapping[Path, bytes]:
     """Return the user's models in no robot's package that may have to do with this robot's package."""
-    return files_that_use(find_users_files(config, robot, [robot.folder.name]).mentioning, [robot.folder.name])
+    return find_users_files(config, robot, [robot.folder.name]).mentioning
 
 
 class UsersModels(msgspec.Struct, frozen=True):

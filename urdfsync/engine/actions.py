@@ -118,8 +118,6 @@ class Action(msgspec.Struct, frozen=True):
     """The user's decision about it."""
     mine: str | None = None
     """Hash of the file on disk; None if there is none."""
-    result: str | None = None
-    """Hash of the merged text; None if nothing is merged."""
     is_waiting: bool = False
     """Waits until the robot's other conflicts are resolved."""
 

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 import msgspec
 
 from urdfsync.engine.actions import Action, Reason
-from urdfsync.engine.package_files import text_hash
 from urdfsync.state.record import Choice, UsersChoice
 
 if TYPE_CHECKING:
@@ -29,8 +28,6 @@ class Conflict(msgspec.Struct, frozen=True):
 
     path: str
     """Path of the generated text as in the record: from the configuration's folder, POSIX."""
-    owner: str
-    """Element that the file belongs to, in the domain's words."""
     base: str | None
     """Text that urdfsync wrote last; None if it is not known, or urdfsync never wrote the file."""
     mine: str
@@ -92,7 +89,7 @@ def find_conflict(
     base = bases[0] if bases else None
     kept = rename(base, mine, without_clashes(names, mine))[1] if names and base and action.origin else mine
     texts = base, mine, generated, first
-    return Conflict(action.path, action.owner, *texts, origin=action.origin, kept=kept, rejected=rejected)
+    return Conflict(action.path, *texts, origin=action.origin, kept=kept, rejected=rejected)
 
 
 def resolve(
@@ -110,9 +107,8 @@ def resolve(
         if text is not None:
             texts[action.path] = text
         if (reason, choice, text) != (action.reason, action.choice, None):
-            result = None if text is None else text_hash(text)
             base = action.generated if reason is Reason.KEEP else action.base
-            action = msgspec.structs.replace(action, reason=reason, base=base, choice=choice, result=result)
+            action = msgspec.structs.replace(action, reason=reason, base=base, choice=choice)
         resolved.append(action)
     return tuple(resolved), texts
 

@@ -143,7 +143,7 @@ def _conflict(generation: Generation, action: Action, names: Mapping[str, str]) 
         package = files.text(f"{key.removesuffix('.mo')}/package.mo") or ""
         texts = bases[0] if bases else None, package, generated, None
         reason = "you made a folder of the class"
-        return Conflict(action.path, action.owner, *texts, origin=action.origin, rejected=reason)
+        return Conflict(action.path, *texts, origin=action.origin, rejected=reason)
     conflict = find_conflict(action, bases, mine, generated, {**former_names(generation, action), **names})
     if action.origin and action.path.endswith(".mo"):
         package = ".".join((generation.inputs.robot.target.package, *class_parts(path)))

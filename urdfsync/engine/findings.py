@@ -17,7 +17,6 @@ from urdfsync.engine.inputs import Inputs, orphaned_robots
 from urdfsync.engine.package_files import key_of
 from urdfsync.engine.package_names import begins_with, new_name, new_names, recently_renamed
 from urdfsync.files import shown
-from urdfsync.modelica.files import files_that_use
 from urdfsync.modelica.names import LIBRARY
 from urdfsync.modelica.unresolved import Unresolved
 from urdfsync.state.store import Store
@@ -68,11 +67,8 @@ def _diagnose(generation: Generation, misfits: Sequence[Misfit]) -> Iterator[Dia
         return
     inputs, renamed = generation.inputs, recently_renamed(generation)
     places = dict[tuple[object, ...], list[Misfit]]()
-    outside = {misfit.file for misfit in misfits if not misfit.key}
-    folders = {inputs.folder.rpartition("/")[2], inputs.last.folder.rpartition("/")[2]}
-    users = files_that_use(inputs.users_files.mentioning, folders).keys() if outside else ()
     for misfit in misfits:
-        if misfit.key or misfit.file in users:
+        if misfit.key or misfit.file in inputs.users_files.mentioning:  # others are left in a former folder
             finding = misfit.finding
             what = misfit.use.part if misfit.use else (misfit.lacking or finding.message, finding.code, finding.line)
             places.setdefault((misfit.file, what), []).append(misfit)

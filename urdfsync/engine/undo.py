@@ -36,7 +36,7 @@ def apply_undo(
         aside = inputs.last.put_aside.texts.get(inputs.folder.path(action.path))
         is_merged_again = choice in BOTH_SIDES and action.reason is Reason.KEEP
         if aside and choice is Choice.UNDO and _is_as_written(action, aside):
-            action = _give_back(action, aside)
+            action = msgspec.structs.replace(action, reason=Reason.UNDO, choice=Choice.UNDO)
             texts[action.path] = aside.before
         elif aside and aside.base and is_merged_again and inputs.files.text(action.path) == aside.after:
             # undoing takes the generated text for its base, so that builds keep it; that of the merge is put aside
@@ -48,7 +48,7 @@ def apply_undo(
         role = role_of(inputs.folder.path(key))
         is_deleted = chosen.choice is Choice.UNDO and chosen.sides == no_file and key not in applied
         if aside and is_deleted and inputs.files.on_disk(key, role) is None:
-            applied[key] = _give_back(Action(key, Reason.UNDO, role), aside)
+            applied[key] = Action(key, Reason.UNDO, role, choice=Choice.UNDO)
             texts[key] = aside.before
     return tuple(applied.values()), texts
 
@@ -58,10 +58,6 @@ def _is_as_written(action: Action, aside: Replaced) -> bool:
     after = action.generated if aside.after is None else text_hash(aside.after)
     is_same = action.mine is not None and action.mine == after and action.base == action.generated
     return is_same and action.role is not Role.IMPORT
-
-
-def _give_back(action: Action, aside: Replaced) -> Action:
-    return msgspec.structs.replace(action, reason=Reason.UNDO, choice=Choice.UNDO, result=text_hash(aside.before))
 
 
 def former_names(generation: Generation, action: Action) -> Mapping[str, str]:

@@ -17,7 +17,7 @@ from urdfsync.engine.inputs import inspect
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.renames import find_renames
 from urdfsync.engine.result import DisputedFile
-from urdfsync.files import digest, shown
+from urdfsync.files import shown
 from urdfsync.output.outline import outline
 from urdfsync.output.sections import Section
 from urdfsync.pages.picture import Picture, picture
@@ -105,13 +105,12 @@ def _with_older(
 
 def _last_build(generation: Generation) -> Contents | None:
     """Return the version that is recorded of the last complete build, with its imports as far as they are still so."""
-    last, contents = generation.inputs.last, dict[str, bytes]()
+    last = generation.inputs.last
     if last.version is None:
         return None
-    for entry in (last.version.imports or {}).values():
-        content = generation.inputs.files.read(last.folder.key(entry.target))
-        if content is not None and digest(content) == entry.target_hash:
-            contents[entry.target] = content
+    contents = {
+        file.entry.target: file.copy for file in last.imports.values() if file.copy is not None and file.is_intact
+    }
     return last.version, contents
 
 
