@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import json
 import re
-import shutil
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
 import pytest
+from support.files import fresh_models, models
 from support.git import NEEDS_GIT, Repository
-from support.networks import C1, LADDER, R2, RECORD, edit, kinds, run
+from support.networks import C1, R2, RECORD, edit, kinds, run
 
 from urdfsync.engine.actions import Reason
 from urdfsync.state.record import Choice
@@ -86,21 +86,6 @@ def unite(repository: Repository, how: str) -> None:
         repository.git("rebase", "-q", "theirs")
 
 
-def fresh(folder: Path) -> dict[str, str]:
-    """The package as it is built from the source alone."""
-    if folder.exists():
-        shutil.rmtree(folder)
-    shutil.copytree(Path.cwd(), folder, ignore=shutil.ignore_patterns(".git", ".urdfsync", "modelica", "fresh"))
-    with pytest.MonkeyPatch.context() as patch:
-        patch.chdir(folder)
-        run()
-        return texts()
-
-
-def texts() -> dict[str, str]:
-    return {path.as_posix(): path.read_text() for path in sorted(Path(LADDER).rglob("*.mo"))}
-
-
 def without_notes(found: Mapping[str, str]) -> dict[str, str]:
     return {path: re.sub(r"  // .*\n", "", text) for path, text in found.items()}
 
@@ -113,7 +98,7 @@ def test_exports_and_edits_of_two_branches_meet(repository: Repository, tmp_path
     result = run()
     assert result.in_step
     assert kinds(result) == {C1: Reason.KEEP, R2: Reason.KEEP}
-    assert without_notes(texts()) == fresh(tmp_path / "fresh")
+    assert without_notes(models()) == fresh_models(tmp_path / "fresh")
     assert "ours" in Path(C1).read_text()
     assert "theirs" in Path(R2).read_text()
 
@@ -142,11 +127,11 @@ def test_a_deletion_against_a_change_and_its_return(repository: Repository, tmp_
     branch(repository, "theirs", lambda: set_value("C2", 5e-6))
     merge_and_settle(repository)
     assert not run().conflicts
-    wanted = fresh(tmp_path / "fresh")
-    assert {path: text for path, text in texts().items() if path in wanted} == wanted
+    wanted = fresh_models(tmp_path / "fresh")
+    assert {path: text for path, text in models().items() if path in wanted} == wanted
     export(lambda found: found.append({"name": "C2", "between": ["out", "ground"], "farad": 5e-6}))
     assert not run().conflicts
-    assert texts() == fresh(tmp_path / "fresh")
+    assert models() == fresh_models(tmp_path / "fresh")
     assert run().in_step
 
 
@@ -157,7 +142,7 @@ def test_a_source_that_goes_back_to_an_earlier_export_after_the_merge(repository
     unite(repository, "merge")
     Path("ladder.json").write_text(earlier)
     assert not run().conflicts
-    assert texts() == fresh(tmp_path / "fresh")
+    assert models() == fresh_models(tmp_path / "fresh")
 
 
 def test_an_orphan_that_one_branch_keeps_stays_the_users(repository: Repository) -> None:
@@ -192,5 +177,5 @@ def test_branches_that_merge_each_other(repository: Repository, tmp_path: Path) 
     repository.commit()
     unite(repository, "merge")
     assert not run().conflicts
-    assert texts() == fresh(tmp_path / "fresh")
+    assert models() == fresh_models(tmp_path / "fresh")
     assert run().in_step

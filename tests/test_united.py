@@ -10,6 +10,7 @@ from typing import Any
 
 import pytest
 from support.commands import Execute
+from support.files import fresh_models, models
 from support.git import NEEDS_GIT, Repository
 from support.urdfs import joint, limit, link, robot
 
@@ -56,21 +57,6 @@ def unite(repository: Repository, execute: Execute, ours: Mapping[str, Any], the
     repository.merge("theirs")
 
 
-def fresh(execute: Execute, folder: Path, monkeypatch: pytest.MonkeyPatch) -> dict[str, str]:
-    """The package as it is built from the source alone."""
-    folder.mkdir()
-    for name in ("arm.urdf", "urdfsync.toml"):
-        shutil.copy(name, folder)
-    with monkeypatch.context() as patch:
-        patch.chdir(folder)
-        execute("build")
-        return texts()
-
-
-def texts() -> dict[str, str]:
-    return {path.as_posix(): path.read_text() for path in sorted(PACKAGE.rglob("*.mo"))}
-
-
 PIVOT, BEND = {"elbow": "pivot"}, {"elbow": "bend"}
 CASES: Mapping[str, tuple[Mapping[str, Any], Mapping[str, Any], Mapping[str, Any]]] = {
     "both rename one joint": (PIVOT, BEND, PIVOT),
@@ -111,13 +97,13 @@ def test_a_united_state_stops_no_command(
 
 @pytest.mark.parametrize("case", ["one renames it, the other changes its effort", "both change one number"])
 def test_the_build_after_a_merge_is_a_fresh_one(
-    repository: Repository, execute: Execute, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, case: str
+    repository: Repository, execute: Execute, tmp_path: Path, case: str
 ) -> None:
     ours, theirs, merged = CASES[case]
     unite(repository, execute, ours, theirs)
     export(**merged)
     execute("build")
-    assert texts() == fresh(execute, tmp_path / "fresh", monkeypatch)
+    assert models() == fresh_models(tmp_path / "fresh")
     listed = {name for path in PACKAGE.rglob("package.order") for name in path.read_text().split()}
     assert listed == {path.stem for path in PACKAGE.rglob("*.mo")} - {"package"} | {"Joints", "Links"}
 

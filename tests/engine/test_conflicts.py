@@ -8,6 +8,7 @@ import msgspec
 import pytest
 from support import urdfs
 from support.commands import Execute
+from support.files import fresh_models, models
 from support.networks import edit
 
 from urdfsync.domain import Role
@@ -47,18 +48,14 @@ def conflict(folder: Path, execute: Execute) -> Path:
     return folder
 
 
-def package() -> dict[str, str]:
-    return {path.as_posix(): path.read_text() for path in sorted(Path("modelica").rglob("*.mo"))}
-
-
 def test_structure_is_written(conflict: Path, execute: Execute) -> None:
     assert Path(HAND).exists()
     assert "wrist" in Path("modelica/Arm/Arm.mo").read_text()
     assert "2.6" in Path(FORE).read_text()
-    before = package()
+    before = models()
     for command, code in (("status", 3), ("build --check", 3), ("build", 3)):
         assert "1 conflict" in execute(*command.split(), code=code).out
-    assert package() == before
+    assert models() == before
 
 
 @pytest.mark.parametrize(
@@ -73,14 +70,8 @@ def test_what_is_exported_meanwhile_is_written_and_the_end_is_a_fresh_build(
     execute("build", code=3)
     execute("resolve", FORE, "--take")
     assert execute("status").lines[0].startswith("arm: in step")
-    built = package()
-    fresh = conflict / "fresh"
-    fresh.mkdir()
-    for name in ("arm.urdf", "urdfsync.toml"):
-        (fresh / name).write_text(Path(name).read_text())
-    execute("build", "--config", fresh / "urdfsync.toml")
-    wanted = {path.relative_to(fresh).as_posix(): path.read_text() for path in sorted(fresh.rglob("*.mo"))}
-    assert {path: text.replace("  // mine\n", "") for path, text in built.items()} == wanted
+    built = models()
+    assert {path: text.replace("  // mine\n", "") for path, text in built.items()} == fresh_models(conflict / "fresh")
     assert sum("// mine" in text for text in built.values()) == bool(then)
 
 

@@ -18,6 +18,7 @@ from support.commands import Execute
 from support.files import unchanged
 from support.git import NEEDS_GIT, Repository
 from support.meshes import stl
+from support.replay import contents
 from support.xacros import EXPANDED, RECORD
 
 from urdfsync import dependencies
@@ -86,12 +87,6 @@ def get_package_share_directory(name):
 """Where ROS 2 has its packages, in few words: xacro asks it for them."""
 
 
-def outputs(folder: Path) -> dict[str, bytes]:
-    """All files of the package."""
-    files = (path for path in (folder / "modelica").rglob("*") if path.is_file())
-    return {path.relative_to(folder).as_posix(): path.read_bytes() for path in files}
-
-
 def test_the_package_is_that_of_ros_own_xacro(
     project: Path, tmp_path_factory: pytest.TempPathFactory, execute: Execute, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -114,7 +109,7 @@ def test_the_package_is_that_of_ros_own_xacro(
     settings = f'package = "Arm"\npackage_paths = ["{prefix}/share"]\n'
     xacros.write(project, {"arm.urdf.xacro": source}, xacros.CONFIG.replace('package = "Arm"\n', settings))
     execute("build")
-    built = outputs(project)
+    built = contents(project / "modelica")
     numbers = b"".join(text for name, text in built.items() if name.endswith("Parameters.mo"))
     assert all(text in numbers for text in (b"mass = 1.7278759594743864", b"mu = 0.30000000000000004", b"on = 50"))
     assert any(name.endswith(".stl") for name in built)
@@ -126,7 +121,7 @@ def test_the_package_is_that_of_ros_own_xacro(
     shutil.rmtree(project / "modelica")
     shutil.rmtree(project / ".urdfsync")
     execute("build")
-    assert outputs(project) == built
+    assert contents(project / "modelica") == built
 
 
 @pytest.mark.parametrize(
@@ -169,7 +164,7 @@ def test_what_a_macro_says_twice_is_listed_once(project: Path, execute: Execute)
 
 
 def test_the_expansion_is_written_if_a_hash_changed_and_only_then(built: Path, execute: Execute) -> None:
-    package, before = outputs(built), EXPANDED.read_bytes()
+    package, before = contents(built / "modelica"), EXPANDED.read_bytes()
     (built / "urdf/parts/other.xacro").write_text("nobody reads this")
     (built / "urdf/masses.yaml").write_text("upper: 1.5\r\n", newline="")
     (built / "urdf/arm.urdf.xacro").touch()
@@ -182,7 +177,7 @@ def test_the_expansion_is_written_if_a_hash_changed_and_only_then(built: Path, e
     after = EXPANDED.read_bytes()
     assert after != before
     assert after.partition(b"<?xml")[2] == before.partition(b"<?xml")[2]
-    assert outputs(built) == package
+    assert contents(built / "modelica") == package
     execute("build")
     assert EXPANDED.read_bytes() == after
 

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import contextlib
+import shutil
 from collections.abc import Iterator
 from pathlib import Path
+
+from urdfsync import api
 
 
 def snapshot(folder: Path) -> dict[str, tuple[int, bytes]]:
@@ -19,3 +22,17 @@ def unchanged(folder: Path, but: str = "") -> Iterator[None]:
     before = {**snapshot(folder), but: None}
     yield
     assert {**snapshot(folder), but: None} == before
+
+
+def models() -> dict[str, str]:
+    """The models and records of all packages in the working folder, by path."""
+    return {path.as_posix(): path.read_text() for path in sorted(Path("modelica").rglob("*.mo"))}
+
+
+def fresh_models(folder: Path) -> dict[str, str]:
+    """The same as they are built from the source alone, in a copy of the working folder."""
+    shutil.rmtree(folder, ignore_errors=True)
+    left_out = shutil.ignore_patterns(".git", ".urdfsync", "modelica", folder.name)
+    with contextlib.chdir(shutil.copytree(Path.cwd(), folder, ignore=left_out)):
+        assert not any(result.failed for result in api.build())
+        return models()
