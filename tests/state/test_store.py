@@ -58,7 +58,6 @@ def test_what_was_loaded_is_compared_with_what_is_there(tmp_path: Path, after: b
     assert Store(tmp_path).is_unchanged(hashes)
     expanded.write_bytes(b"made")
     assert not Store(tmp_path).is_unchanged(hashes)
-    assert Store(tmp_path).is_unchanged(hashes, but=[expanded])
     expanded.unlink()
     state.write_bytes(after) if after else state.unlink()
     assert not Store(tmp_path).is_unchanged(hashes)

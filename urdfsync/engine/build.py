@@ -127,14 +127,8 @@ class _Builder:
         raise OutputError.of("restless", message, shown(saved), hint=hint)
 
     def _is_current(self, plan: Plan) -> bool:
-        """Return whether no other build wrote, or began to, since the plan was made.
-
-        Nearly every build writes the record as its last file, so it is read again here; the others are when they are
-        written.
-        """
-        targets = {change.path for change in plan.writes[:-1]}
-        is_writing = self._transactions.is_pending()
-        return not is_writing and Store(self._config.root).is_unchanged(plan.state, targets)
+        """Return whether no other build wrote, or began to, since the plan was made."""
+        return not self._transactions.is_pending() and Store(self._config.root).is_unchanged(plan.state)
 
     def _recover(self) -> None:
         """Wait for a build that is writing; finish what a killed build left."""

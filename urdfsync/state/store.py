@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TypeAlias
 
@@ -193,10 +193,10 @@ class Store:
         files = ((path, content) for path, content in loaded if below not in path.parents)
         return {path: None if content is None else digest(content) for path, content in files}
 
-    def is_unchanged(self, hashes: StateHashes, but: Collection[Path] = ()) -> bool:
-        """Whether all files still are as they were then, but for some that somebody else looks at."""
+    def is_unchanged(self, hashes: StateHashes) -> bool:
+        """Whether all files still are as they were then."""
         tree = Tree(self._tree.root)  # which finds folders that have come since
-        contents = ((tree.read(path), before) for path, before in hashes.items() if path not in but)
+        contents = ((tree.read(path), before) for path, before in hashes.items())
         return all((None if content is None else digest(content)) == before for content, before in contents)
 
     def _bytes(self, path: Path) -> bytes | None:
