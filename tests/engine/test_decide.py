@@ -24,6 +24,7 @@ from support.networks import (
     drop,
     edit,
     failure,
+    inner_kinds,
     kinds,
     own_model,
     rename,
@@ -40,7 +41,6 @@ from urdfsync.files import text_digest
 from urdfsync.state.record import Choice
 
 ASIDE = Path(".urdfsync/conflicts/ladder/Elements")
-BELOW = f"{LADDER}/"
 SHUNT = f"{LADDER}/Elements/Shunt.mo"
 MAY, SENSOR = "  // measured in May\nend R1", "  // a sensor here\nequation"
 
@@ -649,7 +649,7 @@ def test_a_conflict_holds_back_structure_but_not_numbers_until_it_is_resolved(
     source('"R2"', '"R3"')
     edit(f"{LADDER}/Ladder.mo", "end Ladder;", "// mine\nend Ladder;")
     first = run()
-    assert kinds(first, BELOW) == {"Elements/R1Parameters.mo": Reason.UPDATE, "Ladder.mo": Reason.CONFLICT}
+    assert inner_kinds(first) == {"Elements/R1Parameters.mo": Reason.UPDATE, "Ladder.mo": Reason.CONFLICT}
     after = snapshot_of(project / LADDER)
     assert {path for path in before if before[path] != after[path]} == {"Ladder.mo", "Elements/R1Parameters.mo"}
     assert b"// mine" in after["Ladder.mo"][1]
@@ -658,13 +658,13 @@ def test_a_conflict_holds_back_structure_but_not_numbers_until_it_is_resolved(
         assert {action.path.removeprefix(f"{LADDER}/") for action in result.actions if action.is_waiting} == waiting
         assert exit_code([result]) is Exit.CONFLICT
     source('"R3"', '"R2"')
-    assert kinds(run(), BELOW) == {"Ladder.mo": Reason.KEEP}, "the source came back"
+    assert inner_kinds(run()) == {"Ladder.mo": Reason.KEEP}, "the source came back"
     source('"R2"', '"R3"')
-    assert kinds(run(), BELOW) == {"Ladder.mo": Reason.CONFLICT}
+    assert inner_kinds(run()) == {"Ladder.mo": Reason.CONFLICT}
     Path(f"{LADDER}/Ladder.mo").unlink()
     resolved = run()
     assert exit_code([resolved]) is Exit.IN_STEP
-    assert kinds(resolved, BELOW)["Ladder.mo"] is Reason.RESTORE
-    assert kinds(resolved, BELOW)["Elements/R3.mo"] is Reason.CREATE
+    assert inner_kinds(resolved)["Ladder.mo"] is Reason.RESTORE
+    assert inner_kinds(resolved)["Elements/R3.mo"] is Reason.CREATE
     assert not (project / LADDER / "Elements/R2.mo").exists()
     assert run().in_step

@@ -113,10 +113,10 @@ def failure(**request: Any) -> str:
     return "\n".join(map(str, result.diagnostics)).replace("\\", "/")
 
 
-def kinds(result: Result, folder: str = "") -> dict[str, Reason]:
-    """What happens to each file that does not just stay and does not wait, by its path below a folder."""
+def kinds(result: Result) -> dict[str, Reason]:
+    """What happens to each file that does not just stay and does not wait."""
     actions = (action for action in result.actions if action.reason is not Reason.UNCHANGED and not action.is_waiting)
-    return {action.path.removeprefix(folder): action.reason for action in actions}
+    return {action.path: action.reason for action in actions}
 
 
 def said(result: Result) -> list[str]:
@@ -136,7 +136,7 @@ def mentioned() -> set[str]:
 
 def inner_kinds(result: Result) -> dict[str, Reason]:
     """What `kinds` says, by the path below the package."""
-    return kinds(result, f"{LADDER}/")
+    return {path.removeprefix(f"{LADDER}/"): reason for path, reason in kinds(result).items()}
 
 
 def conflicts(**request: Any) -> list[str]:

@@ -167,7 +167,7 @@ def _compare(
     failed = {result.robot for result in results if result.failed}
     accepted, problems = set[str](), list[Diagnostic]()
     for path, (result, before) in targets.items():
-        after, place = actions.get(path), shown(Path(os.path.normpath(result.root / (before.origin or path))))
+        after, place = actions.get(path), result.shown(before.origin or path)
         if result.robot in failed:
             continue
         if after is not None and after.sides != before.sides:

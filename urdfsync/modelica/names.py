@@ -65,11 +65,11 @@ def is_class_name(name: str) -> bool:
     return free and is_identifier(name) and name[:1].isupper()
 
 
-def class_name(text: str, fallback: str = "Robot") -> str:
+def class_name(text: str) -> str:
     """Return a class name in capitals-first style made from any text: `my-robot v2` becomes `MyRobotV2`."""
     words = re.findall(r"[A-Za-z0-9]+", text)
     name = "".join(word[0].upper() + word[1:] for word in words)
-    return name if is_class_name(name) else fallback + name
+    return name if is_class_name(name) else f"Robot{name}"
 
 
 def within(package: str) -> str:
