@@ -18,7 +18,6 @@ from urdfsync.output.console import Console
 pytestmark = pytest.mark.usefixtures("folder")
 
 ELBOW = "modelica/Arm/Elbow.mo"
-SAVED = ".urdfsync/conflicts/arm/Elbow"
 BASE = "within Arm;\nmodel Elbow\n  Real a = 1;\n\n  Real b = 2;\nend Elbow;\n"
 EDITED = BASE.replace("a = 1;", "a = 1; // measured")
 EXPORTED = BASE.replace("b = 2;", "b = 3;")
