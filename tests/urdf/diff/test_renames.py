@@ -6,6 +6,7 @@ import copy
 from collections.abc import Mapping
 from random import Random
 
+import msgspec
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -14,10 +15,10 @@ from support import mutations
 from urdfsync.changes import compare
 from urdfsync.domain import ChangeKind, ElementKey, Snapshot, Version
 from urdfsync.engine import renames
-from urdfsync.urdf.diff.renames import find_renames
+from urdfsync.urdf.diff.renames import comparable, find_renames
 from urdfsync.urdf.domain import DOMAIN
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import Inertial, Joint, Link, Mimic, Origin, Robot
+from urdfsync.urdf.robot import Inertial, Joint, Link, Loop, Mimic, Origin, Robot
 from urdfsync.urdf.snapshot import to_snapshot
 
 
@@ -29,10 +30,11 @@ def joint(name: str, parent: str, child: str, x: float = 0.0, mimic: str = "") -
     return Joint(name, "continuous", parent, child, Origin((x, 0.0, 0.0)), mimic=Mimic(mimic) if mimic else None)
 
 
-def snapshot(*elements: Link | Joint) -> Snapshot:
+def snapshot(*elements: Link | Joint | Loop) -> Snapshot:
     links = tuple(element for element in elements if isinstance(element, Link))
     joints = tuple(element for element in elements if isinstance(element, Joint))
-    return to_snapshot(Robot("robot", links, joints))
+    loops = tuple(element for element in elements if isinstance(element, Loop))
+    return to_snapshot(Robot("robot", links, joints, loops=loops))
 
 
 ARM = (
@@ -42,6 +44,10 @@ ARM = (
     joint("shoulder", "base", "upper"),
     joint("elbow", "upper", "lower"),
 )
+
+
+def loop(name: str, parent: str, child: str) -> Loop:
+    return Loop(name, "ball", parent, child)
 
 
 def with_names(old: Snapshot, new: Mapping[ElementKey, str]) -> Snapshot:
@@ -158,6 +164,40 @@ def test_what_is_certain_is_a_rename(old: Snapshot, new: Snapshot, names: Mappin
     assert find_renames(old, new) == names
 
 
+@pytest.mark.parametrize(
+    ("old", "new", "names"),
+    [
+        pytest.param([loop("a", "base", "lower")], [loop("b", "base", "lower")], {"a": "b"}, id="the only one"),
+        pytest.param(
+            [loop("a", "base", "lower")], [loop("b", "lower", "base")], {"a": "b"}, id="with its ends in other places"
+        ),
+        pytest.param([loop("a", "base", "lower")], [loop("b", "base", "upper")], {}, id="another end"),
+        pytest.param(
+            [loop("a", "base", "lower"), loop("b", "base", "lower")],
+            [loop("a", "base", "lower"), loop("c", "base", "lower")],
+            {"b": "c"},
+            id="one of two",
+        ),
+        pytest.param(
+            [loop("a", "base", "lower"), loop("b", "base", "lower")],
+            [loop("c", "base", "lower"), loop("d", "base", "lower")],
+            {},
+            id="both of two",
+        ),
+    ],
+)
+def test_the_only_loop_between_two_links_is_the_same(
+    old: list[Loop], new: list[Loop], names: Mapping[str, str]
+) -> None:
+    expected = {("loop", name): renamed for name, renamed in names.items()}
+    assert find_renames(snapshot(*ARM, *old), snapshot(*ARM, *new)) == expected
+    other = [msgspec.structs.replace(each, **{"child": "hand"} if each.child == "lower" else {}) for each in new]
+    hand = link("hand", 3), joint("elbow", "upper", "hand")
+    if all(each.child == "lower" for each in new):
+        found = find_renames(snapshot(*ARM, *old), snapshot(*ARM[:2], ARM[3], *hand, *other))
+        assert found == {**expected, ("link", "lower"): "hand"}, "under the new names of the links"
+
+
 @given(st.randoms(use_true_random=False), st.integers(0, 2))
 def test_what_is_recognised_is_true(random: Random, others: int) -> None:
     """Fresh names for some elements, some of them declared, and other changes beside: no match is ever wrong."""
@@ -179,3 +219,36 @@ def test_what_is_recognised_is_true(random: Random, others: int) -> None:
     found = renames.find_renames(DOMAIN, old.snapshot, new, declared)
     assert {key: renamed for key, renamed in names.items() if key[1] in declared}.items() <= found.items()
     assert found.items() <= names.items()
+
+
+def test_elements_have_their_new_names_wherever_they_are_mentioned() -> None:
+    old = {
+        **snapshot(*ARM, link("tip"), joint("wrist", "lower", "tip", mimic="elbow"), loop("rod", "base", "lower")),
+        "extensions": {
+            "link lower": {"sensor": ['<sensor name="eye"/>'] * 2},
+            "joint elbow": {"hardware": ["<hardware/>"]},
+            "robot": {"gazebo": ["<gazebo/>", "<gazebo/>"]},
+        },
+    }
+    names = {("link", "lower"): "fore", ("joint", "elbow"): "bend", ("loop", "rod"): "bar"}
+    found = comparable(old, names)
+    assert found["links"].keys() == {"base", "upper", "fore", "tip"}
+    bend, wrist = found["joints"]["bend"], found["joints"]["wrist"]
+    assert (bend["child"], wrist["parent"], wrist["mimic"]["joint"]) == ("fore", "fore", "bend")
+    assert (bend["drive"], "drive" in wrist) == ("driven", False)
+    assert {name: each["child"] for name, each in found["loops"].items()} == {"bar": "fore"}
+    assert {owner: [*tags] for owner, tags in found["extensions"].items()} == {
+        "link fore": ["sensor eye", "sensor eye (2)"],
+        "joint bend": ["hardware"],
+        "robot": ["gazebo", "gazebo (2)"],
+    }
+
+
+def test_an_element_whose_name_went_to_another_one_is_left_out() -> None:
+    """`upper` is called `lower` now; what was `lower` is another element, and gone."""
+    names = {("link", "upper"): "lower", ("joint", "shoulder"): "elbow", ("loop", "rod"): "bar"}
+    old = snapshot(*ARM, loop("rod", "base", "lower"), loop("bar", "base", "upper"))
+    found = comparable(old, names)
+    assert (found["links"].keys(), found["joints"].keys()) == ({"base", "lower"}, {"elbow"})
+    assert found["joints"]["elbow"]["child"] == "lower"
+    assert found["loops"].keys() == {"bar"}
