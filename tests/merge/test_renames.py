@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import pytest
+
 from urdfsync.merge import merge
 from urdfsync.merge.renames import rename, without_clashes
 
@@ -59,3 +61,24 @@ def test_names_that_swap_or_follow_each_other_have_no_clash() -> None:
     assert without_clashes({"a": "b", "b": "a"}, "a = b") == {"a": "b", "b": "a"}
     assert without_clashes({"a": "b", "b": "c"}, "a = b") == {"a": "b", "b": "c"}
     assert without_clashes({"a": "b", "b": "c"}, "a = b + c") == {}
+    assert without_clashes({"a": "b"}, "a b") == {}
+
+
+@pytest.mark.parametrize(
+    ("base", "mine", "generated", "merged"),
+    [
+        pytest.param("B a(m = 1);", "B x(m = 1);", "B a(m = 2);", "B x(m = 2);", id="the only one like it"),
+        pytest.param("B a(m = 1);", "B x(m = 3);", "B a(m = 2);", None, id="with another number"),
+        pytest.param("B a(m = 1);", "B x(m = 1), y(m = 1);", "B a(m = 2);", None, id="two are like it"),
+        pytest.param(
+            'B a(m = 1) "a";', 'B x(m = 1) "a" annotation (Placement());', 'B a(m = 2) "a";',
+            'B x(m = 2) "a" annotation (Placement());', id="with another layout",
+        ),
+    ],
+)  # fmt: skip
+def test_a_component_that_the_user_renamed_takes_what_the_export_changes(
+    base: str, mine: str, generated: str, merged: str | None
+) -> None:
+    texts = (f"model A\n  {text}\nequation\n  c = 1;\nend A;\n" for text in (base, mine, generated))
+    expected = None if merged is None else f"model A\n  {merged}\nequation\n  c = 1;\nend A;\n"
+    assert merge(*texts, is_modelica=True).text == expected

@@ -37,6 +37,10 @@ PATHS = {
         ("when a then\n  x = 1;\nend", "when a then\n  x = 1;\n  y = 3;\nend", "when a then\n  x = 7;\nend"),
         "when `a`: you added `y = 3;`, the export changed `x = 1;` to `x = 7;`",
     ),
+    ("body", "when b", "equation"): (
+        ("1;\n2;\n3;\n4;", "1;\n7;\n3;\n4;", "1;\n2;\n8;\n4;"),
+        "when `b`: you changed `2;` to `7;`, the export changed `3;` to `8;`",
+    ),
     ("body", "statements of algorithm 1"): (
         ("x := 1;\ny := 2;", "x := 1;", "x := 1;\ny := 2;\nz := 3;"),
         "statements of algorithm 1: you removed `y := 2;`, the export added `z := 3;`",
