@@ -27,7 +27,7 @@ from urdfsync.files import shown
 from urdfsync.workers import tell
 
 _STEP = 0.04
-"""Seconds between two points of a curve. The motion jumps at halves of a second, which are no multiples."""
+"""Seconds between two points of a curve."""
 
 
 def known_check(config: Config, robot: RobotConfig) -> CheckResult | None:

@@ -1,7 +1,8 @@
 """The motion of a robot in the comparison: a function of names and limits alone, the same on every machine.
 
-One simulation goes through all instants, since compiling is what costs. Around each instant base and axes follow
-parabolas, so that position, speed and acceleration are what they are to be, and jump to the next in between.
+One simulation goes through all instants, since compiling is what costs. At each instant base and axes have the
+position, speed and acceleration that they are to have. In between they go on smoothly: joints in loops follow by
+integration, which jumps would stop.
 """
 
 from __future__ import annotations

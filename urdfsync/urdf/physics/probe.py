@@ -21,7 +21,7 @@ from urdfsync.urdf.physics.subject import Subject
 from urdfsync.urdf.robot import MOTION_KINDS, MOTIONS, Joint, Origin
 
 _FAR_GROUND = -1e9  # m: the ground is that far down, and nothing touches
-_JUMPS, _WAY, _PARTS = ((Path(__file__).parent / f"{name}.mo").read_text("utf-8") for name in ("jumps", "way", "parts"))
+_PARTS = (Path(__file__).parent / "parts.mo").read_text("utf-8")
 
 FORCE = tuple(f"base.frame_b.f[{i}]" for i in (1, 2, 3))
 TORQUE = tuple(f"base.frame_b.t[{i}]" for i in (1, 2, 3))
@@ -137,7 +137,7 @@ def moving_probe(
     ways = zip(("x", "y", "z", "turn"), subject.base, strict=True)
     tables = ", ".join(f"{name} = {table(course)}" for name, course in ways)
     declarations.append(f"MovingBase base({tables}, axis = {vector(motion.TURN_AXIS)})")
-    source = _text(target, options, "", declarations, connections, bool(subject.tree.loops))
+    source = _text(target, options, "", declarations, connections)
     last = float(max(motion.Instant))
     # loops are closed by integration: what it leaves open shows in accelerations, by the square of its rate of decay
     tolerance = 1e-11 if subject.tree.loops else None
@@ -178,7 +178,7 @@ def free_probe(
     for k, (joint, effort) in enumerate(zip(axes, efforts, strict=True), 1):
         declarations.append(f"{MOTION_KINDS[joint.type].capitalize()}Push push{k}(effort = {effort!r})")
         connections.append(f"push{k}.flange, {names.flanges[joint.name]}")
-    source = _text(subject.target, options, bench, declarations, connections, bool(subject.tree.loops))
+    source = _text(subject.target, options, bench, declarations, connections)
     return Probe(source, "Probe_.Probe", 1e-6, 1e-6, tuple(values))
 
 
@@ -216,18 +216,14 @@ def _text(
     bench: str,
     declarations: Iterable[str],
     connections: Iterable[str],
-    has_loops: bool,
 ) -> str:
-    """Return the package `Probe_`, whose model `Probe` may extend a bench.
-
-    Joints in loops follow by integration, which jumps of others would stop.
-    """
+    """Return the package `Probe_`, whose model `Probe` may extend a bench."""
     libraries = [name for name, _ in options.uses]
     imports = dict.fromkeys([*libraries, target.package.partition(".")[0]])  # rumoca loads no others
     lines = [
         "package Probe_",
         *(f"  import {library};" for library in imports),
-        (_WAY if has_loops else _JUMPS) + _PARTS,
+        _PARTS,
         "  model Probe",
         *([f"    extends {bench};"] if bench else []),
         *(f"    {declaration};" for declaration in declarations),

@@ -96,12 +96,11 @@ class Subject:
         return self.reference.state([course[instant] for course in courses], [c[instant] for c in self.base])
 
     def solve_at(self, time: float) -> Solution:
-        """Return what is expected at any time of the motion, as the probe's .mo files say it. Raises OpenLoopError."""
-        second = math.floor(time) if self.tree.loops else math.floor(time + 0.5)
+        """Return what is expected at any time of the motion, as `parts.mo` says it. Raises OpenLoopError."""
+        second = math.floor(time)
 
         def at(courses: Sequence[Course]) -> Course:
-            course, rest = courses[second], time - second
-            return course.toward(courses[second + 1], rest) if self.tree.loops else course.ahead(rest)
+            return courses[second].toward(courses[second + 1], time - second)
 
         return self.reference.solve(self.reference.state([*map(at, self.courses)], [*map(at, self.base)]))
 
