@@ -15,7 +15,7 @@ from urdfsync.urdf.drives import assembly
 from urdfsync.urdf.kinematics.loops import Closure
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.model.joint import joint_model, joint_record, joint_title
-from urdfsync.urdf.model.loop import loop_data, loop_note, loop_record, loop_title
+from urdfsync.urdf.model.loop import loop_note, loop_reaches, loop_record, loop_title
 from urdfsync.urdf.model.record import obstacles, record_data
 from urdfsync.urdf.model.robot import bench_data, robot_data
 from urdfsync.urdf.model.sensors import sensor_records
@@ -33,16 +33,16 @@ def artifacts(robot: Robot, imports: Mapping[str, Import], target: Target, optio
     Raises KeyError or ValueError for a robot that does not pass all checks, or has meshes without their facts.
     """
     tree, package, folders = _tree(robot, target), target.package, dict[str, list[Artifact]]()
-    names, driven, loops = connector_names(tree, options), assembly(tree, options).driven, loop_data(tree, options)
-    tree = loops.tree
+    names, closed = connector_names(tree, options), assembly(tree, options)
+    tree = closed.tree
     is_whole, starts = "package" in options.approach, {j.name: tree.joint(j.name).component for j in tree.starts()}
     files, parameters = list[Artifact](), list[Artifact]()
     if "record" in options.approach:
         data = record_data(robot.name, tree, names, imports, package, options)
         parameters.append(_of_robot(_PARAMETERS, target, options, data, Role.RECORD))
     if is_whole:
-        benches = bench_data(tree, names, options, loops)
-        files.append(_of_robot("", target, options, robot_data(tree.structure(), names, loops.dependent)))
+        benches = bench_data(closed, names, options)
+        files.append(_of_robot("", target, options, robot_data(tree.structure(), names, closed.dependent)))
         files.append(_of_robot("Run", target, options, benches))
         files.append(_of_robot("Test", target, options, benches))
     else:
@@ -61,7 +61,7 @@ def artifacts(robot: Robot, imports: Mapping[str, Import], target: Target, optio
             {"component": starts[joint.name], "motion": MOTION_KINDS[joint.type], "joint": joint}
             for joint in tree.starts()
         ]
-        data = {"starts": begin, "reaches": list(loops.reaches.values()), "has_loops": bool(tree.loops)}
+        data = {"starts": begin, "reaches": list(loop_reaches(closed).values()), "has_loops": bool(tree.loops)}
         files.append(_of_robot("Start", target, options, data, Role.RECORD))
     if is_whole:
         files += parameters
@@ -70,8 +70,10 @@ def artifacts(robot: Robot, imports: Mapping[str, Import], target: Target, optio
             # Modelica's frames need a root, which is a body: a robot without any keeps one, without mass
             root = msgspec.structs.replace(root, inertial=Inertial())
         folders["Links"] = [file for link in (root, *others) for file in _link(tree, link, imports, package, options)]
-        joints = [file for joint in tree.joints for file in _joint(tree, joint, package, options, joint.name in driven)]
-        joints += [file for loop in tree.loops for file in _loop(tree, loop, loops.closures[loop.name], package)]
+        joints = [
+            file for joint in tree.joints for file in _joint(tree, joint, package, options, joint.name in closed.driven)
+        ]
+        joints += [file for loop in tree.loops for file in _loop(tree, loop, closed.closures[loop.name], package)]
         if joints:
             folders["Joints"] = joints
     parent, _, last = package.rpartition(".")

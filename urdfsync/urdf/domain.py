@@ -81,7 +81,7 @@ class UrdfDomain(Domain):
         closed = assembly(tree, options)
         about_options = list(option_names.check_options(tree, closed, options))
         stated, of_source = {f"loop {loop.name}": loop.name for loop in options.loops}, list[Finding]()
-        for finding in find_loop_findings(tree, closed):
+        for finding in find_loop_findings(closed):
             if name := stated.get(finding.path):
                 about_options.append((f"loops.{name}", diagnostic(finding.code, finding.message, 0, finding.hint)))
             else:

@@ -26,7 +26,7 @@ def assembly(tree: KinematicTree, options: Options) -> Assembly:
     """
     wanted = wanted_joints(tree.joints, options)
     if not tree.loops:
-        return Assembly(driven=wanted)
+        return Assembly(tree=tree, driven=wanted)
     actuated = {joint.name for joint in tree.joints if joint.actuated}
     named = actuated.union(options.commands) if options.driven is None else options.driven
     return _assemble(tree, wanted, frozenset(named))

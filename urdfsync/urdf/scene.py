@@ -11,11 +11,11 @@ import msgspec
 from urdfsync import scene as scenes
 from urdfsync.domain import Import, Target
 from urdfsync.scene import Body, End, Hinge, Pose, Scene, Shape
+from urdfsync.urdf.drives import assembly
 from urdfsync.urdf.kinematics import poses
 from urdfsync.urdf.kinematics.loops import Closure
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.meshes import lookup
-from urdfsync.urdf.model.loop import loop_data
 from urdfsync.urdf.model.shapes import link_shapes
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS, Joint, Link, Loop, Mesh, Robot, Unit
@@ -29,14 +29,14 @@ def scene(robot: Robot, imports: Mapping[str, Import], target: Target, options: 
     imports = {
         key: file if file.facts else msgspec.structs.replace(file, facts=_NO_FACTS) for key, file in imports.items()
     }
-    data = loop_data(KinematicTree.of(robot, (target.name,)), options)
-    tree = data.tree
+    closed = assembly(KinematicTree.of(robot, (target.name,)), options)
+    tree = closed.tree
     starts = poses.start_positions(tree)
     bodies = tuple(_body(tree, link, imports, target, options) for link in tree.links)
     hinges = tuple(
-        _hinge(tree, joint, starts[joint.name], joint.name in data.dependent) for joint in tree.leaders_first()
+        _hinge(tree, joint, starts[joint.name], joint.name in closed.dependent) for joint in tree.leaders_first()
     )
-    loops = tuple(_loop(tree, loop, data.closures[loop.name]) for loop in tree.loops)
+    loops = tuple(_loop(tree, loop, closed.closures[loop.name]) for loop in tree.loops)
     return Scene(bodies, hinges, tuple(_missing(tree, imports)), loops)
 
 

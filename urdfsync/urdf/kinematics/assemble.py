@@ -16,7 +16,7 @@ from msgspec.structs import replace
 
 from urdfsync.urdf.kinematics.loops import Assembly, Closure, Gap
 from urdfsync.urdf.kinematics.mechanism import AXES, ORIGIN, Array, Equation, Mechanism, Rows, array_of
-from urdfsync.urdf.kinematics.poses import across, own_range, position_ranges, start_positions
+from urdfsync.urdf.kinematics.poses import across, own_range, position_ranges
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.robot import MOTION_KINDS, Joint, Loop, Vector
 from urdfsync.urdf.validate import Finding
@@ -125,7 +125,7 @@ def assemble(tree: KinematicTree, wanted: frozenset[str], named: frozenset[str])
     except np.linalg.LinAlgError:
         name = tree.loops[0].name
         faults = (Finding("loop-open", f"loop {name}", f"loop {name!r} has numbers that are too large"),)
-    return Assembly(driven=wanted, faults=faults)
+    return Assembly(tree=tree, driven=wanted, faults=faults)
 
 
 def _assemble(tree: KinematicTree, wanted: frozenset[str], named: frozenset[str]) -> Assembly:
@@ -162,10 +162,9 @@ def _assemble(tree: KinematicTree, wanted: frozenset[str], named: frozenset[str]
     moved = {names[k] for k in driven}
     starts = dict(zip(names, map(float, q), strict=True))
     joints = tuple(replace(joint, start=starts.get(joint.name, joint.start)) for joint in tree.joints)
-    positions = start_positions(replace(tree, joints=joints))
     return Assembly(
+        tree=replace(tree, joints=joints),
         joints=tuple(joint.name for joint in joints if joint.name in in_loops),
-        positions={joint.name: positions[joint.name] for joint in joints if joint.type in MOTION_KINDS},
         states=tuple(names[k] for k in states),
         driven=frozenset(joint.name for joint in joints if joint.name in moved | (wanted - in_loops)),
         excess=tuple(name for name in names if name in named - moved),

@@ -44,6 +44,8 @@ class Closure(msgspec.Struct, frozen=True):
 class Assembly(msgspec.Struct, frozen=True, kw_only=True):
     """A robot whose loops are closed, or why they can't be; a robot without loops has the drives alone."""
 
+    tree: KinematicTree
+    """The robot; joints that move a loop begin where it is closed, at the start of the source if that closes it."""
     driven: frozenset[str]
     """All joints of the robot that are driven."""
     joints: tuple[str, ...] = ()
@@ -53,8 +55,6 @@ class Assembly(msgspec.Struct, frozen=True, kw_only=True):
 
     There are as many as joints without followers, less the rank of the constraints at generic poses.
     """
-    positions: Mapping[str, float] = {}
-    """Start of all joints with one axis, within limits. The start of the source, if it can be closed."""
     excess: tuple[str, ...] = ()
     """Named drives that are not driven, since others move the loops already."""
     reach: Mapping[str, float] = {}
@@ -63,7 +63,7 @@ class Assembly(msgspec.Struct, frozen=True, kw_only=True):
     gaps: Mapping[str, Gap] = {}
     """Of the start of the source."""
     faults: tuple[Finding, ...] = ()
-    """Why the loops can't be closed: then there is no more than the drives."""
+    """Why the loops can't be closed: then there is no more than the robot as it was, and the drives."""
 
     @property
     def dependent(self) -> frozenset[str]:
@@ -71,7 +71,7 @@ class Assembly(msgspec.Struct, frozen=True, kw_only=True):
         return frozenset(self.joints).difference(self.states)
 
 
-def find_loop_findings(tree: KinematicTree, closed: Assembly) -> Iterator[Finding]:
+def find_loop_findings(closed: Assembly) -> Iterator[Finding]:
     """Yield why loops have no model, or else what their model has that the source does not say."""
     yield from closed.faults
     for name, gap in closed.gaps.items():
@@ -83,4 +83,4 @@ def find_loop_findings(tree: KinematicTree, closed: Assembly) -> Iterator[Findin
     if closed.excess:
         names, freedoms = ", ".join(map(repr, closed.excess)), len(closed.states)
         message = f"joints {names} are not driven: the loops leave {freedoms} freedoms, which others move"
-        yield Finding("loop-excess", f"loop {tree.loops[0].name}", message)
+        yield Finding("loop-excess", f"loop {closed.tree.loops[0].name}", message)

@@ -3,42 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, NamedTuple
-
-from msgspec.structs import replace
+from typing import Any
 
 from urdfsync.modelica.literals import html
 from urdfsync.urdf.connectors import free_name, taken_names
-from urdfsync.urdf.drives import assembly, can_be_driven
-from urdfsync.urdf.kinematics.loops import Closure
-from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import MOTION_KINDS, Joint, Loop
+from urdfsync.urdf.kinematics.loops import Assembly, Closure
+from urdfsync.urdf.robot import MOTION_KINDS, Loop
 
 
-class LoopData(NamedTuple):
-    """The parts of a package that loops change."""
-
-    tree: KinematicTree
-    """The robot; joints in loops begin where these are closed."""
-    dependent: frozenset[str]
-    """Joints whose positions follow from those of others through loops."""
-    reaches: Mapping[str, Mapping[str, Any]]
-    """Longest way of the sweep in Test, by driven joint in a loop, as a parameter of the start record."""
-    closures: Mapping[str, Closure]
-
-
-def loop_data(tree: KinematicTree, options: Options) -> LoopData:
-    """Return the data of a robot's loops; there are no closures if these can't be closed."""
-    closed = assembly(tree, options)
-    taken, joints, reaches = taken_names(tree), list[Joint](), dict[str, Mapping[str, Any]]()
-    for joint in tree.joints:
-        name, is_closed = joint.name, joint.name in closed.joints and can_be_driven(joint)
-        joints.append(replace(joint, start=closed.positions[name]) if is_closed else joint)
-        if name in closed.reach:
-            parameter, motion = free_name(tree.joint(name), "Reach", taken), MOTION_KINDS[joint.type]
-            reaches[name] = {"parameter": parameter, "name": name, "motion": motion, "way": closed.reach[name]}
-    return LoopData(replace(tree, joints=tuple(joints)), closed.dependent, reaches, closed.closures)
+def loop_reaches(closed: Assembly) -> Mapping[str, Mapping[str, Any]]:
+    """Return the longest way of the sweep in Test, by driven joint in a loop, as a parameter of the start record."""
+    tree, taken = closed.tree, taken_names(closed.tree)
+    return {
+        joint.name: {
+            "parameter": free_name(tree.joint(joint.name), "Reach", taken),
+            "name": joint.name,
+            "motion": MOTION_KINDS[joint.type],
+            "way": closed.reach[joint.name],
+        }
+        for joint in tree.joints
+        if joint.name in closed.reach
+    }
 
 
 def loop_title(loop: Loop) -> str:

@@ -15,9 +15,10 @@ import msgspec
 from urdfsync.urdf.connectors import Connectors, input_vector
 from urdfsync.urdf.diagram.layout import layout
 from urdfsync.urdf.drives import is_chosen
+from urdfsync.urdf.kinematics.loops import Assembly
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.model.joint import joint_title
-from urdfsync.urdf.model.loop import LoopData, loop_title
+from urdfsync.urdf.model.loop import loop_reaches, loop_title
 from urdfsync.urdf.model.sensors import sensor_models, sensor_outputs
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import MOTION_KINDS
@@ -102,12 +103,13 @@ def robot_data(tree: KinematicTree, names: Connectors, dependent: frozenset[str]
     }
 
 
-def bench_data(tree: KinematicTree, names: Connectors, options: Options, loops: LoopData) -> dict[str, Any]:
+def bench_data(closed: Assembly, names: Connectors, options: Options) -> dict[str, Any]:
     """Return the data of Run and Test.
 
     In the diagram, the robot's icon has one and a half times its size. So its rows are 30 apart, and a drive of 20 fits
     beside each.
     """
+    tree, reaches = closed.tree, loop_reaches(closed)
     top, rows = _icon_top(names), _drives(tree, names)
     sensors = sensor_outputs(tree, names)
     saturated = {joint.name for joint in tree.joints if is_chosen(joint, options.saturated)}
@@ -119,13 +121,13 @@ def bench_data(tree: KinematicTree, names: Connectors, options: Options, loops: 
             | {
                 "input": row[row["command"]],
                 "saturated": row["name"] in saturated,
-                "reach": loops.reaches.get(row["name"]),
+                "reach": reaches.get(row["name"]),
             }
             for row in drives
         ],
         "starts": [tree.joint(joint.name).component for joint in tree.starts()],
         "free": [
-            row["joint"] for row in rows if row["command"] in (None, "effort") and row["name"] not in loops.dependent
+            row["joint"] for row in rows if row["command"] in (None, "effort") and row["name"] not in closed.dependent
         ],
         "has_loops": bool(tree.loops),
         "inputs": options.inputs,

@@ -8,14 +8,13 @@ the other joints follow: J·q̇ = 0 and J·q̈ = -J̇·q̇, where J is the deriv
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from urdfsync.urdf.kinematics.loops import Closure
-from urdfsync.urdf.robot import Loop
+from urdfsync.urdf.kinematics.loops import Assembly
 
 Array = NDArray[np.float64]
 
@@ -45,25 +44,16 @@ class Reaction(NamedTuple):
 class Closing:
     """The loops of a robot; `others` are the joints that follow through these."""
 
-    def __init__(
-        self,
-        pin: Any,
-        model: Any,
-        loops: Sequence[Loop],
-        closures: Mapping[str, Closure],
-        others: Array,
-        start: Array,
-        first: Array,
-    ) -> None:
+    def __init__(self, pin: Any, model: Any, assembly: Assembly, others: Array, start: Array, first: Array) -> None:
         """Add frames to the model.
 
         Positions of all coordinates are those that follow from the axes alone, such as `start`, and `others` times the
         positions of the others, which are `first` at the start.
         """
         self._pin, self._model, self._others, self._start, self._first = pin, model, others, start, first
-        self._closures = [closures[loop.name] for loop in loops]
+        self._closures = [assembly.closures[loop.name] for loop in assembly.tree.loops]
         self._frames = list[tuple[int, int]]()
-        for loop in loops:
+        for loop in assembly.tree.loops:
             ends = (loop.parent, loop.origin), (loop.child, loop.child_origin)
             parent, child = (self._add_frame(link, origin.xyz, origin.rpy) for link, origin in ends)
             self._frames.append((parent, child))

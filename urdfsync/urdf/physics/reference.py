@@ -22,11 +22,12 @@ from numpy.typing import NDArray
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.extras import install_command
 from urdfsync.urdf.kinematics.loops import Assembly
+from urdfsync.urdf.kinematics.poses import start_positions
 from urdfsync.urdf.parse import xml
 from urdfsync.urdf.physics import motion
 from urdfsync.urdf.physics.closing import CLOSED, Closing, Reaction
 from urdfsync.urdf.physics.motion import Course
-from urdfsync.urdf.robot import Loop, Mimic, Sensor, Vector
+from urdfsync.urdf.robot import Mimic, Sensor, Vector
 
 Array = NDArray[np.float64]
 
@@ -153,20 +154,19 @@ class Configuration(msgspec.Struct, frozen=True):
 class Reference:
     """A robot in Pinocchio; `axes` are the names of the joints from which the others follow."""
 
-    def __init__(
-        self, robot: PinocchioRobot, axes: Sequence[str], loops: Sequence[Loop] = (), assembly: Assembly | None = None
-    ) -> None:
+    def __init__(self, robot: PinocchioRobot, axes: Sequence[str], assembly: Assembly | None = None) -> None:
         self.pin, self.model = pinocchio(), robot.model
         self.model.gravity.linear = np.array([0, 0, -motion.GRAVITY])
         self.axes = tuple(axes)
         self.projection, self._offset = self._mimic(robot, self.axes)
         self.closing: Closing | None = None
-        if loops and assembly:
+        if assembly and assembly.closures:
+            starts = start_positions(assembly.tree)
             others = [name for name in assembly.joints if name not in (*self.axes, *robot.followers)]
             followers, _ = self._mimic(robot, others)
-            start = self.projection @ [assembly.positions[name] for name in self.axes] + self._offset
-            first = np.array([assembly.positions[name] for name in others])
-            self.closing = Closing(self.pin, self.model, loops, assembly.closures, followers, start, first)
+            start = self.projection @ [starts[name] for name in self.axes] + self._offset
+            first = np.array([starts[name] for name in others])
+            self.closing = Closing(self.pin, self.model, assembly, followers, start, first)
         self.steepness = np.full(self.model.nv, float(TURNING_STEEPNESS))
         """Steepness of dry friction for each coordinate of Pinocchio's velocity, in s/rad or s/m as in the records."""
         for joint in self.model.joints:

@@ -14,7 +14,6 @@ from urdfsync.domain import Import, Sample
 from urdfsync.urdf.drives import assembly
 from urdfsync.urdf.kinematics.poses import start_positions
 from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.model.loop import loop_data
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.parse import xml
 from urdfsync.urdf.physics import contacts, motion
@@ -31,13 +30,13 @@ class Subject:
 
     def __init__(self, sample: Sample, tree: KinematicTree) -> None:
         options: Options = sample.options
-        self.assembly, closed = assembly(tree, options), loop_data(tree, options)
+        self.assembly = closed = assembly(tree, options)
         self.tree, self.target, self.options = closed.tree, sample.target, options
         self.root: Element = xml.parse(sample.content).root
         self.axes = tuple(joint for joint in motion.driven_axes(tree) if joint.name not in closed.dependent)
         sensed = {sensor.at for sensor in tree.sensors if sensor.kind == "force_torque"}
         names = [joint.name for joint in self.axes]
-        self.reference = Reference(read(sample.content, sample.file, sensed), names, tree.loops, self.assembly)
+        self.reference = Reference(read(sample.content, sample.file, sensed), names, closed)
         self.base = motion.base_courses()
         self.stand: contacts.Stand | None = None
         self.unchecked = dict[str, None]()
