@@ -12,6 +12,7 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from msgspec.structs import replace
+from support import loops
 
 from urdfsync.urdf.kinematics.assemble import assemble
 from urdfsync.urdf.kinematics.loops import Assembly, Closure
@@ -20,6 +21,7 @@ from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.robot import Joint, JointType, Limit, Link, Loop, LoopKind, Mimic, Origin, Robot, Vector
 
 Y, Z = (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
+FIVE_BAR, SPATIAL = map(KinematicTree.of, (loops.FIVE_BAR, loops.SPATIAL))
 
 
 def joint(name: str, kind: JointType, parent: str, child: str, xyz: Vector = (0, 0, 0), **fields: Any) -> Joint:
@@ -108,53 +110,32 @@ def test_a_gap_along_the_normal_is_told_and_too_large_a_fault() -> None:
     assert faults(four_bar(pin=pin(2e-4)), "crank") == [("loop-open", "pin")]
 
 
-def five_bar(*joints: Joint) -> KinematicTree:
-    """Two cranks of 0.2 m, 0.3 m apart, and rods of 0.4 m that meet."""
-    right = joint("right", "continuous", "base", "c", (0.3, 0, 0), start=0.5)
-    bars = [
-        joint("left", "continuous", "base", "a", start=2.6),
-        joint("left_rod", "continuous", "a", "b", (0.2, 0, 0), start=-1.3),
-        joint("right_rod", "continuous", "c", "d", (0.2, 0, 0), start=1.5),
-    ]
-    return tree([*bars, *(joints or [right])], Loop("tip", "ball", "b", "d", Origin((0.4, 0, 0)), Origin((0.4, 0, 0))))
-
-
 def test_a_five_bar_has_two_freedoms_and_one_for_each_that_nothing_drives() -> None:
-    assert assembled(five_bar(), "left", "right").states == ("left", "right")
-    one = assembled(five_bar(), "right")
-    assert (one.driven, one.states[0], len(one.states)) == (frozenset({"right"}), "right", 2)
-    three = assembled(five_bar(), "left", "right", "right_rod")
-    assert (three.driven, three.excess) == (frozenset({"left", "right"}), ("right_rod",))
+    assert assembled(FIVE_BAR, "left_pivot", "right_pivot").states == ("left_pivot", "right_pivot")
+    one = assembled(FIVE_BAR, "right_pivot")
+    assert (one.driven, one.states[0], len(one.states)) == (frozenset({"right_pivot"}), "right_pivot", 2)
+    three = assembled(FIVE_BAR, "left_pivot", "right_pivot", "right_pin")
+    assert (three.driven, three.excess) == (frozenset({"left_pivot", "right_pivot"}), ("right_pin",))
 
 
 def test_cranks_that_are_geared_hold_the_tip_between_them() -> None:
-    geared = five_bar(
-        joint("right", "continuous", "base", "c", (0.3, 0, 0), mimic=Mimic("left", -1, math.pi), start=None)
-    )
-    found = assembled(geared, "left")
-    assert (found.states, found.joints) == (("left",), ("left", "left_rod", "right", "right_rod"))
-    assert start_positions(found.tree)["right"] == math.pi - 2.6
-    x, _, _ = compose(link_poses(geared, start_positions(found.tree))["b"], pose(geared.loops[0].origin))[1]
-    assert x == pytest.approx(0.15, abs=1e-12)
-
-
-def spatial_four_bar(kind: LoopKind) -> KinematicTree:
-    """A crank, a rod on a universal joint, and a rocker whose axis is turned."""
-    joints = [
-        joint("crank", "continuous", "base", "a", start=0.3),
-        joint("first", "continuous", "a", "cross", (0.2, 0, 0), start=0.2),
-        joint("second", "continuous", "cross", "rod", axis=(0, 1, 0), start=0.1),
-        joint("rocker", "continuous", "base", "c", (0.6, 0, 0.1), rpy=(1.2, 0.3, 0), start=1.0),
-    ]
-    return tree(joints, Loop("tip", kind, "rod", "c", Origin((0.5, 0, 0)), Origin((0.4, 0, 0))))
+    left, left_pin, right, right_pin = FIVE_BAR.joints
+    follower = replace(right, mimic=Mimic("left_pivot", -1, math.pi), start=None)
+    geared = replace(FIVE_BAR, joints=(left, left_pin, follower, right_pin))
+    found = assembled(geared, "left_pivot")
+    assert found.states == ("left_pivot",)
+    assert found.joints == ("left_pivot", "left_pin", "right_pivot", "right_pin")
+    assert start_positions(found.tree)["right_pivot"] == math.pi - 2.0
+    (tip,) = geared.loops
+    x, _, _ = compose(link_poses(geared, start_positions(found.tree))["left_rod"], pose(tip.origin))[1]
+    assert x == pytest.approx(0.125, abs=1e-12)
 
 
 def test_a_spatial_loop_is_closed_by_three_equations() -> None:
-    spatial = spatial_four_bar("ball")
-    found = assembled(spatial, "crank")
-    assert distances(spatial, found) == pytest.approx([0], abs=1e-11)
-    assert (found.states, start_positions(found.tree)["crank"]) == (("crank",), 0.3)
-    assert found.closures["tip"] == Closure(((1, 0, 0), (0, 1, 0), (0, 0, 1)), ())
+    found = assembled(SPATIAL, "crank_pivot")
+    assert distances(SPATIAL, found) == pytest.approx([0], abs=1e-11)
+    assert (found.states, start_positions(found.tree)["crank_pivot"]) == (("crank_pivot",), 1.0)
+    assert found.closures["ball"] == Closure(((1, 0, 0), (0, 1, 0), (0, 0, 1)), ())
 
 
 def test_a_spherical_four_bar_is_closed_by_what_its_axes_leave() -> None:
@@ -241,18 +222,15 @@ def test_test_moves_a_rocker_as_far_as_its_loop_allows() -> None:
 
 
 def slider_crank(angle: float) -> KinematicTree:
-    joints = [
-        joint("crank", "continuous", "base", "a", start=angle),
-        joint("rod", "continuous", "a", "b", (0.1, 0, 0), start=-1.2 * angle),
-        joint("slider", "prismatic", "base", "c", axis=(1.0, 0.0, 0.0), start=0.4 - 0.1 * angle, limit=Limit(0, 1)),
-    ]
-    return tree(joints, Loop("pin", "ball", "b", "c", Origin((0.3, 0, 0))))
+    starts = {"crank_pivot": angle, "crank_pin": -1.2 * angle, "slide": 0.5 - 0.1 * angle}
+    joints = tuple(replace(joint, start=starts[joint.name]) for joint in loops.SLIDER_CRANK.joints)
+    return KinematicTree.of(replace(loops.SLIDER_CRANK, joints=joints))
 
 
 def test_a_slider_does_not_drive_a_crank_in_line() -> None:
-    assert faults(slider_crank(0), "slider") == [("loop-singular", "pin")]
-    assert assembled(slider_crank(0), "crank").driven == {"crank"}
-    assert assembled(slider_crank(1), "slider").driven == {"slider"}
+    assert faults(slider_crank(0), "slide") == [("loop-singular", "wrist_pin")]
+    assert assembled(slider_crank(0), "crank_pivot").driven == {"crank_pivot"}
+    assert assembled(slider_crank(1), "slide").driven == {"slide"}
 
 
 def test_loops_that_have_no_model_are_faults() -> None:
@@ -268,7 +246,7 @@ def test_loops_that_have_no_model_are_faults() -> None:
 
 
 def test_rounding_changes_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
-    robots = [four_bar(), five_bar(), spatial_four_bar("ball"), delta()]
+    robots = [four_bar(), FIVE_BAR, SPATIAL, delta()]
     before = [assembled(robot) for robot in robots]
     noise, exact = np.random.default_rng(0), np.linalg.eigh
 
