@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 from support.loops import FOUR_BAR, to_options, to_urdf
-from support.urdfs import dynamics, joint, link, links, robot
+from support.urdfs import dynamics, joint, limit, link, links, robot
 
 from urdfsync.checks.compilation import compare_all
 from urdfsync.diagnostics import SourceError
@@ -150,6 +150,12 @@ def test_with_a_step_poses_and_efforts_are_expected_over_time_and_the_verdict_st
             drawn = motion.expected_over_time[name]
             assert drawn[::5] == pytest.approx(motion.expected[name][:5], abs=1e-12)
             assert len(drawn) == 21
+
+
+def test_limits_that_are_the_greatest_numbers_are_none() -> None:
+    endless = limit(-1.7e308, 1.7e308, 1.7e308, 1.7e308)
+    one = experiment(robot(*links(base=1, arm=1), joint("elbow", "revolute", "base", "arm", inside=[endless])))
+    assert not re.search(r"inf|nan", one.trials[0].probe.source)
 
 
 def test_a_package_without_joints_is_moved_without_the_record_that_it_does_not_have() -> None:

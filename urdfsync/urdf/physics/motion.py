@@ -8,12 +8,12 @@ integration, which jumps would stop.
 from __future__ import annotations
 
 import enum
+import itertools
 import math
 import random
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
-from urdfsync.modelica.literals import vector
 from urdfsync.urdf.kinematics.poses import own_range
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.robot import MOTIONS, Joint, Vector
@@ -21,6 +21,8 @@ from urdfsync.urdf.robot import MOTIONS, Joint, Vector
 GRAVITY = 9.81
 """Along -z of the world, in m/s²."""
 
+ENDLESS = 1e300
+"""From here on a limit is none: numbers that follow from it would have no end."""
 _FARTHEST = 10.0  # limits beyond it (m or rad) say nothing about where a joint is at home, and cost digits
 
 
@@ -36,16 +38,11 @@ class Course(NamedTuple):
         position = self.position + self.speed * time + self.acceleration * time**2 / 2
         return Course(position, self.speed + self.acceleration * time, self.acceleration)
 
-    def toward(self, goal: Course, time: float) -> Course:
-        """Return it on its way to `goal`, one second later, with the speed and the acceleration of both."""
-        here, end = self.ahead(time), self.ahead(1.0)
-        d, v, a = (there - left for there, left in zip(goal, end, strict=True))
-        c3, c4, c5 = 10 * d - 4 * v + a / 2, 7 * v - 15 * d - a, 6 * d - 3 * v + a / 2
-        return Course(
-            here.position + time**3 * (c3 + time * (c4 + time * c5)),
-            here.speed + time**2 * (3 * c3 + time * (4 * c4 + time * 5 * c5)),
-            here.acceleration + time * (6 * c3 + time * (12 * c4 + time * 20 * c5)),
-        )
+    def way_to(self, goal: Course) -> tuple[float, ...]:
+        """Return coefficients of the time since: they lead to a goal one second later, its speed and acceleration."""
+        d, v, a = (there - left for there, left in zip(goal, self.ahead(1.0), strict=True))
+        parabola = self.position, self.speed, self.acceleration / 2
+        return *parabola, 10 * d - 4 * v + a / 2, 7 * v - 15 * d - a, 6 * d - 3 * v + a / 2
 
 
 class Instant(enum.IntEnum):
@@ -113,9 +110,9 @@ _SHIFTS = {
 """Those of another amplitude, so that speed and acceleration are independent."""
 
 
-def table(courses: Iterable[Course]) -> str:
-    """Return a coordinate at all instants as a matrix of Modelica."""
-    return f"{{{', '.join(vector(course) for course in courses)}}}"
+def ways(courses: Sequence[Course]) -> list[tuple[float, ...]]:
+    """Return the ways of a coordinate from each instant on."""
+    return [course.way_to(goal) for course, goal in itertools.pairwise([*courses, courses[-1].ahead(1.0)])]
 
 
 def _swinging(start: float, swing: float, shift: float) -> list[Course]:
@@ -167,10 +164,10 @@ def axis_courses(joint: Joint, start: float, strains: Mapping[Instant, float] = 
     """Return a driven axis that starts at `start` at all instants; `strains` are its accelerations under load."""
     course, (lower, upper) = axis_course(joint), own_range(joint)
     middle, reach = (lower + upper) / 2, (upper - lower) / 2
-    if not math.isfinite(reach):
+    if not reach < ENDLESS:
         middle, reach = start, 0.5
     speed = joint.limit.velocity if joint.limit and joint.limit.velocity is not None else math.inf
-    speed = speed if math.isfinite(speed) else abs(course.speed)
+    speed = speed if speed < ENDLESS else abs(course.speed)
     courses = _swinging(start, course.speed, course.acceleration / 2)
     for side, just in ((-1, JUST), (-1, -JUST), (1, -JUST), (1, JUST)):
         courses.append(Course(middle + side * reach * (1 + just), side * speed * (1 + just), 0.0))

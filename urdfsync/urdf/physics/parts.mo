@@ -1,70 +1,57 @@
 
-  function coefficients "Those of the parabola at the last instant, and what brings it to the next one"
+  function place "From one instant to the next; ways has the coefficients of the time since the last one"
     input Real t;
-    input Real courses[:, 3];
-    output Real c[6];
-  protected
-    Integer k = min(integer(floor(t)), size(courses, 1) - 2);
-    Real d = courses[k + 2, 1] - courses[k + 1, 1] - courses[k + 1, 2] - courses[k + 1, 3]/2;
-    Real v = courses[k + 2, 2] - courses[k + 1, 2] - courses[k + 1, 3];
-    Real a = courses[k + 2, 3] - courses[k + 1, 3];
-  algorithm
-    c := {courses[k + 1, 1], courses[k + 1, 2], courses[k + 1, 3]/2, 10*d - 4*v + a/2, 7*v - 15*d - a, 6*d - 3*v + a/2};
-  end coefficients;
-
-  function place "From one instant to the next, with the speed and the acceleration of both"
-    input Real t;
-    input Real courses[:, 3];
+    input Real ways[:, 6];
     output Real y;
   protected
-    Integer k = min(integer(floor(t)), size(courses, 1) - 2);
-    Real s = t - k;
-    Real c[6] = coefficients(t, courses);
+    Integer k = integer(floor(t)) + 1;
+    Real s = t + 1 - k;
+    Real c[6] = ways[k, :];
   algorithm
     y := c[1] + s*(c[2] + s*(c[3] + s*(c[4] + s*(c[5] + s*c[6]))));
-    annotation (derivative(noDerivative = courses) = speed);
+    annotation (derivative(noDerivative = ways) = speed);
   end place;
 
   function speed "Its first derivative"
     input Real t;
-    input Real courses[:, 3];
+    input Real ways[:, 6];
     input Real t1;
     output Real y;
   protected
-    Integer k = min(integer(floor(t)), size(courses, 1) - 2);
-    Real s = t - k;
-    Real c[6] = coefficients(t, courses);
+    Integer k = integer(floor(t)) + 1;
+    Real s = t + 1 - k;
+    Real c[6] = ways[k, :];
   algorithm
     y := (c[2] + s*(2*c[3] + s*(3*c[4] + s*(4*c[5] + s*5*c[6]))))*t1;
-    annotation (derivative(noDerivative = courses, order = 2) = gain);
+    annotation (derivative(noDerivative = ways, order = 2) = gain);
   end speed;
 
   function gain "Its second derivative"
     input Real t;
-    input Real courses[:, 3];
+    input Real ways[:, 6];
     input Real t1;
     input Real t2;
     output Real y;
   protected
-    Integer k = min(integer(floor(t)), size(courses, 1) - 2);
-    Real s = t - k;
-    Real c[6] = coefficients(t, courses);
+    Integer k = integer(floor(t)) + 1;
+    Real s = t + 1 - k;
+    Real c[6] = ways[k, :];
   algorithm
     y := (2*c[3] + s*(6*c[4] + s*(12*c[5] + s*20*c[6])))*t1^2 + (c[2] + s*(2*c[3] + s*(3*c[4] + s*(4*c[5] + s*5*c[6]))))*t2;
   end gain;
 
   model RotationalDrive "Moves a flange"
-    parameter Real courses[:, 3];
+    parameter Real ways[:, 6];
     Modelica.Mechanics.Rotational.Interfaces.Flange_b flange;
   equation
-    flange.phi = place(time, courses);
+    flange.phi = place(time, ways);
   end RotationalDrive;
 
   model TranslationalDrive "Moves a flange"
-    parameter Real courses[:, 3];
+    parameter Real ways[:, 6];
     Modelica.Mechanics.Translational.Interfaces.Flange_b flange;
   equation
-    flange.s = place(time, courses);
+    flange.s = place(time, ways);
   end TranslationalDrive;
 
   model RotationalPush "Pushes a flange"
@@ -86,10 +73,10 @@
   end TranslationalPush;
 
   model MovingBase "Moves and turns a frame"
-    parameter Real x[:, 3];
-    parameter Real y[:, 3];
-    parameter Real z[:, 3];
-    parameter Real turn[:, 3];
+    parameter Real x[:, 6];
+    parameter Real y[:, 6];
+    parameter Real z[:, 6];
+    parameter Real turn[:, 6];
     parameter Real axis[3];
     Modelica.Mechanics.MultiBody.Interfaces.Frame_b frame_b;
     Modelica.Units.SI.Angle phi;

@@ -11,12 +11,12 @@ from pathlib import Path
 import msgspec
 
 from urdfsync.domain import Probe, Target
-from urdfsync.modelica.literals import vector
+from urdfsync.modelica.literals import matrix, vector
 from urdfsync.urdf.connectors import connector_names
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.physics import motion
-from urdfsync.urdf.physics.motion import Course, table
+from urdfsync.urdf.physics.motion import Course
 from urdfsync.urdf.physics.subject import Subject
 from urdfsync.urdf.robot import MOTION_KINDS, MOTIONS, Joint, Origin
 
@@ -123,7 +123,7 @@ def moving_probe(
     connections = ["base.frame_b, robot.frame_a"]
     for k, (joint, courses) in enumerate(zip(subject.axes, subject.courses, strict=True), 1):
         drive = MOTION_KINDS[joint.type].capitalize()
-        declarations.append(f"{drive}Drive drive{k}(courses = {table(courses)})")
+        declarations.append(f"{drive}Drive drive{k}(ways = {matrix(motion.ways(courses), 6)})")
         connections.append(f"drive{k}.flange, {names.flanges[joint.name]}")
     for k, joint_name in enumerate(gears, 1):
         gear = f"{names.records[joint_name]}.transmission"
@@ -134,8 +134,8 @@ def moving_probe(
         declarations.append(f"Real gap{k}[3] = {child} - ({parent})")
     centre = f"({names.moment})/(if mass > 0 then mass else 1)"
     declarations += ["Real mass = robot.m", f"Real centre[3] = {centre}"]
-    ways = zip(("x", "y", "z", "turn"), subject.base, strict=True)
-    tables = ", ".join(f"{name} = {table(course)}" for name, course in ways)
+    base = zip(("x", "y", "z", "turn"), subject.base, strict=True)
+    tables = ", ".join(f"{name} = {matrix(motion.ways(courses), 6)}" for name, courses in base)
     declarations.append(f"MovingBase base({tables}, axis = {vector(motion.TURN_AXIS)})")
     source = _text(target, options, "", declarations, connections)
     last = float(max(motion.Instant))

@@ -9,6 +9,7 @@ from collections.abc import Mapping, Sequence
 from xml.etree.ElementTree import Element
 
 import numpy as np
+from numpy.polynomial import Polynomial
 
 from urdfsync.domain import Import, Sample
 from urdfsync.urdf.drives import assembly
@@ -52,7 +53,7 @@ class Subject:
             state = self._state(instant, courses)
             holding = self.reference.solve(state).efforts
             pairs = zip(limits, holding, strict=True)
-            efforts = np.array([share * limit if math.isfinite(limit) else hold for limit, hold in pairs])
+            efforts = np.array([share * limit if limit < motion.ENDLESS else hold for limit, hold in pairs])
             gains = self.reference.effort_gains(state, efforts, outside)
             strains[instant] = {self.axes[n].name: float(gain) for n, gain in zip(outside, gains, strict=True)}
         self.courses = self._courses(self.share, strains)
@@ -99,7 +100,8 @@ class Subject:
         second = math.floor(time)
 
         def at(courses: Sequence[Course]) -> Course:
-            return courses[second].toward(courses[second + 1], time - second)
+            way = Polynomial(courses[second].way_to(courses[second + 1]))
+            return Course(*(way.deriv(order)(time - second) for order in range(3)))
 
         return self.reference.solve(self.reference.state([*map(at, self.courses)], [*map(at, self.base)]))
 
