@@ -25,11 +25,11 @@ def stl(size: float = 1, height: float = 0) -> str:
     return f"solid tip\nfacet normal 0 0 1\nouter loop\n{corners}endloop\nendfacet\nendsolid tip\n"
 
 
-def dae(scene: str = PLACED, nodes: str = "", geometry: str = TRIANGLE) -> str:
+def dae(scene: str = PLACED, nodes: str = "", geometry: str = TRIANGLE, asset: str = "", libraries: str = "") -> str:
     """A COLLADA file."""
     return (
-        '<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1"><asset/>'
-        f"<library_geometries>{geometry}</library_geometries><library_nodes>{nodes}</library_nodes>"
+        '<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">'
+        f"<asset>{asset}</asset>{libraries}<library_geometries>{geometry}</library_geometries><library_nodes>{nodes}</library_nodes>"
         f'<library_visual_scenes><visual_scene id="s">{scene}</visual_scene></library_visual_scenes>'
         '<scene><instance_visual_scene url="#s"/></scene></COLLADA>'
     )

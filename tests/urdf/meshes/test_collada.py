@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 import trimesh
+from support.meshes import dae
 
 from urdfsync.urdf.meshes.geometry import Array, bounds
 from urdfsync.urdf.meshes.process import MeshError
@@ -31,14 +32,9 @@ def _box(x: float = 1, y: float = 2, z: float = 3, name: str = "box", extra: str
       </mesh></geometry>"""
 
 
-def _dae(scene: str = PLACED, geometries: str = "", asset: str = "", libraries: str = "") -> bytes:
-    return f"""<?xml version="1.0" encoding="utf-8"?>
-    <COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
-      <asset>{asset}</asset>{libraries}
-      <library_geometries>{geometries or _box()}</library_geometries>
-      <library_visual_scenes><visual_scene id="scene"><!-- a comment -->{scene}</visual_scene></library_visual_scenes>
-      <scene><instance_visual_scene url="#scene"/></scene>
-    </COLLADA>""".encode()
+def _dae(scene: str = PLACED, geometry: str = "", **parts: str) -> bytes:
+    head = '<?xml version="1.0" encoding="utf-8"?>\n'
+    return (head + dae(f"<!-- a comment -->{scene}", geometry=geometry or _box(), **parts)).encode()
 
 
 def _read(content: bytes) -> Array:
@@ -70,7 +66,7 @@ def test_nodes_place_each_of_two_geometries() -> None:
     scene = """
       <node><matrix>0 -1 0 10  1 0 0 20  0 0 1 30  0 0 0 1</matrix><instance_geometry url="#box"/>
         <node><translate>0 0 100</translate><scale>2 2 2</scale><instance_geometry url="#cube"/></node></node>"""
-    content = _dae(scene, _box() + _box(1, 1, 1, "cube"), '<unit meter="0.1"/>')
+    content = _dae(scene, _box() + _box(1, 1, 1, "cube"), asset='<unit meter="0.1"/>')
     corners = _read(content)
     assert corners.shape == (24, 3, 3)
     assert bounds(corners[:12].reshape(-1, 3)) == [pytest.approx([0.8, 2, 3]), pytest.approx([1, 2.1, 3.3])]
@@ -79,9 +75,8 @@ def test_nodes_place_each_of_two_geometries() -> None:
 
 
 def test_node_of_the_library_is_placed_where_it_is_instanced() -> None:
-    library = f'<library_nodes><node id="part"><translate>1 0 0</translate>{PLACED}</node></library_nodes>'
-    content = _dae('<node><translate>0 7 0</translate><instance_node url="#part"/></node>')
-    content = content.replace(b"<library_visual_scenes>", library.encode() + b"<library_visual_scenes>")
+    part = f'<node id="part"><translate>1 0 0</translate>{PLACED}</node>'
+    content = _dae('<node><translate>0 7 0</translate><instance_node url="#part"/></node>', nodes=part)
     assert _bounds(content) == [[1, 7, 0], [2, 9, 3]]
 
 
@@ -102,8 +97,7 @@ def test_skin_stands_as_it_is_bound() -> None:
       <vertex_weights count="8"><input semantic="JOINT" source="#j" offset="0"/>
         <input semantic="WEIGHT" source="#w" offset="1"/><vcount>{"1 " * 8}</vcount><v>{"0 0 " * 8}</v>
       </vertex_weights></skin></controller></library_controllers>"""
-    content = _dae('<node><instance_controller url="#skin"/></node>')
-    content = content.replace(b"<library_visual_scenes>", skin.encode() + b"<library_visual_scenes>")
+    content = _dae('<node><instance_controller url="#skin"/></node>', libraries=skin)
     assert _bounds(content) == [[4, 5, 6], [5, 7, 9]]
 
 

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 from PIL import Image
+from support import meshes
 from support.commands import Execute
 
 from urdfsync import config
@@ -70,20 +71,16 @@ def dae(*, texture: bool = False, bound: str = "steel") -> bytes:
         f'<instance_material symbol="{symbol}" target="#{name}-m"/>'
         for symbol, name in (("first", bound), ("second", "wood"))
     )
-    return f"""<?xml version="1.0" encoding="utf-8"?>
-    <COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1"><asset/>
-      {image if texture else ""}<library_effects>{effects}</library_effects>
-      <library_materials>{materials}</library_materials>
-      <library_geometries><geometry id="g"><mesh>
-        <source id="p"><float_array id="a" count="12">0 0 0 1 0 0 1 1 0 0 1 0</float_array><technique_common>
-          <accessor source="#a" count="4" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>
-          <param name="Z" type="float"/></accessor></technique_common></source>
-        <vertices id="v"><input semantic="POSITION" source="#p"/></vertices>{triangles}</mesh></geometry>
-      </library_geometries>
-      <library_visual_scenes><visual_scene id="s"><node><instance_geometry url="#g"><bind_material><technique_common>
-        {binding}</technique_common></bind_material></instance_geometry></node></visual_scene></library_visual_scenes>
-      <scene><instance_visual_scene url="#s"/></scene>
-    </COLLADA>""".encode()
+    geometry = f"""<geometry id="g"><mesh>
+      <source id="p"><float_array id="a" count="12">0 0 0 1 0 0 1 1 0 0 1 0</float_array><technique_common>
+        <accessor source="#a" count="4" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>
+        <param name="Z" type="float"/></accessor></technique_common></source>
+      <vertices id="v"><input semantic="POSITION" source="#p"/></vertices>{triangles}</mesh></geometry>"""
+    libraries = f"""{image if texture else ""}<library_effects>{effects}</library_effects>
+      <library_materials>{materials}</library_materials>"""
+    bound_parts = f"<bind_material><technique_common>{binding}</technique_common></bind_material>"
+    scene = f'<node><instance_geometry url="#g">{bound_parts}</instance_geometry></node>'
+    return meshes.dae(scene, geometry=geometry, libraries=libraries).encode()
 
 
 def converted(
