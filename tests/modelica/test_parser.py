@@ -13,7 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from urdfsync.modelica.parser import parse
-from urdfsync.modelica.syntax import Class, Declared, Extends, Modifier, Name, declared
+from urdfsync.modelica.syntax import Class, Extends, Modifier, Name, declared
 
 LIBRARY = Path(__file__).parents[2] / "modelica"
 STANDARD = Path.home() / ".openmodelica" / "libraries"
@@ -108,23 +108,6 @@ def uses(names: Sequence[Name]) -> list[str]:
     return [f"{one}{'()' if one.is_called else ''}" for one in names]
 
 
-def test_all_that_is_declared() -> None:
-    found = parse(TEXT)
-    assert (found.faults, found.within, found.within_line) == ([], "Plant.Robots", 1)
-    assert list(declared(found.classes)) == [
-        Declared(("Arm",), 3),
-        Declared(("Arm", "pi"), 4),
-        Declared(("Arm", "e"), 4),
-        Declared(("Arm", "Joint"), 5),
-        Declared(("Arm", "Joint", "friction"), 7),
-        Declared(("Arm", "Angle"), 9),
-    ]
-
-
-def test_a_number_may_begin_with_its_point() -> None:
-    assert parse("model A\n  Real x = 2*.5e-3;\nend A;\n").faults == []
-
-
 def test_what_is_no_modelica_does_not_hide_the_rest() -> None:
     found = parse(TEXT.replace("  model Joint", "  Real = 3;\n  model Joint"))
     assert [(fault.reason, fault.line) for fault in found.faults] == [("lacks a name before `=`", 5)]
@@ -133,6 +116,7 @@ def test_what_is_no_modelica_does_not_hide_the_rest() -> None:
 
 def test_a_text_may_say_that_it_is_in_no_package() -> None:
     assert parse("within;\nmodel A\nend A;\n").within == ""
+    assert (parse(TEXT).within, parse(TEXT).within_line) == ("Plant.Robots", 1)
     assert parse("model A\nend A;\n").within is None
 
 

@@ -3,110 +3,16 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
+from support.plant import MARKED_PLANT, MARKED_USER, PLANT, USER, classes_in, library_classes, stored_below
 
-from urdfsync.checks import libraries
-from urdfsync.modelica.classes import Node, Type
+from urdfsync.modelica.classes import Node
 from urdfsync.modelica.files import StoredClasses
-from urdfsync.modelica.scopes import ANYTHING, INTERFACES, Element, Missing, Scopes
-from urdfsync.modelica.syntax import Name
+from urdfsync.modelica.scopes import Scopes
 from urdfsync.modelica.unresolved import Unresolved, UnresolvedKind, unresolved
-
-REPOSITORY = Path(__file__).parents[2]
-
-MARKED_PLANT = """\
-package Plant "A crane of two links"
-  package Parts
-    connector Pin
-      Real u;
-      flow Real i;
-    end Pin;
-    record Friction
-      parameter Real damping = 0;
-    end Friction;
-    record Numbers
-      parameter Real mass(min = 0) = 1;
-      parameter ~Friction friction;
-    end Numbers;
-    partial model PartialPart
-      replaceable parameter ~Numbers numbers;
-      ~Pin pin;
-    end PartialPart;
-    type Shape = enumeration(round, flat);
-    function twice
-      input Real u;
-      output Real y;
-    algorithm
-      y := 2*~u;
-    end twice;
-  end Parts;
-  package Links
-    record BoomNumbers = ~Parts.~Numbers(~mass = 4);
-    model Boom
-      extends ~Parts.~PartialPart(redeclare ~BoomNumbers ~numbers);
-      parameter ~Parts.~Shape shape = ~Parts.~Shape.~round;
-      Real x(~start = 0, fixed = true);
-    equation
-      der(~x) = ~Parts.~twice(~numbers.~mass)*~pin.~u + time;
-      for k in 1:3 loop
-        assert(k*~x < 1, "too far");
-      end for;
-    end Boom;
-  end Links;
-  model Crane
-    parameter Real g = 9.81;
-    ~Parts.~Pin boomPin;
-    replaceable ~Links.~Boom boom constrainedby ~Parts.~PartialPart(~numbers(~mass = 2));
-  equation
-    connect(~boom.~pin, ~boomPin);
-  end Crane;
-  model Test
-    replaceable ~Crane crane(~g = 1) constrainedby ~Crane;
-  equation
-    ~crane.~boomPin.~u = 0;
-  end Test;
-end Plant;
-"""
-
-MARKED_USER = """\
-package User
-  import Plant.~Parts;
-  import F = Plant.~Parts.~Friction;
-  import Plant.~Links.*;
-  model Telescope
-    extends ~Parts.~PartialPart;
-    Real length = sum(step for step in {1, 2});
-  end Telescope;
-  model MyCrane
-    extends Plant.~Crane(redeclare ~Telescope ~boom(~length(~start = 1)));
-    ~Boom spare(~numbers(~friction(~damping = 3)), ~shape = ~Parts.~Shape.~flat);
-    ~F friction;
-  equation
-    connect(~boom.~pin, ~spare.~pin);
-    ~boom.~length = ~friction.~damping;
-  end MyCrane;
-  model MyTest
-    extends Plant.~Test(redeclare ~MyCrane ~crane);
-    Real way = ~crane.~boom.~length;
-  end MyTest;
-  model Heavy
-    extends Plant.~Test(~crane(~boom(~numbers(~mass = 7))));
-  end Heavy;
-end User;
-"""
-
-
-PLANT, USER = MARKED_PLANT.replace("~", ""), MARKED_USER.replace("~", "")
-"""Without the marks, which stand before each use of a name."""
-
-
-def classes_in(*texts: str) -> StoredClasses:
-    """Classes in texts, beside a library that can't be read."""
-    files = {Path(f"/nowhere/{number}.mo"): text.encode() for number, text in enumerate(texts)}
-    return StoredClasses("None", Path("None"), {}, files, lambda name: Path("Gone.mo") if name == "Modelica" else None)
 
 
 def found(*texts: str) -> list[Unresolved]:
@@ -207,24 +113,6 @@ def test_the_standard_library_is_no_misspelled_name() -> None:
     assert [one for node in nodes if isinstance(node, Node) for one in unresolved(node, scopes)] == []
 
 
-def test_a_file_in_a_wrong_place_hides_no_class_of_its_name(tmp_path: Path) -> None:
-    (tmp_path / "package.mo").write_text("package Shop\nend Shop;\n")
-    (tmp_path / "Rotational.mo").write_text(
-        "within Shop;\npackage Rotational\n model Gear\n end Gear;\nend Rotational;\n"
-    )
-    users = {
-        Path("/nowhere/Part/package.mo"): b"package Part\nend Part;",
-        Path("/nowhere/Part/Rotational.mo"): b"within Elsewhere;\nmodel Rotational\nend Rotational;",
-        Path("/nowhere/Mine.mo"): b"model Mine\n Shop.Rotational.Gear gear;\nend Mine;",
-    }
-    sources = StoredClasses("None", Path("None"), {}, users, lambda name: tmp_path if name == "Shop" else None)
-    assert sources.unread == [Path("/nowhere/Part/Rotational.mo")]
-    scopes = Scopes(sources)
-    mine = scopes.node(("Mine",))
-    assert isinstance(mine, Node)
-    assert list(unresolved(mine, scopes)) == []
-
-
 def test_a_redeclaration_inside_of_a_modifier_is_told_apart() -> None:
     (one,) = found(PLANT, USER, "model Mine\n extends Plant.Test(crane(redeclare User.Telescope boom));\nend Mine;\n")
     assert (one.kind, one.owner, one.name, one.line) == (UnresolvedKind.NESTED_REDECLARE, "Plant.Crane", "boom", 2)
@@ -252,17 +140,6 @@ def test_an_element_that_is_redeclared_is_one_of_a_base() -> None:
     assert (one.kind, one.part, one.near, one.line) == (UnresolvedKind.ELEMENT, "bom", "boom", 3)
 
 
-def test_what_a_name_means() -> None:
-    scopes = Scopes(classes_in(PLANT, USER))
-    mine = scopes.node(("User", "MyTest"))
-    assert isinstance(mine, Node)
-    boom = scopes.lookup(Name(("crane", "boom"), 1), mine)
-    assert isinstance(boom, Element)
-    assert {str(one) for one in boom.types} == {"Plant.Links.Boom", "Plant.Parts.PartialPart", "User.Telescope"}
-    assert isinstance(scopes.lookup(Name(("crane", "boom", "width"), 1), mine), Missing)
-    assert scopes.lookup(Name(("Modelica", "Constants", "pi"), 1), mine) is ANYTHING
-
-
 @pytest.mark.parametrize("text", [MARKED_PLANT, MARKED_USER], ids=["package", "user"])
 def test_every_misspelled_use_is_found(text: str) -> None:
     """A name with another letter at its end is missing at this place."""
@@ -276,18 +153,9 @@ def test_every_misspelled_use_is_found(text: str) -> None:
         assert (line, name) in [(one.line, one.part) for one in found(damaged, *others)]
 
 
-def stored_below(sources: StoredClasses, name: tuple[str, ...]) -> Iterator[tuple[str, ...]]:
-    yield name
-    for inner in sources.names_in(name):
-        yield from stored_below(sources, (*name, inner))
-
-
 def faults_in(top: str, *inside: str) -> list[str]:
     """Names without meaning in a library, or in a package of it."""
-    places = [REPOSITORY / "modelica", *libraries.library_folders()]
-    if libraries.find_library(top, places) is None:
-        pytest.skip(f"there is no library {top}")
-    sources = StoredClasses("None", Path("None"), {}, {}, lambda name: libraries.find_library(name, places))
+    sources = library_classes(top)
     scopes, count, faults = Scopes(sources), 0, []
     for name in stored_below(sources, (top, *inside)):
         node = scopes.node(name)
@@ -304,36 +172,3 @@ def faults_in(top: str, *inside: str) -> list[str]:
 )
 def test_nothing_is_missing_in_libraries(package: Sequence[str]) -> None:
     assert faults_in(*package) == []
-
-
-@pytest.mark.slow
-def test_every_use_in_a_generated_package_can_be_told() -> None:
-    """Each name in its equations means something, and nothing once it is misspelled: no lookup ends in the unknown."""
-    places = [REPOSITORY / "modelica", *libraries.library_folders()]
-    if libraries.find_library("Modelica", places) is None:
-        pytest.skip("there is no Modelica Standard Library")
-    sources = StoredClasses("None", Path("None"), {}, {}, lambda name: libraries.find_library(name, places))
-    scopes, count, faults = Scopes(sources), 0, []
-    for stored in stored_below(sources, ("UrdfSync", "Examples", "SixAxisArm")):
-        node = scopes.node(stored)
-        assert isinstance(node, Node)
-        for name in {one for one in node.definition.uses if not one.is_called and one.parts != ("time",)}:
-            faults += [f"{name} is missing in {stored}"] if isinstance(scopes.lookup(name, node), Missing) else []
-            for index, part in enumerate(name.parts):
-                parts = (*name.parts[:index], f"{part}q", *name.parts[index + 1 :])
-                if isinstance(scopes.lookup(name._replace(parts=parts), node), Element):
-                    faults.append(f"{'.'.join(parts)} has a meaning in {stored}")
-                count += 1
-    assert faults == []
-    assert count > 500
-
-
-def test_what_is_known_of_the_standard_library_is_what_is_in_it(modelica_library: Path) -> None:
-    top = next(path for path in modelica_library.iterdir() if re.fullmatch(r"Modelica( [\d.]+)?", path.name))
-    places = {"Modelica": top}
-    scopes = Scopes(StoredClasses("None", Path("None"), {}, {}, places.get))
-    for name, known in INTERFACES.items():
-        node = scopes.node(name)
-        assert node is not None, name
-        names = {one for one, is_class in scopes.names_in((Type(node),)).items() if not is_class}
-        assert names == known.components.keys(), name
