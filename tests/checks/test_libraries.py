@@ -12,7 +12,6 @@ from typing import Any
 import pytest
 
 from urdfsync.checks.cache import UserCache
-from urdfsync.checks.contents import content_hash, copy_library
 from urdfsync.checks.libraries import (
     find_library,
     find_standard_library,
@@ -222,61 +221,9 @@ def test_a_folder_that_can_not_be_read_hides_no_change_behind_it(
     assert standard_library_copy(small, (), cache) != first
 
 
-# --- links and sizes: a library may be a stranger's -------------------------------------------------------------------
-
-
-def refused(path: Path, target: Path) -> str:
-    with pytest.raises(UrdfsyncError) as caught:
-        copy_library(path, target)
-    (found,) = caught.value.diagnostics
-    assert found.code == "library-not-copied"
-    return f"{found.file}: {found.message}; {found.hint}"
-
-
-@pytest.mark.parametrize("link", ["all", "folder", "file", "device"])
-def test_a_link_in_a_library_that_could_fill_the_disk_is_refused(link: str, tmp_path: Path) -> None:
-    """By copies and by the hash of their content, which would read all that is behind it."""
-    library = put(tmp_path, "Pumps") / "Pumps"
-    (library / "Resources").mkdir()
-    (tmp_path / "outside.txt").write_text("a secret")
-    outside = str(tmp_path / "outside.txt")
-    targets = {"all": "/", "folder": str(library), "file": outside, "device": "/dev/zero"}
-    (library / "Resources/link").symlink_to(targets[link])
-    said = refused(library, tmp_path / "copy")
-    assert said.startswith(f"{library}/Resources/link: the link leads ")
-    assert said.endswith("; put the files themselves in its place")
-    assert not [path for path in (tmp_path / "copy").rglob("*") if path.is_file() and "link" in path.name]
-    with pytest.raises(UrdfsyncError, match="the link leads "):
-        content_hash(library)
-
-
-def test_a_link_to_a_file_of_the_library_and_to_the_library_itself_are_followed(tmp_path: Path) -> None:
-    put(tmp_path / "real", "Pumps")
-    (tmp_path / "real/Pumps/Small.mo").symlink_to("package.mo")
-    (tmp_path / "Pumps").symlink_to("real/Pumps", target_is_directory=True)
-    before = content_hash(tmp_path / "Pumps")
-    copy_library(tmp_path / "Pumps", tmp_path / "copy")
-    assert (tmp_path / "copy/Small.mo").read_text() == (tmp_path / "Pumps/package.mo").read_text()
-    (tmp_path / "real/Pumps/package.mo").write_text("package Pumps end Pumps;")
-    assert content_hash(tmp_path / "Pumps") != before
-
-
-def test_a_library_that_is_too_large_is_refused_before_it_fills_the_disk(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+def test_a_standard_library_with_a_link_out_of_it_is_refused(
+    small: Mapping[str, Path], cache: UserCache, tmp_path: Path
 ) -> None:
-    library = put(tmp_path, "Pumps") / "Pumps"
-    with (library / "zeros.bin").open("wb") as file:
-        file.truncate(2**40)  # takes nothing on the disk, as in a repository
-    assert "Pumps: the library takes more than 512 MB" in refused(library, tmp_path / "copy")
-    (library / "zeros.bin").unlink()
-    monkeypatch.setattr("urdfsync.checks.contents.MOST_BYTES", 40_000)
-    for number in range(20):
-        (library / f"{number}.txt").touch()
-    refused(library, tmp_path / "other")
-    assert len(list((tmp_path / "other").iterdir())) < 10, "empty files take space as well"
-
-
-def test_so_is_a_standard_library_with_such_a_link(small: Mapping[str, Path], cache: UserCache, tmp_path: Path) -> None:
     (small["Modelica"] / "Mechanics/Loop").symlink_to(tmp_path, target_is_directory=True)
     with pytest.raises(UrdfsyncError, match="the link leads out of its library"):
         standard_library_copy(small, (), cache)

@@ -3,18 +3,13 @@
 from __future__ import annotations
 
 import codecs
-import errno
-import os
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 from urdfsync import config
 from urdfsync.checks import package as files
-from urdfsync.checks.contents import package_texts
 from urdfsync.config import Config, RobotConfig
-from urdfsync.diagnostics import OutputError
 
 CONFIG = "".join(
     f'[robots.{name}]\nsource = "{name}.json"\npackage = "Plant.Robots.{name.title()}"\ndomain = "rcnetwork"\n'
@@ -56,57 +51,6 @@ def plant(rc_domain: None, tmp_path: Path) -> Config:
 
 def robot(plant: Config, name: str) -> RobotConfig:
     return next(robot for robot in plant.robots if robot.name == name)
-
-
-@pytest.fixture
-def odd(tmp_path: Path) -> Path:
-    """A package with what is no regular file; but one link leads to such."""
-    folder = tmp_path / "Odd"
-    write(tmp_path, **{"Odd/package.mo": "package Odd", "elsewhere/package.mo": "package Linked", "Real.mo": "model"})
-    (folder / "Dangling.mo").symlink_to("nowhere.mo")
-    (folder / "Circle.mo").symlink_to("Circle.mo")
-    (folder / "Linked").symlink_to(tmp_path / "elsewhere")
-    (folder / "images").symlink_to(tmp_path)
-    (folder / "Real.mo").symlink_to(tmp_path / "Real.mo")
-    if hasattr(os, "mkfifo"):
-        os.mkfifo(folder / "Pipe.mo")
-    return folder
-
-
-def test_what_is_no_regular_file_is_left_out(odd: Path, plant: Config) -> None:
-    assert package_texts(odd) == {"package.mo": b"package Odd", "Real.mo": b"model"}
-    assert package_texts(plant.root / "absent") == {}
-
-
-@pytest.mark.parametrize("name", ["Plant/Control.mo", "Plant/Robots"])
-def test_what_can_not_be_read_is_named_as_people_see_it(
-    name: str, plant: Config, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def refuse(path: str, *rest: Any) -> Any:
-        if os.fspath(path).endswith(name):
-            raise PermissionError(errno.EACCES, "Permission denied", path)
-        return genuine(path, *rest)
-
-    method = "open" if name.endswith(".mo") else "scandir"
-    genuine = getattr(os, method)
-    monkeypatch.chdir(plant.root)
-    with monkeypatch.context() as patch:
-        patch.setattr(os, method, refuse)
-        with pytest.raises(OutputError) as caught:
-            package_texts(plant.root / "modelica" / "Plant")
-    (found,) = caught.value.diagnostics
-    assert (found.file, found.message) == (f"modelica/{name}", "the package can't be read: Permission denied")
-    assert found.hint
-
-
-def test_a_file_that_would_fill_the_memory_is_refused(plant: Config, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(plant.root)
-    with Path("modelica/Plant/Large.mo").open("wb") as file:
-        file.truncate(2**40)  # takes nothing on the disk, as in a repository
-    with pytest.raises(
-        OutputError, match=r"modelica/Plant/Large\.mo: error: the package can't be read: it has more than"
-    ):
-        package_texts(plant.root / "modelica/Plant")
 
 
 def test_other_robots_are_left_out(plant: Config) -> None:

@@ -152,13 +152,6 @@ def test_contacts_are_plausible_within_a_hundredth(capsys: Capture, difference: 
     assert told is (difference > 1)
 
 
-def test_models_of_the_user_are_counted_apart(capsys: Capture) -> None:
-    users = (CompiledModel("Cell", 9000, is_users=True), CompiledModel("Plant.Line", 7, is_users=True))
-    result = msgspec.structs.replace(RIGHT, tools=tools(compiled=(*COMPILED, *users), failing=("Part",)))
-    said = "3 models compile, and 2 of yours; 1 of yours does not; 6 degrees of freedom;"
-    assert said in shown(capsys, result)[0]
-
-
 def test_quiet_names_only_what_is_not_right(capsys: Capture) -> None:
     heads = [line.split(":")[0] for line in shown(capsys, *ALL, quiet=True) if not line.startswith(" ")]
     assert heads == ["welder", "picker", "cart", "new", "hoist", "lift"]
@@ -249,21 +242,3 @@ def test_any_number_can_be_told(difference: float, value: float, quantity: Quant
         "arm", "Arm", tools=(ToolResult(deviations=(Deviation(quantity, "it", difference, value, value, "N"),)),)
     )
     show_result(Console(verbose=True), result)
-
-
-CHANGED = ToolResult(effects=(EditEffect(("a.mo",), (ELBOW,)),))
-SAME_MASS = ToolResult(deviations=(msgspec.structs.replace(MASS, difference=0),))
-GAP = "the effect of your edits was not measured: the robot can't be simulated"
-
-
-@pytest.mark.parametrize(("facts", "strict", "word"), [
-    ({"gaps": (GAP,)}, True, "incomplete"),
-    ({"gaps": (GAP,), "in_step": False}, False, "out of step"),
-    ({"in_step": False, "built": False}, False, "not built"),
-    ({"tools": (CHANGED,)}, False, "right"),
-    ({"tools": (CHANGED,), "gaps": (GAP,)}, True, "differs"),
-    ({"tools": (ToolResult(deviations=(ELBOW,)),), "in_step": False}, False, "differs"),
-    ({"tools": (SAME_MASS,)}, False, "right: syntax and layout; rigid bodies right"),
-])  # fmt: skip
-def test_one_word_for_all(capsys: Capture, facts: dict[str, Any], strict: bool, word: str) -> None:
-    assert shown(capsys, CheckResult("arm", "Arm", **facts), strict=strict)[0].startswith(f"arm: {word}")

@@ -3,11 +3,7 @@
 from __future__ import annotations
 
 import importlib.util
-import os
-import re
 import shutil
-import sys
-from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -15,107 +11,14 @@ import numpy as np
 import pytest
 from support.checks import Compiling, status
 from support.corpus import REPOSITORY
-from support.urdfs import dynamics, joint, link, robot
+from support.two_joints import ARM, JOINTS, LINKS, check, codes, lines, rebuild, replace, write
+from support.urdfs import robot
 
 from urdfsync import config
-from urdfsync.checks import libraries
 from urdfsync.checks import robot as robot_check
 from urdfsync.checks.package import RobotPackage, read_package
-from urdfsync.checks.results import CheckOptions, CheckResult, CheckStatus
-from urdfsync.checks.robot import check_robot
-from urdfsync.engine.build import build
+from urdfsync.checks.results import CheckStatus
 from urdfsync.engine.options import BuildOptions
-
-LINKS = link("base", 3.0), link("arm", 2.0, rpy="0.1 0.2 0.3"), link("hand", 0.7)
-JOINTS = (
-    joint("shoulder", "revolute", "base", "arm", axis="0 1 0", rpy="0.4 0.5 0.6", inside=[dynamics(0.5, 0.2)]),
-    joint("elbow", "continuous", "arm", "hand", axis="0 0 1", inside=[dynamics(0.1, 0.0)]),
-)
-ARM = robot(*LINKS, *JOINTS)
-BROKEN = {
-    "MyArm.mo": """\
-within;
-model MyArm
-  extends Arm.Arm(redeclare Arm.Joints.Elbow elbo, elbow(parameters(dynamics(dampin = 5))));
-  Arm.Links.Hnd other;
-  parameter Real load = 2;
-equation
-  connect(elbwo.axis, elbow.axis);
-end MyArm;
-""",
-    "Bench/MyBench.mo": """\
-model MyBench
-  extends Arm.ArmTest(robot(redeclare Arm.Joints.Elbow elbow));
-  MyArm mine;
-  Real x = mine.laod + robot.elbow.axs.tau;
-  Real y = whatever.it.is;
-end MyBench;
-""",
-    "Notes.mo": "model Notes\n  Nothing here;\nend Notes;\n",
-    "Draft.mo": "model Draft\n  Arm.Arm arm\nend Draft;\n",
-}
-
-
-@pytest.fixture
-def arm(folder: Path) -> Path:
-    """A project with the robot, built; the package's folder."""
-    Path("arm.urdf").write_text(ARM)
-    Path("urdfsync.toml").write_text('[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\n')
-    rebuild()
-    return folder / "modelica" / "Arm"
-
-
-@pytest.fixture
-def compiler(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Compiling:
-    """A stand-in for the compiler, and a cache in which nothing is yet."""
-    found = Compiling()
-    monkeypatch.setattr("urdfsync.checks.compilers.run_job", found)
-    monkeypatch.setattr(libraries, "standard_library_copy", lambda *_: tmp_path)
-    monkeypatch.setattr(libraries, "own_library_copy", lambda own, *_: own)
-    monkeypatch.setattr("platformdirs.user_cache_path", lambda *_, **__: tmp_path / "cache")
-    return found
-
-
-@pytest.fixture
-def without_library(monkeypatch: pytest.MonkeyPatch) -> None:
-    """No Modelica Standard Library: nothing is compiled."""
-    monkeypatch.setattr(libraries, "library_folders", list)
-
-
-def rebuild() -> None:
-    loaded = config.load(Path("urdfsync.toml").absolute())
-    (result,) = build(loaded, loaded.robots, BuildOptions())
-    assert not result.failed
-
-
-def check(physics: bool = False, fresh: bool = False, curves: bool = False) -> CheckResult:
-    loaded = config.load(Path("urdfsync.toml").absolute())
-    options = CheckOptions(physics=physics, compilers=2, fresh=fresh, curves=curves)
-    return check_robot(loaded, loaded.robots[0], options)
-
-
-def write(files: dict[str, str]) -> None:
-    for path, text in files.items():
-        (Path("modelica") / path).parent.mkdir(exist_ok=True, parents=True)
-        (Path("modelica") / path).write_text(text)
-
-
-def replace(file: Path, old: str, new: str) -> None:
-    text = file.read_text()
-    assert old in text
-    file.write_text(text.replace(old, new))
-
-
-def codes(result: CheckResult) -> list[str]:
-    return [one.code for one in result.diagnostics if one.severity == "error"]
-
-
-def lines(result: CheckResult) -> list[str]:
-    """The findings as people read them."""
-    return [
-        f"{one.file.removeprefix('modelica/')}:{one.line}: {one.severity}: {one.message}; {one.hint}"
-        for one in result.diagnostics
-    ]
 
 
 @pytest.mark.slow
@@ -266,30 +169,6 @@ def test_without_a_compiler_all_else_is_checked(
     assert codes(check()) == ["unresolved"]
 
 
-@pytest.mark.skipif(sys.platform != "linux", reason="names of files are Unicode there")
-def test_in_a_folder_that_is_not_utf8_the_compiler_gets_copies(
-    arm: Path, modelica_library: Path, compiler: Compiling, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    folder = tmp_path / os.fsdecode(b"caf\xe9")
-    folder.mkdir()
-    for name in ("arm.urdf", "urdfsync.toml"):
-        shutil.copy(name, folder)
-    monkeypatch.chdir(folder)
-    rebuild()
-    write({"Pumps/package.mo": "package Pumps\n  model Small\n  end Small;\nend Pumps;\n"})
-    write(
-        {
-            "Arm/Own.mo": "within Arm;\nmodel Own\n  Pumps.Small pump;\nend Own;\n",
-            "Bench.mo": "model Bench\n  Arm.Arm a;\nend Bench;\n",
-        }
-    )
-    result = check()
-    assert (status(result, strict=True), len(result.compiled)) == (CheckStatus.RIGHT, 5)
-    assert "Bench" in compiler.models
-    assert any(root.endswith("/Pumps") for root in compiler.roots)
-    assert all(root.encode() for root in compiler.roots)
-
-
 @pytest.mark.parametrize("built", [True, False])
 def test_without_a_library_nothing_is_compiled(arm: Path, built: bool) -> None:
     """The configuration names a folder with nothing in it; a robot that is not built is checked as it would be."""
@@ -339,31 +218,6 @@ def test_a_file_that_goes_is_missed_although_the_package_was_right(
     line = hand.read_text().split("\n").index(cover.rstrip("\n")) + 1
     assert (found.code, found.file, found.line) == ("missing-resource", "modelica/Arm/Links/Hand.mo", line)
     assert len(compiler.models) == 3
-
-
-# --- names ------------------------------------------------------------------------------------------------------------
-
-
-def test_a_user_reads_what_is_missing_in_files_around(arm: Path, modelica_library: Path, compiler: Compiling) -> None:
-    write(BROKEN)
-    result = check()
-    nested = "the redeclaration of `elbow` inside of another modifier is not checked: rumoca ignores it"
-    assert lines(result) == [
-        "Draft.mo:3: warning: the file lacks `;` before `end`; ",
-        f"Bench/MyBench.mo:2: warning: {nested}; "
-        "write a model that says `extends Arm.Arm(redeclare … elbow)`, and use that instead",
-        "Bench/MyBench.mo:4: error: MyArm has no `laod`; did you mean `mine.load`?",
-        "Bench/MyBench.mo:4: error: Elbow has no `axs`; did you mean `robot.elbow.axis.tau`?",
-        "Bench/MyBench.mo:5: error: MyBench has no `whatever`; ",
-        "MyArm.mo:3: error: Arm has no `elbo`; did you mean `elbow`?",
-        "MyArm.mo:3: error: RotationalDynamics has no `dampin`; did you mean `damping`?",
-        "MyArm.mo:4: error: there is no class `Arm.Links.Hnd`; did you mean `Arm.Links.Hand`?",
-        "MyArm.mo:7: error: MyArm has no `elbwo`; did you mean `elbow.axis`?",
-    ]
-    assert result.failed
-    assert [one.model for one in result.compiled if one.is_users] == ["MyBench", "MyArm"]
-    assert len(result.compiled) == 5, "the package itself is right"
-    assert result.gaps == ("modelica/Draft.mo outside of the package: nothing there was compiled",)
 
 
 @pytest.mark.parametrize(
@@ -433,27 +287,6 @@ def test_a_part_of_a_model_that_compiles_need_not_compile_by_itself(
     assert check(fresh=True).tools[0].failing == ("Line", "Part")
 
 
-def test_only_models_whose_names_mean_the_package_are_compiled_with_it(
-    arm: Path, modelica_library: Path, compiler: Compiling
-) -> None:
-    """`Elbow` and `Arm` are words that other robots have as well."""
-    other = "within Other;\nmodel %s\n  %s part;\nend %s;\n"
-    write(
-        {
-            "Other/package.mo": "package Other\nend Other;\n",
-            "Other/Elbow.mo": other % ("Elbow", "Real", "Elbow"),
-            "Other/Arm.mo": other % ("Arm", "Elbow", "Arm"),
-            "Other/Bad.mo": other % ("Bad", "Arm.nothing", "Bad"),
-            "Cell.mo": "model Cell\n  Arm.Arm a;\nend Cell;\n",
-            "Line.mo": "model Line\n  Cell cell;\nend Line;\n",
-            "Elsewhere.mo": "model Elsewhere\n  Other.Arm arm;\n  Real x = Elbow.y;\nend Elsewhere;\n",
-        }
-    )
-    result = check()
-    assert (result.diagnostics, result.gaps) == ((), ())
-    assert [one.model for one in result.compiled if one.is_users] == ["Cell", "Line"]
-
-
 def test_other_line_ends_are_no_edit_and_comments_move_nothing(arm: Path) -> None:
     base = arm / "Links" / "Base.mo"
     base.write_bytes(base.read_bytes().replace(b"\n", b"\r\n"))
@@ -476,63 +309,3 @@ def test_a_model_whose_new_name_waits_is_not_the_users(arm: Path) -> None:
     assert package.conflicting
     assert arm / "Joints/Elbow.mo" not in package.own_files
     assert package.own_files == {}
-
-
-def test_the_package_is_not_compiled_if_names_in_it_mean_nothing(arm: Path, without_library: None) -> None:
-    replace(arm / "Arm.mo", "connect(shoulder.frame_b, ", "connect(sholder.frame_b, ")
-    result = check()
-    (line,) = lines(result)
-    assert "error: robot: Arm has no `sholder`; did you mean `shoulder.frame_b`?" in line
-    assert line.endswith("the file was edited by hand")
-    assert result.gaps == ("nothing was compiled, since names in the package do not exist",)
-
-
-def test_a_frame_that_the_configuration_does_not_list_is_told_with_its_key(arm: Path, without_library: None) -> None:
-    bench = "model Bench\n  Arm.Arm robot;\nequation\n  connect(robot.%s, robot.frame_a);\nend Bench;\n"
-    with Path("urdfsync.toml").open("a") as file:
-        file.write('frames = ["arm"]\n')
-    rebuild()
-    frames = re.findall(r"Frame_b (\w+)", (arm / "Arm.mo").read_text())
-    (name,) = [name for name in frames if "arm" in name.lower()]
-    write({"Bench.mo": bench % name})
-    assert lines(check()) == []
-    replace(Path("urdfsync.toml"), 'frames = ["arm"]\n', 'frames = ["base"]\n')
-    rebuild()
-    assert lines(check()) == [
-        f'Bench.mo:4: error: Arm has no `{name}`; set `frames = ["base", "arm"]` to bring it back'
-    ]
-
-
-@pytest.mark.parametrize(
-    ("files", "expected"),
-    [
-        (  # of the classes of that library which UrdfSync extends, the elements are known
-            {"MyArm.mo": BROKEN["MyArm.mo"]},
-            [
-                "MyArm.mo:3: error: Arm has no `elbo`",
-                "MyArm.mo:3: error: RotationalDynamics has no `dampin`",
-                "MyArm.mo:4: error: there is no class `Arm.Links.Hnd`",
-                "MyArm.mo:7: error: MyArm has no `elbwo`",
-            ],
-        ),
-        (
-            {"Own.mo": "model Own\n  extends Arm.Joints.Elbow;\n  Real x = wrong.x;\nend Own;\n"},
-            ["Own.mo:3: error: Own has no `wrong`"],
-        ),
-        ({"Own.mo": "model Own\n  extends Modelica.Math.M;\n  Arm.Arm a;\n  Real x = inherited.x;\nend Own;\n"}, []),
-        ({".backup/MyArm.mo": BROKEN["MyArm.mo"], "Resources/MyArm.mo": BROKEN["MyArm.mo"]}, []),
-    ],
-)
-def test_without_the_standard_library_nothing_is_said_of_what_it_may_hold(
-    arm: Path, without_library: None, files: dict[str, str], expected: Sequence[str]
-) -> None:
-    write(files)
-    assert [line.partition(";")[0] for line in lines(check())] == expected
-
-
-def test_packages_of_other_robots_are_left_alone(arm: Path, without_library: None) -> None:
-    shutil.copytree(arm, arm.parent / "Other")
-    with Path("urdfsync.toml").open("a") as file:
-        file.write('[robots.other]\nsource = "arm.urdf"\npackage = "Other"\n')
-    write({"Other/Bad.mo": "within Other;\nmodel Bad\n  Arm.Bad bad;\nend Bad;\n"})
-    assert lines(check()) == []

@@ -1,0 +1,55 @@
+"""A robot with two joints to check, and what a check says of it. The fixture `arm` of `tests/checks` builds it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from support.urdfs import dynamics, joint, link, robot
+from urdfsync import config
+from urdfsync.checks.results import CheckOptions, CheckResult
+from urdfsync.checks.robot import check_robot
+from urdfsync.engine.build import build
+from urdfsync.engine.options import BuildOptions
+
+LINKS = link("base", 3.0), link("arm", 2.0, rpy="0.1 0.2 0.3"), link("hand", 0.7)
+JOINTS = (
+    joint("shoulder", "revolute", "base", "arm", axis="0 1 0", rpy="0.4 0.5 0.6", inside=[dynamics(0.5, 0.2)]),
+    joint("elbow", "continuous", "arm", "hand", axis="0 0 1", inside=[dynamics(0.1, 0.0)]),
+)
+ARM = robot(*LINKS, *JOINTS)
+
+
+def rebuild() -> None:
+    loaded = config.load(Path("urdfsync.toml").absolute())
+    (result,) = build(loaded, loaded.robots, BuildOptions())
+    assert not result.failed
+
+
+def check(physics: bool = False, fresh: bool = False, curves: bool = False) -> CheckResult:
+    loaded = config.load(Path("urdfsync.toml").absolute())
+    options = CheckOptions(physics=physics, compilers=2, fresh=fresh, curves=curves)
+    return check_robot(loaded, loaded.robots[0], options)
+
+
+def write(files: dict[str, str]) -> None:
+    for path, text in files.items():
+        (Path("modelica") / path).parent.mkdir(exist_ok=True, parents=True)
+        (Path("modelica") / path).write_text(text)
+
+
+def replace(file: Path, old: str, new: str) -> None:
+    text = file.read_text()
+    assert old in text
+    file.write_text(text.replace(old, new))
+
+
+def codes(result: CheckResult) -> list[str]:
+    return [one.code for one in result.diagnostics if one.severity == "error"]
+
+
+def lines(result: CheckResult) -> list[str]:
+    """The findings as people read them."""
+    return [
+        f"{one.file.removeprefix('modelica/')}:{one.line}: {one.severity}: {one.message}; {one.hint}"
+        for one in result.diagnostics
+    ]
