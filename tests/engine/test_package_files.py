@@ -1,4 +1,4 @@
-"""Files of a package: the daemon reads those again that have changed."""
+"""Files of a package: what is in their places, and that the daemon reads those again that have changed."""
 
 from __future__ import annotations
 
@@ -10,7 +10,9 @@ import pytest
 from support.networks import LADDER, run
 
 from urdfsync import config, dependencies
+from urdfsync.domain import Role
 from urdfsync.engine.package_files import PackageFiles
+from urdfsync.engine.rules import CLASS_FOLDER
 from urdfsync.files import digest
 
 FILE = f"{LADDER}/Ladder.mo"
@@ -64,3 +66,36 @@ def test_a_file_that_was_just_written_is_read_each_time(project: Path, monkeypat
     state = files().state(FILE)
     assert state is not None
     assert state.sha256 == digest(b"read again")
+
+
+def put(*paths: str) -> None:
+    for path in paths:
+        Path(LADDER, path).parent.mkdir(parents=True, exist_ok=True)
+        Path(LADDER, path).write_bytes(b"text\r\n")
+
+
+def test_a_class_that_became_a_folder_is_in_its_place(project: Path) -> None:
+    put("Class/package.mo", "Empty/notes.txt", "File.mo", "Both.mo", "Both/package.mo")
+    expected = {"Class.mo": CLASS_FOLDER, "Empty.mo": None, "None.mo": None, "None.txt": None, "Empty/package.mo": None}
+    assert {path: files().on_disk(f"{LADDER}/{path}", Role.MODEL) for path in expected} == expected
+    for path in ("File.mo", "Both.mo", "Class/package.mo"):
+        assert files().on_disk(f"{LADDER}/{path}", Role.MODEL) == digest(b"text\n"), "of a text, whatever its line ends"
+        assert files().on_disk(f"{LADDER}/{path}", Role.IMPORT) == digest(b"text\r\n")
+
+
+def test_classes_are_files_and_folders(project: Path) -> None:
+    put("package.mo", "A.mo", "B/package.mo", "C/notes.txt")
+    found = files()
+    assert found.classes(f"{LADDER}/") == {f"{LADDER}/{path}" for path in ("package.mo", "A.mo", "B/package.mo")}
+    assert [name for name in ("A", "B", "C", "D", "package") if found.has_class(LADDER, name)] == [
+        "A",
+        "B",
+        "C",
+        "package",
+    ]
+    keys = [f"{LADDER}/A.mo", f"{LADDER}/B/package.mo"]
+    top = f"{LADDER}/package.mo"
+    assert found.has_classes(top, [])
+    assert found.has_classes(top, keys[:1])
+    assert found.has_classes(top, keys[1:])
+    assert not found.has_classes(top, keys)
