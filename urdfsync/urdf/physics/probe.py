@@ -153,11 +153,11 @@ def free_probe(
     """
     starts, turning, sliding = list[str](), dict[str, tuple[float, float]](), dict[str, tuple[float, float]]()
     axes, options = subject.axes, subject.options
-    for k, (joint, course) in enumerate(zip(axes, courses, strict=True)):
+    for joint, course in zip(axes, courses, strict=True):
         is_turning = MOTION_KINDS[joint.type] == "rotational"
         (turning if is_turning else sliding)[joint.name] = course.position, course.speed
         q, v = ("phi", "w") if is_turning else ("s", "v")
-        place = f"{q}_start = {course.position!r}, " if k % 2 and not subject.is_in_loop(joint) else ""
+        place = f"{q}_start = {course.position!r}, " if course.position != subject.starts[joint.name] else ""
         component = names.joints.get(joint.name, "").removeprefix("robot.")
         starts.append(f"{component}({place}{v}_start = {course.speed!r})")
     if not names.joints and starts:

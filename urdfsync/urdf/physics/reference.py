@@ -213,15 +213,12 @@ class Reference:
         return {name: joint.idx_v for name, joint in zip(self.model.names, self.model.joints, strict=True)}
 
     def effort_gains(self, state: Configuration, efforts: Array, columns: Sequence[int]) -> Array:
-        """Return the accelerations of some axes that follow from their efforts, where the base moves as in `state`.
+        """Return what some axes gain in acceleration by efforts beside those of `state`; all others go on as there.
 
-        (Bᵀ·M·B)·a = efforts - Bᵀ·(tau of a = 0), with the columns of these axes in B. All others stay.
+        (Bᵀ·M·B)·a = efforts, with the columns of these axes in B.
         """
-        data, still = self.model.createData(), state.a.copy()
-        still[6:] = state.drift[6:]
-        load = self.pin.rnea(self.model, data, state.q, state.v, still) + self.losses(state.v)
         ways = state.ways[:, columns]
-        return self._solved(ways.T @ self._mass(state.q) @ ways, efforts[columns] - ways.T @ load)
+        return self._solved(ways.T @ self._mass(state.q) @ ways, efforts)
 
     def free_gains(self, state: Configuration, efforts: Array, is_free: bool) -> tuple[Array, float] | None:
         """Return the accelerations of all coordinates that follow from the efforts of the axes; None if none do.
@@ -246,8 +243,7 @@ class Reference:
         return gains, float(doubt / max(1.0, np.abs(gains).max()))
 
     def _mass(self, q: Array) -> Array:
-        upper = np.triu(self.pin.crba(self.model, self.model.createData(), q))
-        return np.asarray(upper + np.triu(upper, 1).T)
+        return np.asarray(self.pin.crba(self.model, self.model.createData(), q))
 
     @staticmethod
     def _solved(mass: Array, efforts: Array) -> Array:

@@ -52,9 +52,8 @@ class Subject:
         for instant, share in LOADS.items():
             state = self._state(instant, courses)
             holding = self.reference.solve(state).efforts
-            pairs = zip(limits, holding, strict=True)
-            efforts = np.array([share * limit if limit < motion.ENDLESS else hold for limit, hold in pairs])
-            gains = self.reference.effort_gains(state, efforts, outside)
+            more = [share * limits[n] - holding[n] if limits[n] < motion.ENDLESS else 0.0 for n in outside]
+            gains = self.reference.effort_gains(state, np.array(more), outside)
             strains[instant] = {self.axes[n].name: float(gain) for n, gain in zip(outside, gains, strict=True)}
         self.courses = self._courses(self.share, strains)
         if options.base == "floating" and "package" in options.approach:
