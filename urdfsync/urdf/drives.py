@@ -10,7 +10,6 @@ Loops leave fewer freedoms than joints: then no more of these are driven, see `k
 
 from __future__ import annotations
 
-import functools
 from collections.abc import Iterable
 
 from urdfsync.urdf.kinematics.loops import Assembly
@@ -29,15 +28,9 @@ def assembly(tree: KinematicTree, options: Options) -> Assembly:
         return Assembly(tree=tree, driven=wanted)
     actuated = {joint.name for joint in tree.joints if joint.actuated}
     named = actuated.union(options.commands) if options.driven is None else options.driven
-    return _assemble(tree, wanted, frozenset(named))
-
-
-@functools.lru_cache(maxsize=2)
-def _assemble(tree: KinematicTree, wanted: frozenset[str], named: frozenset[str]) -> Assembly:
-    """Close loops. The last results are kept: a build asks ten times, for two versions, and one takes 40 ms."""
     from urdfsync.urdf.kinematics.assemble import assemble  # 60 ms for numpy, which few robots need
 
-    return assemble(tree, wanted, named)
+    return assemble(tree, wanted, frozenset(named))
 
 
 def wanted_joints(joints: Iterable[Joint], options: Options) -> frozenset[str]:

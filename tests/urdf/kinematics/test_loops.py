@@ -254,6 +254,7 @@ def test_rounding_changes_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
         return exact(matrix * (1 + 1e-13 * noise.normal()) + 1e-14 * np.diag(noise.normal(size=len(matrix))))
 
     monkeypatch.setattr(np.linalg, "eigh", rounded)
+    assemble.cache_clear()
     assert [assembled(robot) for robot in robots] == before
 
 

@@ -7,6 +7,7 @@ is chosen in a fixed order by one tolerance, and the start is refined in decimal
 
 from __future__ import annotations
 
+import functools
 import itertools
 import math
 from collections.abc import Iterator, Mapping, Sequence
@@ -111,6 +112,8 @@ class _UnclosableError(Exception):
         self.faults = faults
 
 
+# A build asks ten times, for two versions, and one takes 40 ms.
+@functools.lru_cache(maxsize=2)
 def assemble(tree: KinematicTree, wanted: frozenset[str], named: frozenset[str]) -> Assembly:
     """Close all loops of a robot that has any, near its start, or say why that is impossible.
 
