@@ -177,6 +177,16 @@ def project(rc_domain: None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
 
 
 @pytest.fixture
+def workspace(tmp_path: Path) -> Path:
+    """A folder whose configuration builds the sample arm from a ROS workspace."""
+    robots = REPOSITORY / "modelica/UrdfSync/Resources/robots"
+    shutil.copytree(robots / "six_axis_arm", tmp_path / "ws/src/six_axis_arm")
+    source = 'source = "ws/src/six_axis_arm/six_axis_arm.urdf"\n'
+    (tmp_path / "urdfsync.toml").write_text(f'[robots.arm]\n{source}package = "Arm"\nignore = ["not-modelled"]\n')
+    return tmp_path
+
+
+@pytest.fixture
 def start(project: Path, rc_site: Path, tmp_path: Path) -> Iterator[Start]:
     """A function that starts a daemon in the project, and waits until all is built; it is killed after the test."""
     from support.daemon import Watch  # watchdog takes 45 ms

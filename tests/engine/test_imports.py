@@ -170,79 +170,63 @@ def test_what_to_do_about_a_file_that_is_not_found_goes_by_its_reference(project
 
 # Meshes of a robot
 
-SAMPLES = Path(__file__).parents[2] / "modelica/UrdfSync/Resources/robots"
-CONFIGURATION = """
-[robots.arm]
-source = "ws/src/six_axis_arm/six_axis_arm.urdf"
-package = "Arm"
-ignore = ["not-modelled"]
-"""
 
-
-@pytest.fixture
-def arm(tmp_path: Path) -> Path:
-    """A project that builds the sample arm from a ROS workspace of its own."""
-    shutil.copytree(SAMPLES / "six_axis_arm", tmp_path / "ws" / "src" / "six_axis_arm")
-    (tmp_path / "urdfsync.toml").write_text(CONFIGURATION)
-    return tmp_path
-
-
-def test_outermost_points_of_meshes_are_found_once_the_robot_touches_the_ground(arm: Path) -> None:
+def test_outermost_points_of_meshes_are_found_once_the_robot_touches_the_ground(workspace: Path) -> None:
     """Whether the meshes are there or not, what is built in the end is what one build makes of it."""
-    crashes.run(arm)
-    assert '"hull"' not in (arm / ".urdfsync/robots/arm.state").read_text()
-    meshes = arm / "ws/src/six_axis_arm/meshes"
-    meshes.rename(arm / "away")
-    floating = CONFIGURATION + 'base = "floating"\n'
-    (arm / "urdfsync.toml").write_text(floating)
-    (error,) = crashes.run(arm).diagnostics
+    crashes.run(workspace)
+    assert '"hull"' not in (workspace / ".urdfsync/robots/arm.state").read_text()
+    meshes = workspace / "ws/src/six_axis_arm/meshes"
+    meshes.rename(workspace / "away")
+    configuration = (workspace / "urdfsync.toml").read_text()
+    (workspace / "urdfsync.toml").write_text(configuration + 'base = "floating"\n')
+    (error,) = crashes.run(workspace).diagnostics
     assert (error.severity, error.code) == (Severity.ERROR, "lost-state")
     assert error.message.endswith("the record of its imported copy is incomplete")
-    (arm / "away").rename(meshes)
-    crashes.run(arm)
-    assert '"hull"' in (arm / ".urdfsync/robots/arm.state").read_text()
-    found = contents(arm / "modelica")
-    shutil.rmtree(arm / "modelica")
-    shutil.rmtree(arm / ".urdfsync")
-    crashes.run(arm)
-    assert contents(arm / "modelica") == found
-    (arm / "urdfsync.toml").write_text(CONFIGURATION)
-    crashes.run(arm)
-    assert '"hull"' not in (arm / ".urdfsync/robots/arm.state").read_text()
+    (workspace / "away").rename(meshes)
+    crashes.run(workspace)
+    assert '"hull"' in (workspace / ".urdfsync/robots/arm.state").read_text()
+    found = contents(workspace / "modelica")
+    shutil.rmtree(workspace / "modelica")
+    shutil.rmtree(workspace / ".urdfsync")
+    crashes.run(workspace)
+    assert contents(workspace / "modelica") == found
+    (workspace / "urdfsync.toml").write_text(configuration)
+    crashes.run(workspace)
+    assert '"hull"' not in (workspace / ".urdfsync/robots/arm.state").read_text()
 
 
-def test_meshes_of_a_modelica_library_are_imported(arm: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_meshes_of_a_modelica_library_are_imported(workspace: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The library on MODELICAPATH comes before a folder of its name beside the source."""
-    folder = arm / "ws" / "src" / "six_axis_arm"
+    folder = workspace / "ws" / "src" / "six_axis_arm"
     source = folder / "six_axis_arm.urdf"
     source.write_text(source.read_text().replace("package://six_axis_arm/meshes/", "modelica://ArmMeshes/Resources/"))
-    library = arm / "libraries" / "ArmMeshes 1.2.0"
+    library = workspace / "libraries" / "ArmMeshes 1.2.0"
     library.mkdir(parents=True)
     (library / "package.mo").write_text("package ArmMeshes\nend ArmMeshes;\n")
     shutil.move(folder / "meshes", library / "Resources")
     monkeypatch.setenv("MODELICAPATH", "")
-    result = crashes.run(arm)
+    result = crashes.run(workspace)
     assert {found.code for found in result.diagnostics} == {"mesh-not-found"}
     assert "`ArmMeshes` on MODELICAPATH" in (result.diagnostics[0].hint or "")
-    monkeypatch.setenv("MODELICAPATH", str(arm / "libraries"))
-    assert crashes.run(arm).diagnostics == ()
-    assert len(list((arm / "modelica/Arm/Resources").iterdir())) == 7
+    monkeypatch.setenv("MODELICAPATH", str(workspace / "libraries"))
+    assert crashes.run(workspace).diagnostics == ()
+    assert len(list((workspace / "modelica/Arm/Resources").iterdir())) == 7
     beside = folder / "ArmMeshes" / "Resources"
     shutil.copytree(library / "Resources", beside)
     (beside / "carousel.obj").write_text("no mesh")
-    assert crashes.run(arm).in_step
+    assert crashes.run(workspace).in_step
     monkeypatch.setenv("MODELICAPATH", "")
-    assert {found.code for found in crashes.run(arm).diagnostics} == {"mesh-unreadable-kept"}
+    assert {found.code for found in crashes.run(workspace).diagnostics} == {"mesh-unreadable-kept"}
 
 
-def test_missing_meshes_are_one_warning_for_each_package(arm: Path) -> None:
-    shutil.rmtree(arm / "ws/src/six_axis_arm/meshes")
-    source = arm / "ws/src/six_axis_arm/six_axis_arm.urdf"
+def test_missing_meshes_are_one_warning_for_each_package(workspace: Path) -> None:
+    shutil.rmtree(workspace / "ws/src/six_axis_arm/meshes")
+    source = workspace / "ws/src/six_axis_arm/six_axis_arm.urdf"
     text = source.read_text()
     source.write_text(text.replace("package://six_axis_arm/meshes/carousel.obj", "package://turntable/carousel.obj"))
 
     def told(full: bool = False) -> list[str]:
-        return [str(found).partition(": ")[2] for found in crashes.run(arm, full=full).diagnostics]
+        return [str(found).partition(": ")[2] for found in crashes.run(workspace, full=full).diagnostics]
 
     warnings = [
         "warning: 6 meshes (such as `package://six_axis_arm/meshes/base_casting.stl`) not found; left out; "
@@ -258,17 +242,26 @@ def test_missing_meshes_are_one_warning_for_each_package(arm: Path) -> None:
     assert told(full=True) == warnings
 
 
-def test_meshes_from_a_folder_of_another_name_are_one_warning_for_each_package(arm: Path) -> None:
-    (arm / "ws/src/six_axis_arm").rename(arm / "ws/src/arm-main")
-    (arm / "urdfsync.toml").write_text(CONFIGURATION.replace("ws/src/six_axis_arm/", "ws/src/arm-main/"))
-    (found,) = crashes.run(arm).diagnostics
+def test_meshes_from_a_folder_of_another_name_are_one_warning_for_each_package(workspace: Path) -> None:
+    (workspace / "ws/src/six_axis_arm").rename(workspace / "ws/src/arm-main")
+    edit(workspace / "urdfsync.toml", "ws/src/six_axis_arm/", "ws/src/arm-main/")
+    (found,) = crashes.run(workspace).diagnostics
     assert (found.severity, found.code) == (Severity.WARNING, "mesh-guessed")
     assert found.message == (
         "7 meshes (such as `package://six_axis_arm/meshes/base_casting.stl`) are taken from a folder that is not "
         "called like the package `six_axis_arm`"
     )
-    for mesh in (arm / "ws/src/arm-main/meshes").iterdir():
+    for mesh in (workspace / "ws/src/arm-main/meshes").iterdir():
         if mesh.name != "carousel.obj":
             mesh.unlink()
-    said = {found.code: found.message for found in crashes.run(arm).diagnostics}
+    said = {found.code: found.message for found in crashes.run(workspace).diagnostics}
     assert "`package://six_axis_arm/meshes/carousel.obj` is taken from" in said["mesh-guessed"]
+
+
+def test_meshes_are_imported_and_named_by_modelica_uris(workspace: Path) -> None:
+    crashes.run(workspace)
+    resources = {p.name for p in (workspace / "modelica/Arm/Resources").iterdir()}
+    texts = "".join(p.read_text() for p in (workspace / "modelica/Arm/Links").glob("*Parameters.mo"))
+    assert len(resources) == 7
+    assert all(f'"modelica://Arm/Resources/{name}"' in texts for name in resources)
+    assert "package://" not in texts
