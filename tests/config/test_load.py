@@ -8,34 +8,18 @@ from pathlib import Path
 
 import msgspec
 import pytest
+from support.configurations import ROOT, failures, parse, robot
 
 from urdfsync import config
-from urdfsync.config import Config, RobotConfig
+from urdfsync.config import RobotConfig
 from urdfsync.diagnostics import ConfigError
 from urdfsync.domain import Target
-from urdfsync.files import shown
 
 pytestmark = pytest.mark.usefixtures("rc_domain")
-
-ROOT = Path(os.path.abspath("/project"))  # noqa: PTH100 - a drive on Windows
-
-
-def parse(text: str) -> Config:
-    return config.parse(text, ROOT / "urdfsync.toml", "urdfsync.toml")
-
-
-def robot(more: str = "", name: str = "arm", package: str = "Arm") -> str:
-    return f'[robots.{name}]\nsource = "arm.json"\npackage = "{package}"\ndomain = "rcnetwork"\n{more}'
 
 
 def urdf(line: str, name: str = "arm", package: str = "Arm") -> str:
     return f"[robots.{name}]\nsource = 'a'\npackage = '{package}'\n{line}\n"
-
-
-def failures(text: str) -> list[str]:
-    with pytest.raises(ConfigError) as caught:
-        parse(text)
-    return [str(diagnostic) for diagnostic in caught.value.diagnostics]
 
 
 def test_defaults() -> None:
@@ -180,26 +164,6 @@ def test_mistakes_are_one_line_each(text: str, message: str) -> None:
     assert (found if expected.endswith("]") else found[: len(expected)]) == expected
 
 
-@pytest.mark.parametrize(
-    "package", ["Modelica.Arm", "Plant.real.Arm", "Plant.sin.Arm", "Plant.Aux.Arm", "com1", "Plant.UrdfSync.Arm",
-                "UrdfSync", "urdfsync.Arm", "visualization2", "Plant.time", "Plant.Resources.Arm", "Complex"]
-)  # fmt: skip
-def test_packages_that_would_hide_what_models_refer_to(package: str) -> None:
-    (message,) = failures(robot('class = "Robot1"', package=package))
-    assert message.startswith(f"urdfsync.toml:3: error: {package!r} can't be a package; use letters, digits and `_`")
-
-
-@pytest.mark.parametrize("package", ["UrdfSync.Examples.Arm", "Plant.Sum.Arm", "Plant.Links.Arm", "Plant.World"])
-def test_packages_that_hide_nothing(package: str) -> None:
-    assert parse(robot(package=package)).robots[0].target.package == package
-
-
-@pytest.mark.parametrize("name", ["Package", "Aux", "Complex", "Joints", "Visualization2", "robot", "Links"])
-def test_classes_that_clash_with_files_or_other_classes_are_told_at_their_line(name: str) -> None:
-    (message,) = failures(robot(f'class = "{name}"'))
-    assert message.startswith(f"urdfsync.toml:5: error: {name!r} can't be the class of a robot model; set `class`")
-
-
 @pytest.mark.parametrize("output", [".urdfsync", "x/../.urdfsync/deep", ".URDFSYNC", (ROOT / ".urdfsync").as_posix()])
 def test_the_folders_of_programs_are_no_outputs(output: str) -> None:
     for folder, owner in ((".urdfsync", "urdfsync"), (".git", "git")):
@@ -229,21 +193,6 @@ def test_lists_and_words_of_such_an_option() -> None:
     lines = ('frames = "all"', 'frames = ["a"]\ndriven = []', "")
     found = [one.options for one in parse("".join(map(urdf, lines, "ABC", "ABC"))).robots]
     assert [(one.frames, one.driven) for one in found] == [("all", None), (("a",), ()), ("leaves", None)]
-
-
-@pytest.mark.parametrize("package", ["", ".", "Arm.", ".Arm", "Arm.end", "A b", "Gelenk_ä", "../evil", 'a\\"b', "1A"])
-def test_packages_that_are_no_names_of_classes(package: str) -> None:
-    (message,) = failures(robot(package=package))
-    assert message.startswith("urdfsync.toml:3: error: ")
-    assert "can't be a package" in message
-
-
-@pytest.mark.parametrize("name", ["a/b", "..", ".hidden", "con", "NUL.x", "a:b", "a b", "ä", "x" * 101, "a."])
-def test_robots_whose_names_are_no_names_of_files(name: str) -> None:
-    assert failures(robot(name=f'"{name}"')) == [
-        f"urdfsync.toml:1: error: the robot's name {name!r} can't be a file's name; "
-        "use letters, digits, `_`, `-` and `.`, a letter or digit first [robot-name]"
-    ]
 
 
 @pytest.mark.parametrize(
@@ -285,11 +234,3 @@ def test_load_names_a_file_that_it_cant_read(tmp_path: Path, content: bytes | No
         file.write_bytes(content)
     with pytest.raises(ConfigError, match=re.escape(words)):
         config.load(file)
-
-
-def test_paths_are_shown_as_they_are_seen_from_the_working_folder(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    inside, beside = tmp_path / "cad" / "arm.urdf", tmp_path.with_name(f"{tmp_path.name}-2") / "arm.urdf"
-    assert [shown(path) for path in (tmp_path, inside, beside)] == [".", str(Path("cad/arm.urdf")), str(beside)]

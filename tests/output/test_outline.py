@@ -12,7 +12,6 @@ from hypothesis import strategies as st
 from urdfsync.changes import Change, Changes
 from urdfsync.domain import ChangeClass, ChangeKind, Effect
 from urdfsync.output.outline import effect_rows, outline
-from urdfsync.output.phrases import change_lines
 
 
 def change(
@@ -94,24 +93,6 @@ def test_what_comes_and_goes_is_told_apart() -> None:
         "  limit removed: lower -1, upper 1.5",
         "link left",
         "  renamed to port",
-    ]
-
-
-def test_a_change_is_one_line_of_a_build() -> None:
-    found = Changes(
-        (
-            change("link a", "a", "b: c", kind=ChangeKind.RENAMED, reach=ChangeClass.STRUCTURAL),
-            change("link a / visual 1", None, {"name": "x"}, kind=ChangeKind.ADDED),
-            change("robot / gazebo", "x", "y", reach=ChangeClass.UNMODELLED),
-            change("joint a / limit / effort", 54.0, 60.0, "N·m"),
-        )
-    )
-    assert change_lines(found) == [
-        "~3 (1 structural and 2 parameter and 1 unmodelled change)",
-        "link a: renamed to b: c",
-        "link a: visual 1 added: name x",
-        "robot: not modelled 1 change",
-        "joint a: limit / effort 54 → 60 N·m (+11.1 %)",
     ]
 
 

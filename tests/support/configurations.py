@@ -1,9 +1,10 @@
-"""Configurations held against their schema: it refuses what the program refuses, and takes what it takes."""
+"""Configurations as texts, what is said of them, and whether their schema agrees with the program."""
 
 from __future__ import annotations
 
 import functools
 import importlib
+import os
 import sys
 import tomllib
 from collections.abc import Callable, Iterator
@@ -12,12 +13,30 @@ from pathlib import Path
 from unittest import mock
 
 import jsonschema
+import pytest
 
 from urdfsync import config, registry
 from urdfsync.config import Config
 from urdfsync.config.schema import config_schema
 from urdfsync.dependencies import Dependencies
 from urdfsync.diagnostics import ConfigError, Diagnostic
+
+ROOT = Path(os.path.abspath("/project"))  # noqa: PTH100 - a drive on Windows
+
+
+def parse(text: str) -> Config:
+    return config.parse(text, ROOT / "urdfsync.toml", "urdfsync.toml")
+
+
+def robot(more: str = "", name: str = "arm", package: str = "Arm") -> str:
+    return f'[robots.{name}]\nsource = "arm.json"\npackage = "{package}"\ndomain = "rcnetwork"\n{more}'
+
+
+def failures(text: str) -> list[str]:
+    with pytest.raises(ConfigError) as caught:
+        parse(text)
+    return [str(diagnostic) for diagnostic in caught.value.diagnostics]
+
 
 _BEYOND = {"clash", "wrong-rename", "toml-syntax"}
 """Codes of mistakes that no schema can see: they are between tables, or there is no document."""

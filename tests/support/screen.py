@@ -12,13 +12,20 @@ from collections.abc import Mapping, Sequence
 _PIECES = re.compile(r"\x1b\[([\d;?]*)([A-Za-z])|(.)", re.DOTALL)
 
 
-class Screen(io.StringIO):
+class Terminal(io.StringIO):
+    """All that is written to a terminal."""
+
+    encoding = "utf-8"
+
+    def isatty(self) -> bool:
+        return True
+
+
+class Screen(Terminal):
     """Understands line feeds, `ESC [ n A`, `ESC [ 2 K`, colours and whether the cursor is shown; else it is an error.
 
     It breaks lines as xterm does, and does not join them again when it gets wider.
     """
-
-    encoding = "utf-8"
 
     def __init__(self, width: int = 80, height: int = 24) -> None:
         super().__init__()
@@ -26,9 +33,6 @@ class Screen(io.StringIO):
         self.rows = [""]
         self.has_cursor = True
         self._row = self._column = 0
-
-    def isatty(self) -> bool:
-        return True
 
     def write(self, text: str) -> int:
         super().write(text)

@@ -1,0 +1,33 @@
+"""Results in words: the changes of a model, line by line."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from urdfsync.changes import Change, Changes
+from urdfsync.domain import ChangeClass, ChangeKind
+from urdfsync.output.phrases import change_lines
+
+STRUCTURAL = ChangeClass.STRUCTURAL
+
+
+def change(path: str, old: Any, new: Any, kind: ChangeKind, reach: ChangeClass = ChangeClass.PARAMETER) -> Change:
+    return Change(tuple(path.split(" / ")), kind, reach, old, new)
+
+
+def test_a_change_is_one_line_of_a_build() -> None:
+    found = Changes(
+        (
+            change("link a", "a", "b: c", ChangeKind.RENAMED, STRUCTURAL),
+            change("link a / visual 1", None, {"name": "x"}, ChangeKind.ADDED),
+            change("robot / gazebo", "x", "y", ChangeKind.CHANGED, ChangeClass.UNMODELLED),
+            change("joint a / limit / effort", 54.0, 60.0, ChangeKind.CHANGED),
+        )
+    )
+    assert change_lines(found) == [
+        "~3 (1 structural and 2 parameter and 1 unmodelled change)",
+        "link a: renamed to b: c",
+        "link a: visual 1 added: name x",
+        "robot: not modelled 1 change",
+        "joint a: limit / effort 54 → 60 (+11.1 %)",
+    ]
