@@ -13,7 +13,6 @@ from collections.abc import Collection
 from pathlib import Path
 from typing import Any
 
-import jsonschema
 import msgspec
 import pytest
 from support.commands import Execute
@@ -345,16 +344,3 @@ def test_bad_usage_is_a_document_as_well(folder: Path, execute: Execute, argumen
     document = printed(execute, folder, *arguments)
     assert (document["exit"], document["diagnostics"][0]["code"]) == (2, "usage")
     assert document.keys() == DOCUMENT
-
-
-@pytest.mark.parametrize("command", [name for name in cli._COMMANDS if name not in ("schema", "completion")])
-def test_each_command_has_a_schema(execute: Execute, command: str) -> None:
-    schema = execute("schema", command).json
-    assert schema["title"] == command
-    assert schema["$defs"]["Diagnostic"]["properties"]["severity"]
-    document = {"version": JSON_VERSION, "command": command, "exit": 0, "results": [], "diagnostics": []}
-    with pytest.raises(jsonschema.ValidationError):
-        is_described({**document, "other": 1}, command)
-    del document["exit"]
-    with pytest.raises(jsonschema.ValidationError):
-        is_described(document, command)

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 from support.commands import Execute
 from support.networks import LADDER, ROBOT, configure, edit, source
+
+from urdfsync.engine.result import Exit
 
 
 def test_robots_are_chosen_by_name(execute: Execute, project: Path) -> None:
@@ -52,3 +55,35 @@ def test_what_was_meant_is_said(execute: Execute) -> None:
     for arguments, name in meant.items():
         assert f"; did you mean `{name}`? [usage]" in execute(*arguments, code=2).err
     assert "; `urdfsync --help` says more [usage]" in execute("swim", code=2).err
+
+
+@pytest.mark.parametrize("written", ["json", "markdown", "sarif"])
+def test_a_command_that_fails_writes_its_document(folder: Path, execute: Execute, written: str) -> None:
+    printed = execute("build", "--format", written, code=Exit.ERROR)
+    assert "urdfsync init" in printed.out
+    assert printed.err == ""
+
+
+def test_json_is_the_format_json(project: Path, execute: Execute) -> None:
+    texts = [execute("build", "--check", *given, code=1).out for given in (["--json"], ["--format", "json"])]
+    assert texts[0] == texts[1]
+    assert json.loads(texts[0])["command"] == "build"
+    assert (
+        "unrecognized"
+        in execute("build", "--format=json", "--bogus", code=Exit.ERROR).json["diagnostics"][0]["message"]
+    )
+
+
+@pytest.mark.parametrize(
+    ("arguments", "problem"),
+    [
+        (["status", "--format", "sarif"], "unrecognized arguments: --format"),
+        (["build", "--format", "html"], "invalid choice: 'html'"),
+        (["build", "--json", "--format", "markdown"], "not allowed with argument"),
+    ],
+)
+def test_a_format_that_a_command_does_not_have_is_refused(
+    folder: Path, execute: Execute, arguments: list[str], problem: str
+) -> None:
+    printed = execute(*arguments, code=Exit.ERROR)
+    assert problem in printed.out + printed.err

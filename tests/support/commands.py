@@ -43,3 +43,13 @@ class Printed(NamedTuple):
 
 Execute = Callable[..., Printed]
 """The fixture `execute`."""
+
+Editor = Callable[[str], object]
+"""The fixture `editor`."""
+SETTLE = """
+lines = file.read_text().splitlines(keepends=True)
+begin, end = (next(n for n, line in enumerate(lines) if line.startswith(mark)) for mark in ("<<<<<<<", ">>>>>>>"))
+lines[begin : end + 1] = ['  Real mine "1 %";\\n']
+file.write_text("".join(lines))
+"""
+"""The text of an editor that makes one text of both sides."""

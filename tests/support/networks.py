@@ -22,6 +22,9 @@ RC_FOLDER = Path(__file__).parents[1] / "rcnetwork"
 LADDER = "modelica/Ladder"
 R1, R2, C1 = (f"{LADDER}/Elements/{name}.mo" for name in ("R1", "R2", "C1"))
 RECORD = f"{LADDER}/Elements/R1Parameters.mo"
+MODEL = f"{LADDER}/Ladder.mo"
+MINE, FRESH = '"Element R2, 1 %"', '"Element R3"'
+"""Of the model, where the fixture `contradictory` edits it, and what the source has in its place."""
 MANIFEST = ".urdfsync/robots/ladder.state"
 BASES = Path(".urdfsync/bases/ladder")
 ROBOT = '[robots.{0}]\nsource = "ladder.json"\npackage = "{1}"\ndomain = "rcnetwork"\n'

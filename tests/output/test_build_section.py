@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import re
 from collections.abc import Iterator
 from pathlib import Path
@@ -142,35 +141,3 @@ def test_a_check_of_a_package_out_of_step_says_so(arm: Path, execute: Execute, m
     assert rest == f"<ul>\n<li>{gap}</li>\n<li>{advice}</li>\n</ul>\n"
     found = results(execute, "check")["out-of-step"]
     assert found["message"]["text"] == "Arm: the package is out of step; run `urdfsync build`"
-
-
-@pytest.mark.parametrize("written", ["json", "markdown", "sarif"])
-def test_a_command_that_fails_writes_its_document(folder: Path, execute: Execute, written: str) -> None:
-    printed = execute("build", "--format", written, code=Exit.ERROR)
-    assert "urdfsync init" in printed.out
-    assert printed.err == ""
-
-
-def test_json_is_the_format_json(arm: Path, execute: Execute) -> None:
-    texts = [execute("build", "--check", *given, code=1).out for given in (["--json"], ["--format", "json"])]
-    assert texts[0] == texts[1]
-    assert json.loads(texts[0])["command"] == "build"
-    assert (
-        "unrecognized"
-        in execute("build", "--format=json", "--bogus", code=Exit.ERROR).json["diagnostics"][0]["message"]
-    )
-
-
-@pytest.mark.parametrize(
-    ("arguments", "problem"),
-    [
-        (["status", "--format", "sarif"], "unrecognized arguments: --format"),
-        (["build", "--format", "html"], "invalid choice: 'html'"),
-        (["build", "--json", "--format", "markdown"], "not allowed with argument"),
-    ],
-)
-def test_a_format_that_a_command_does_not_have_is_refused(
-    folder: Path, execute: Execute, arguments: list[str], problem: str
-) -> None:
-    printed = execute(*arguments, code=Exit.ERROR)
-    assert problem in printed.out + printed.err
