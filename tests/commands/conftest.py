@@ -9,7 +9,11 @@ from pathlib import Path
 
 import pytest
 from support.commands import Editor, Execute
+from support.fmu import openmodelica, reference
 from support.networks import MINE, MODEL, edit
+from support.simulation import arm, built_arm, compiler
+
+__all__ = ["arm", "built_arm", "compiler", "contradictory", "editor", "openmodelica", "reference"]
 
 
 @pytest.fixture

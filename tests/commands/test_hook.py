@@ -291,12 +291,6 @@ def test_unmerged_files_are_an_error(repo: Repository, capsys: Capture) -> None:
 def test_without_a_working_tree(project: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("GIT_CEILING_DIRECTORIES", str(project.parent))
     assert "error: git failed: not a git repository" in said(capsys, "check", code=2)[0]
-    subprocess.run(["git", "init", "-q", "--bare", "../bare"], check=True)
-    with monkeypatch.context() as patch:
-        patch.setenv("GIT_DIR", str(project.parent / "bare"))
-        assert "error: git failed: this operation must be run in a work tree" in said(capsys, "check", code=2)[0]
-    monkeypatch.setenv("PATH", str(project))
-    assert "error: git can't be started: " in said(capsys, "check", code=2)[0]
 
 
 def test_a_further_working_tree_has_an_index_of_its_own(

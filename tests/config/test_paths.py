@@ -9,12 +9,9 @@ from unittest import mock
 import pytest
 from support.commands import Execute
 
-from urdfsync.files import shown
-
 
 def test_a_working_folder_that_is_gone(project: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(os, "getcwd", mock.Mock(side_effect=FileNotFoundError(2, "No such file or directory")))
-    assert shown(project) == str(project)
     for command in ("build", "init"):
         message = "error: the working folder does not exist any more; change to a folder that exists [no-folder]\n"
         assert execute(command, code=2).err == message

@@ -3,37 +3,16 @@
 from __future__ import annotations
 
 import math
-import os
-import shutil
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 from support.modelica import CACHE, URDFSYNC
-from support.simulation import Compiler
+from support.simulation import OWN, Compiler, refused, run
 
-from urdfsync import config
 from urdfsync.checks import libraries
 from urdfsync.checks.compilers.compiler import CompileResult, SimulationResult
-from urdfsync.diagnostics import Severity, UrdfsyncError
-from urdfsync.engine.options import no_progress
-from urdfsync.simulation.results import SimulateOptions, SimulateResult
-from urdfsync.simulation.run import simulate
-
-OWN = "model Own\n  extends Arm.ArmTest;\n  parameter Real k = 2;\n  Real y = k*time;\nend Own;\n"
-
-
-def run(**options: Any) -> SimulateResult:
-    found = config.load(Path("urdfsync.toml"))
-    return simulate(found, found.robots[0], SimulateOptions(**options), no_progress)
-
-
-def refused(**options: Any) -> str:
-    with pytest.raises(UrdfsyncError) as caught:
-        run(**options)
-    return str(caught.value)
+from urdfsync.diagnostics import Severity
 
 
 def test_test_is_simulated_as_its_annotation_says(compiler: Compiler) -> None:
@@ -70,17 +49,6 @@ def test_a_model_without_annotation_has_the_defaults(compiler: Compiler) -> None
     assert str(Path("Own.mo").resolve()) in compiler.jobs[0].roots
 
 
-@pytest.mark.parametrize("place", ["Cells/package.mo", "elsewhere/Cells/package.mo", "elsewhere/Cells.mo"])
-def test_models_of_the_user_are_found(
-    compiler: Compiler, modelica_library: Path, place: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    file = Path(place)
-    file.parent.mkdir(parents=True, exist_ok=True)
-    file.write_text("package Cells\n" + OWN + "end Cells;\n")
-    monkeypatch.setenv("MODELICAPATH", os.pathsep.join((str(modelica_library), str(Path("elsewhere").resolve()))))
-    assert run(model="Cells.Own").model == "Cells.Own"
-
-
 def test_inputs_follow_the_motion_and_drives_the_inputs(compiler: Compiler) -> None:
     Path("m.csv").write_text("time,shoulder_phi,elbow_phi [deg]\n0,0,0\n0.5,1,90\n2,2,180\n")
     result = run(motion=Path("m.csv"))
@@ -104,53 +72,9 @@ def test_the_same_is_simulated_once(compiler: Compiler, tmp_path: Path, monkeypa
     assert [run(stop=stop).is_known for stop in (1.0, 2.0, 1.0)] == [False, False, True]
 
 
-def test_a_package_that_is_out_of_step_is_simulated_with_a_warning(compiler: Compiler) -> None:
-    file = Path("arm.urdf")
-    file.write_text(file.read_text().replace('damping="0.5"', 'damping="0.7"'))
-    assert [one.code for one in run().diagnostics] == ["out-of-step", "limit-passed"]
-
-
 def test_a_model_without_the_robot_has_no_joints(compiler: Compiler) -> None:
     compiler.values = {"time": (0.0, 1.0)}
     assert [one.code for one in run().diagnostics] == ["no-joints"]
-
-
-def write(text: str, name: str = "m.csv") -> Callable[[], None]:
-    return lambda: (Path(name).write_text(text), None)[1]
-
-
-MOTION = "time,shoulder_phi,elbow_phi\n0,0,0\n2,2,2\n"
-
-
-@pytest.mark.parametrize(
-    ("prepare", "options", "words"),
-    [
-        (None, {"model": "ArmTst"}, "there is no model `ArmTst`; did you mean `ArmTest`?"),
-        (None, {"model": "Arm.ArmTst"}, "did you mean `ArmTest`?"),
-        (None, {"model": "Plant.Cell"}, "libraries are found beside the package"),
-        (None, {"model": "Links"}, "it is a package"),
-        (None, {"model": "ArmRun"}, "`Arm.ArmRun` has inputs; give a CSV file with `--input`; its first line is "
-         "time,shoulder_phi,elbow_phi"),
-        (write(MOTION), {"model": "ArmTest", "motion": Path("m.csv")}, "the model has no inputs that a motion could "
-         "drive; leave `--input` out"),
-        (write(MOTION), {"motion": Path("m.csv"), "stop": 3.0}, "the motion ends at 2 s, before the stop time, 3 s"),
-        (None, {"method": "bdff"}, "did you mean `bdf`?"),
-        (None, {"values": ("a",)}, "gives no value"),
-        (write("not a robot", "arm.urdf"), {}, "arm.urdf"),
-    ],
-)  # fmt: skip
-def test_bad_input_is_refused_before_anything_is_compiled(
-    compiler: Compiler, prepare: Callable[[], None] | None, options: dict[str, Any], words: str
-) -> None:
-    if prepare:
-        prepare()
-    assert words in refused(**options)
-    assert compiler.jobs == []
-
-
-def test_a_package_that_is_not_built_is_refused(compiler: Compiler) -> None:
-    shutil.rmtree("modelica")
-    assert "is not built; run `urdfsync build`" in refused()
 
 
 @pytest.mark.parametrize(
@@ -188,30 +112,6 @@ def test_a_model_that_ends_the_simulation_is_a_note(compiler: Compiler) -> None:
     ended = SimulationResult(compiler.values, termination="landed", parameters=compiler.parameters)
     compiler.results = [CompileResult(runs=(ended,))]
     assert "`Arm.ArmTest` ends the simulation at 2 s: landed" in [one.message for one in run().diagnostics]
-
-
-def test_a_parameter_that_does_not_exist_is_refused_with_the_nearest(compiler: Compiler) -> None:
-    compiler.results = [CompileResult(parameters=("robot.elbow.parameters.dynamics.damping",))]
-    found = refused(values=("robot.elbow.parameters.dynamics.dampin=1",))
-    assert "did you mean `robot.elbow.parameters.dynamics.damping`?" in found
-    compiler.results = [CompileResult("unbalanced model: 4 equations, 3 unknowns"), CompileResult(parameters=("a",))]
-    assert "has no parameter `b`" in refused(values=("b=1",)), "what is set keeps the model from compiling"
-    assert [bool(job.tasks[0].runs) for job in compiler.jobs[1:]] == [True, False]
-    compiler.results = [CompileResult("unbalanced model: 4 equations, 3 unknowns"), CompileResult()]
-    assert "1 equation too many" in (found := refused(values=("b=1",)))
-    assert "look whether one of these is final, or gets the wrong kind of value: b" in found
-
-
-def test_a_file_that_can_not_be_read_is_told_in_place_of_what_the_compiler_says(compiler: Compiler) -> None:
-    Path("modelica/Arm/Own.mo").write_text("model Own\n  Real\nend Own;")
-    compiler.results = [CompileResult("something or other")]
-    assert refused().startswith("modelica/Arm/Own.mo:3: error: ")
-
-
-def test_what_is_wrong_with_a_model_of_the_user_is_told_of_its_file(compiler: Compiler) -> None:
-    Path("Own.mo").write_text(OWN)
-    compiler.results = [CompileResult("unbalanced model: 2 equations, 3 unknowns")]
-    assert refused(model="Own") == "Own.mo: error: there is 1 equation too few [unbalanced]"
 
 
 # --- with the embedded compiler -----------------------------------------------------------------------------------

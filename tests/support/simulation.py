@@ -1,13 +1,24 @@
-"""A small arm to simulate, and a compiler that only remembers what it is asked."""
+"""A small arm to simulate, and a compiler that only remembers what it is asked; fixtures of them."""
 
 from __future__ import annotations
 
+import shutil
 from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import pytest
 
 from support import urdfs
+from support.modelica import CACHE
+from urdfsync import cli, config
 from urdfsync.checks.cache import UserCache
 from urdfsync.checks.compilers.compiler import CompileJob, CompileResult, SimulationResult, Tool
 from urdfsync.checks.process import Limits
+from urdfsync.diagnostics import UrdfsyncError
+from urdfsync.engine.options import no_progress
+from urdfsync.simulation.results import SimulateOptions, SimulateResult
+from urdfsync.simulation.run import simulate
 
 ARM = urdfs.robot(
     *urdfs.links(base=None, upper=2.0, lower=1.0),
@@ -53,3 +64,48 @@ class Compiler:
     def source(self) -> str:
         """The text that was compiled last."""
         return self.jobs[-1].tasks[0].source
+
+
+@pytest.fixture(scope="session")
+def built_arm(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A project with the package `Arm`; tests work on copies of it."""
+    folder = tmp_path_factory.mktemp("arm") / "project"
+    folder.mkdir()
+    (folder / "arm.urdf").write_text(ARM)
+    (folder / "urdfsync.toml").write_text('[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\n')
+    assert cli.main(["build", "-q", "--config", str(folder / "urdfsync.toml")]) == 0
+    return folder
+
+
+@pytest.fixture
+def arm(built_arm: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A copy of the project, also the working folder; the compiler keeps what it remembers, and results are new."""
+    folder = tmp_path / "project"
+    shutil.copytree(built_arm, folder)
+    monkeypatch.chdir(folder)
+    monkeypatch.setattr("platformdirs.user_cache_path", lambda *_, **__: CACHE.folder)
+    monkeypatch.setattr(UserCache, "load", lambda *_: None)
+    monkeypatch.setattr(UserCache, "trim", lambda *_: 0)  # of its 10,000 files, a second each time
+    return folder
+
+
+@pytest.fixture
+def compiler(arm: Path, modelica_library: Path, monkeypatch: pytest.MonkeyPatch) -> Compiler:
+    """A compiler that compiles nothing, for the arm."""
+    found = Compiler()
+    monkeypatch.setattr("urdfsync.checks.compilers.run_job", found)
+    return found
+
+
+OWN = "model Own\n  extends Arm.ArmTest;\n  parameter Real k = 2;\n  Real y = k*time;\nend Own;\n"
+
+
+def run(**options: Any) -> SimulateResult:
+    found = config.load(Path("urdfsync.toml"))
+    return simulate(found, found.robots[0], SimulateOptions(**options), no_progress)
+
+
+def refused(**options: Any) -> str:
+    with pytest.raises(UrdfsyncError) as caught:
+        run(**options)
+    return str(caught.value)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import json
 import re
 from pathlib import Path
@@ -13,26 +12,6 @@ from support.simulation import Compiler
 
 from urdfsync.checks.process import LimitError
 from urdfsync.diagnostics import Diagnostic, Severity
-
-SHOWN = """\
-arm: Arm.ArmTest, 10 s in steps of 0.02 s; … s
-  joint     position     limits  speed/limit  effort/limit
-  shoulder  0 … 2.5 rad  -2 … 2  1/3 rad/s    1 N·m
-  elbow     0 … 0.5 rad  -       0 rad/s      -
-"""
-
-
-def test_joints_are_shown_beside_their_limits(compiler: Compiler, execute: Execute) -> None:
-    before = sorted(Path().rglob("*"))
-    printed = execute("simulate")
-    first, *rest = printed.lines
-    assert first.startswith("arm: Arm.ArmTest, 10 s in steps of 0.02 s; ")
-    assert rest == SHOWN.splitlines()[1:]
-    assert printed.errors == [
-        "warning: joint shoulder: position passes its limit, 2 rad, at 2 s; by up to 0.5 rad, for 0 s [limit-passed]"
-    ]
-    assert max(map(len, printed.lines)) <= 80
-    assert sorted(Path().rglob("*")) == before
 
 
 def test_all_arguments_reach_the_compiler(compiler: Compiler, execute: Execute) -> None:
@@ -45,17 +24,6 @@ def test_all_arguments_reach_the_compiler(compiler: Compiler, execute: Execute) 
     assert [(one.stop, one.step, one.tolerance, one.method) for one in task.runs] == [(2.0, 0.5, 1e-3, "bdf")]
 
 
-def test_series_are_written_with_all_digits(compiler: Compiler, execute: Execute) -> None:
-    compiler.values = {**compiler.values, "table[1,2]": (0.1, 1 / 3, 2e-300)}
-    Path("a.csv").write_text("of an earlier run")
-    assert execute("simulate", "--csv", "a.csv").lines[-1] == "  csv: a.csv"
-    with Path("a.csv").open(newline="") as file:
-        rows = list(csv.DictReader(file))
-    assert {name: tuple(float(row[name]) for row in rows) for name in rows[0]} == compiler.values
-    execute("simulate", "--csv", "b.csv")
-    assert Path("a.csv").read_bytes() == Path("b.csv").read_bytes()
-
-
 def test_a_page_has_the_motion(compiler: Compiler, execute: Execute) -> None:
     printed = execute("simulate", "--report", "arm.html")
     assert printed.lines[-1] == "  report: arm.html"
@@ -66,14 +34,6 @@ def test_a_page_has_the_motion(compiler: Compiler, execute: Execute) -> None:
     assert motion["series"]["time"] == list(compiler.values["time"])
     assert [limit["quantity"] for limit in motion["joints"][0]["passed"]] == ["position"]
     assert "position passes its limit, 2 rad" in page
-
-
-def test_parquet_has_the_same_numbers(compiler: Compiler, execute: Execute) -> None:
-    parquet = pytest.importorskip("pyarrow.parquet")
-    execute("simulate", "--parquet", "a.parquet")
-    assert {
-        name: tuple(values) for name, values in parquet.read_table("a.parquet").to_pydict().items()
-    } == compiler.values
 
 
 @pytest.mark.parametrize(

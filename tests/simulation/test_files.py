@@ -1,0 +1,29 @@
+"""Files of a simulation: series with all digits of their numbers."""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+
+import pytest
+from support.commands import Execute
+from support.simulation import Compiler
+
+
+def test_series_are_written_with_all_digits(compiler: Compiler, execute: Execute) -> None:
+    compiler.values = {**compiler.values, "table[1,2]": (0.1, 1 / 3, 2e-300)}
+    Path("a.csv").write_text("of an earlier run")
+    assert execute("simulate", "--csv", "a.csv").lines[-1] == "  csv: a.csv"
+    with Path("a.csv").open(newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert {name: tuple(float(row[name]) for row in rows) for name in rows[0]} == compiler.values
+    execute("simulate", "--csv", "b.csv")
+    assert Path("a.csv").read_bytes() == Path("b.csv").read_bytes()
+
+
+def test_parquet_has_the_same_numbers(compiler: Compiler, execute: Execute) -> None:
+    parquet = pytest.importorskip("pyarrow.parquet")
+    execute("simulate", "--parquet", "a.parquet")
+    assert {
+        name: tuple(values) for name, values in parquet.read_table("a.parquet").to_pydict().items()
+    } == compiler.values

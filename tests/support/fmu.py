@@ -1,0 +1,79 @@
+"""FMUs that no compiler has made, what FMPy says of them in these tests, and fixtures of both."""
+
+from __future__ import annotations
+
+import io
+import zipfile
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from support.simulation import Compiler
+from urdfsync import config
+from urdfsync.checks.compilers.compiler import CompileResult, Export, Tool
+from urdfsync.simulation import fmu
+from urdfsync.simulation.export import Exported, export
+from urdfsync.simulation.results import SimulateOptions, SimulateResult
+
+DESCRIPTION = b"""<fmiModelDescription description="Arm.ArmRun, exported by urdfsync 0.1.0">
+  <ModelExchange modelIdentifier="Arm_ArmRun">
+    <SourceFiles/>
+  </ModelExchange>
+  <CoSimulation modelIdentifier="Arm_ArmRun"/>
+  <ScalarVariable name="der(der(der(robot.elbow.phi)))"/><ScalarVariable name="der(robot.elbow.phi)"/>
+</fmiModelDescription>
+"""
+BOTH = Export("2.0", "me_cs")
+OPTIONS = SimulateOptions(tool=Tool("omc"))
+
+
+def archive() -> bytes:
+    """An FMU as OpenModelica writes it, but for its code."""
+    content = io.BytesIO()
+    with zipfile.ZipFile(content, "w") as file:
+        file.writestr("modelDescription.xml", DESCRIPTION)
+        file.writestr("binaries/linux64/Arm_ArmRun.so", b"code")
+    return content.getvalue()
+
+
+@pytest.fixture
+def openmodelica(compiler: Compiler, monkeypatch: pytest.MonkeyPatch) -> Compiler:
+    """A stand-in for OpenModelica that makes an FMU of anything."""
+    monkeypatch.setattr("urdfsync.checks.compilers.find_missing", lambda _: None)
+    compiler.results = [CompileResult(fmu=archive(), version="1.27.0")]
+    return compiler
+
+
+def exported(options: SimulateOptions = OPTIONS) -> Exported:
+    loaded = config.load(Path("urdfsync.toml").absolute())
+    return export(loaded, loaded.robots[0], options, BOTH, lambda *_: None, for_trial=True)
+
+
+class Fmpy:
+    """In the place of `process.run`: FMPy says this, and the FMU moves like this."""
+
+    def __init__(self, findings: list[str], **series: dict[str, list[float]]) -> None:
+        self.answer: Any = fmu._Examined(findings, series, {"cs": "a step failed"} if findings else {})
+        self.request: Any = None
+
+    def __call__(self, function: object, request: Any, **_: object) -> list[Any]:
+        """Answer."""
+        self.request = request
+        return [self.answer]
+
+
+REFERENCE = {"time": (0.0, 0.5, 0.5, 1.0), "elbow_phi": (0.0, 0.25, 0.5, 1.0), "elbow_tau": (0.0, 1.0, 2.0, 4.0)}
+
+
+@pytest.fixture
+def reference(monkeypatch: pytest.MonkeyPatch) -> list[SimulateOptions]:
+    """The options with which `simulate` is asked for the trajectory; at 0.5 s there is an event."""
+    asked: list[SimulateOptions] = []
+
+    def simulate(_config: object, _robot: object, options: SimulateOptions, _progress: object) -> SimulateResult:
+        asked.append(options)
+        return SimulateResult("arm", "Arm.ArmRun", 1.0, 0.5, 1e-10, (), REFERENCE, (), 1.0, is_known=False)
+
+    monkeypatch.setattr(fmu, "simulate", simulate)
+    return asked

@@ -1,0 +1,81 @@
+"""The index of git: what is tracked, staged and committed, from any folder and with any settings of the caller's."""
+
+from __future__ import annotations
+
+import subprocess
+from pathlib import Path
+
+import pytest
+from support.git import NEEDS_GIT, Repository
+
+from urdfsync.git import GitError, Index
+
+pytestmark = NEEDS_GIT
+
+
+@pytest.fixture
+def repository(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Repository:
+    """One with files in several states; the working folder is one inside of it."""
+    found = Repository(folder / "top", monkeypatch)
+    monkeypatch.chdir(found.folder)
+    for path in ("same", "staged", "edited", "gone", "hidden", "skipped", "in/ä b\n", "in/deep/file"):
+        Path(path).parent.mkdir(parents=True, exist_ok=True)
+        Path(path).write_text("old")
+    Path(".gitignore").write_text("*.log\n")
+    found.commit()
+    for path in ("staged", "edited", "hidden", "skipped", "new", "in/new", "x.log"):
+        Path(path).write_text("other")
+    found.git("add", "staged")
+    found.git("update-index", "--assume-unchanged", "hidden")
+    found.git("update-index", "--skip-worktree", "skipped")
+    Path("gone").unlink()
+    monkeypatch.chdir("in")
+    monkeypatch.setenv("GIT_LITERAL_PATHSPECS", "1")  # `:/` is no path
+    return found
+
+
+def test_files_are_named_from_the_top_by_how_they_stand(repository: Repository) -> None:
+    index, before = Index(), Path(repository.folder, ".git/index").read_bytes()
+    assert index.top == str(repository.folder)
+    inside = {"in/ä b\n", "in/deep/file"}
+    assert index.tracked == {".gitignore", "same", "staged", "edited", "gone", "hidden", "skipped", *inside}
+    assert (index.unstaged, index.hidden, index.unmerged) == ({"edited", "gone"}, {"hidden", "skipped"}, set())
+    assert index.untracked == {"new", "in/new"}
+    assert index.find_committed() == {"staged"}
+    assert index.submodules == set()
+    assert Path(repository.folder, ".git/index").read_bytes() == before
+
+
+@pytest.mark.parametrize(("paths", "are_staged"), [
+    (["same", "staged"], True), (["same", "edited"], False), (["gone"], False), (["hidden"], False), (["new"], False),
+    (["in/"], True), (["in/", "new"], False), (["none/"], True), ([], True),
+])  # fmt: skip
+def test_all_of_some_paths_is_staged_or_not(repository: Repository, paths: list[str], are_staged: bool) -> None:
+    assert Index().has_staged(paths) is are_staged
+    Path("deep/file").write_text("other")
+    assert Index().has_staged(paths) is (are_staged and "in/" not in paths)
+
+
+def test_the_first_commit_and_a_merge(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    repository = Repository(folder, monkeypatch)
+    Path("a").write_text("1\n")
+    repository.git("add", "a")
+    assert Index().find_committed() == {"a"}
+    repository.commit()
+    for branch in ("other", "main"):
+        repository.git("checkout", "-q", *(["-b"] if branch == "other" else []), branch)
+        Path("a").write_text(branch)
+        repository.commit()
+    subprocess.run(["git", "merge", "-q", "other"], check=False, capture_output=True)
+    assert (Index().unmerged, Index().tracked) == ({"a"}, {"a"})
+
+
+def test_without_a_working_tree_and_without_git(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    subprocess.run(["git", "init", "-q", "--bare", "bare"], check=True)
+    with monkeypatch.context() as patch:
+        patch.setenv("GIT_DIR", "bare")
+        with pytest.raises(GitError, match="git failed: this operation must be run in a work tree"):
+            Index()
+    monkeypatch.setenv("PATH", str(folder))
+    with pytest.raises(GitError, match="git can't be started: "):
+        Index()
