@@ -9,8 +9,8 @@ from typing import Any
 import pytest
 from support.networks import run_all
 
-from urdfsync import dependencies, registry
-from urdfsync.dependencies import STAT, VARIABLE
+from urdfsync import dependencies
+from urdfsync.dependencies import VARIABLE
 
 
 @pytest.fixture
@@ -28,12 +28,6 @@ def test_a_build_that_renders_or_writes_is_incomplete(folder: Path, options: dic
     with dependencies.Dependencies() as found:
         assert not any(result.failed for result in run_all(**options))
     assert not found.complete
-
-
-def test_domains_that_are_installed_depend_on_what_else_is(rc_domain: None, rc_site: Path) -> None:
-    with dependencies.Dependencies() as found:
-        registry.domain("rcnetwork")
-    assert (STAT, str(rc_site)) in found.entries
 
 
 def test_environment_variables_are_recorded(monkeypatch: pytest.MonkeyPatch) -> None:

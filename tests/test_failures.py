@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import os
-import re
 import signal
 import subprocess
 import sys
-import tomllib
 from pathlib import Path
 from unittest import mock
 
@@ -16,19 +14,20 @@ from support.commands import Execute
 from support.git import NEEDS_GIT, Repository
 from support.workplace import changes, contents
 
-from urdfsync import cli, config, extras
+from urdfsync import cli, config
 from urdfsync.state.lock import Lock
 from urdfsync.urdf.domain import UrdfDomain
 
 Capture = pytest.CaptureFixture[str]
 
-REPOSITORY = Path(__file__).parents[1]
 URDF = """<robot name="arm">
   <link name="base"/>
   <link name="tip"><visual><geometry><box size="1 1 1"/></geometry></visual></link>
   <joint name="hold" type="fixed"><parent link="base"/><child link="tip"/></joint>
 </robot>
 """
+
+REPOSITORY = Path(__file__).parents[1]
 
 
 @pytest.fixture
@@ -139,9 +138,3 @@ def test_what_fails_while_an_interruption_is_cleared_away_is_that_interruption(
 
     monkeypatch.setattr("urdfsync.commands.status.run", run)
     assert execute("status", code=130).err.startswith("error: interrupted; ")
-
-
-def test_what_is_to_be_installed_exists() -> None:
-    project = tomllib.loads((REPOSITORY / "pyproject.toml").read_text(encoding="utf-8"))["project"]
-    for name, package in extras.PACKAGES.items():
-        assert [re.split(r"[<>=; ]", needed)[0] for needed in project["optional-dependencies"][name]] == package.split()

@@ -1,4 +1,4 @@
-"""`urdfsync fmu` as people type it: where the file goes, and what is said; with a real OpenModelica where there is one."""
+"""`urdfsync fmu` as people type it: where the file goes, and what is said; with a real OpenModelica if there is one."""
 
 from __future__ import annotations
 

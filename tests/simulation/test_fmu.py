@@ -1,7 +1,4 @@
-"""FMUs: what is exported, that FMPy's words and differences are told, and what is refused before anything is compiled.
-
-With a real OpenModelica only where there is one.
-"""
+"""FMUs that are tried out: their trajectories are compared with those of `simulate`, at rest or with a motion."""
 
 from __future__ import annotations
 

@@ -25,6 +25,9 @@ LIMIT = 60.0
 
 QUICK = {"settle": 0.02, "sample": 0.01, "give_up_after": 0.1}
 
+NEVER = 100000.0
+"""Seconds between rescans that no test waits for."""
+
 RECORD = Path("modelica/Ladder/Elements/R2Parameters.mo")
 MODEL = Path("modelica/Ladder/Elements/R2.mo")
 
@@ -38,6 +41,11 @@ def ladder(ohm: float) -> str:
     """The source of the RC network with another resistance."""
     example = REPOSITORY / "tests/rcnetwork/examples/ladder.json"
     return example.read_text().replace("220.5", f"{ohm:g}")
+
+
+def save(ohm: float) -> None:
+    """Change the source of the working folder."""
+    Path("ladder.json").write_text(ladder(ohm))
 
 
 def holds(ohm: float) -> bool:

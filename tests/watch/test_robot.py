@@ -6,6 +6,7 @@ import os
 import shutil
 from pathlib import Path
 
+import msgspec
 import pytest
 
 from urdfsync import config
@@ -79,6 +80,6 @@ def test_of_what_is_no_file_a_word_is_known(robot: WatchedRobot, folder: Path) -
 
 
 def test_to_settle_forgets_earlier_looks(robot: WatchedRobot) -> None:
-    robot.sample, robot.invalid_until = robot.hashes, 5.0
-    robot.settle(3.0, is_told=True)
-    assert (robot.due, robot.is_told, robot.sample, robot.invalid_until) == (3.0, True, None, 0.0)
+    earlier = msgspec.structs.replace(robot, sample=robot.hashes, invalid_until=5.0)
+    earlier.settle(3.0, is_told=True)
+    assert earlier == msgspec.structs.replace(robot, due=3.0, is_told=True)
