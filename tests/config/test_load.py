@@ -144,9 +144,38 @@ URDF_MISTAKES = {
     'frames = "leafs"': '`frames` must be "leaves" or "all" or a list of strings, not "leafs"',
     'frames = ["a", 3]': '`frames` must be "leaves" or "all" or a list of strings, not ["a", 3]',
     "loops = ['pin']": '`loops` must be a list of tables, not ["pin"]',
+    "start = {elbow = nan}": '`start` must be finite numbers, not {"elbow": NaN}',
     "driven = [true]": "`driven` must be a list of strings, not [true]",
 }
 """By a line of a robot of the other domain: what is wrong is repeated as it was written."""
+
+
+LOOP = "[[robots.arm.loops]]\nname = 'pin'\nkind = 'ball'\nframes = ['a', 'b']\n"
+LOOP_MISTAKES = {
+    "axes = [0, 0, 1]": "unknown key `axes` in `loops` of robot `arm`; did you mean `axis`? [unknown-key]",
+    "axis = [0, 1]": "`axis` must be a list of 3 numbers, not [0, 1] [wrong-value]",
+    "axis = [0, 0, inf]": "`axis` must be finite numbers, not [0, 0, Infinity] [wrong-value]",
+    "kind = 'ball'": '`kind` must be "ball" or "revolute" or "universal" or "fixed", not "bal" [wrong-value]',
+    "name = 'pin'": '`name` must be a string, not " " [wrong-value]',
+    "frames = ['a', 'b']": "`frames` of `loops` of robot `arm` has no `link`; add a line `link = …` [missing-key]",
+}
+"""By a line of the second loop; one that stands there already is replaced by a wrong one."""
+WRONG = {
+    "kind = 'ball'": "kind = 'bal'",
+    "name = 'pin'": "name = ' '",
+    "frames = ['a', 'b']": "frames = ['a', {xyz = [0, 0, 1]}]",
+}
+
+
+@pytest.mark.parametrize(("line", "message"), LOOP_MISTAKES.items())
+def test_a_mistake_in_a_loop_names_its_key_and_the_line_of_its_table(line: str, message: str) -> None:
+    second = LOOP.replace(line, WRONG[line]) if line in WRONG else LOOP + line + "\n"
+    (found,) = failures(urdf("") + "\n" + LOOP + second)
+    assert found.startswith("urdfsync.toml:")
+    assert found.partition("error: ")[2] == message
+    number = int(found.split(":")[1])
+    assert (urdf("") + "\n" + LOOP + second).split("\n")[number - 1] == "[[robots.arm.loops]]"
+    assert number > (urdf("") + "\n").count("\n") + 1
 
 
 @pytest.mark.parametrize(

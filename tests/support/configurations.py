@@ -57,10 +57,11 @@ def _validator(path: tuple[str, ...]) -> jsonschema.Draft202012Validator:
 
 
 def _is_beyond(problem: Diagnostic) -> bool:
-    """Whether no schema can see it: also an output in a state folder, and a code that is another domain's."""
+    """Whether no schema can see it: also an output in a state folder, nan, and a code that is another domain's."""
     others = registry.domain("urdf").warnings
     is_others = problem.code == "unknown-code" and any(f"`{code}`" in problem.message for code in others)
-    return is_others or problem.code in _BEYOND or "`output` can't be in" in problem.message
+    words = ("`output` can't be in", "must be finite numbers")
+    return is_others or problem.code in _BEYOND or any(each in problem.message for each in words)
 
 
 @contextmanager

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import functools
 import json
+import math
 import os
 import stat
 from collections.abc import Collection, Iterator, Mapping, Sequence
@@ -108,11 +109,23 @@ def in_words(kind: Any) -> str:
         words = in_words(arguments[1]) if is_choice else kinds.get(arguments[1], "strings, numbers, true and false")
         return f"a table of {words}"
     if origin in (tuple, list, frozenset):
-        if isinstance(arguments[0], type) and issubclass(arguments[0], msgspec.Struct):
-            return "a list of tables"
-        kinds = {str: "strings", Path: "paths"}
-        return f"a list of {kinds.get(arguments[0]) or in_words(arguments[0])}"
+        count = "" if arguments[-1] is ... or origin is not tuple else f"{len(arguments)} "
+        parts = get_args(arguments[0]) if get_origin(arguments[0]) in (Union, UnionType) else arguments[:1]
+        kinds = {str: "strings", Path: "paths", float: "numbers"}
+        names = ("tables" if _is_struct(part) else kinds.get(part) or in_words(part) for part in parts)
+        return f"a list of {count}{' or '.join(names)}"
     return _WORDS.get(kind, f"of the type {kind}")
+
+
+def _is_struct(kind: Any) -> bool:
+    return isinstance(kind, type) and issubclass(kind, msgspec.Struct)
+
+
+def _is_finite(value: Any) -> bool:
+    """Whether there is no nan and no inf in a value of TOML: JSON has neither, nor has a model a use for one."""
+    if isinstance(value, dict | list):
+        return all(map(_is_finite, value.values() if isinstance(value, dict) else value))
+    return not isinstance(value, float) or math.isfinite(value)
 
 
 class _Table(NamedTuple):
@@ -269,21 +282,42 @@ class _Reader:
         before = len(self.problems)
         for field in _fields(struct):
             key = field.encode_name
-            try:
-                if key in table.values:
-                    values[field.name] = msgspec.convert(table.values[key], field.type, dec_hook=self._path)
-                elif field.required:
+            if key not in table.values:
+                if field.required:
                     message, hint = f"{table.name} has no `{key}`", f"add a line `{key} = …`"
                     self._report("missing-key", table.lines[""], message, hint)
+                continue
+            words = "finite numbers"
+            is_right = _is_finite(table.values[key])
+            try:
+                values[field.name] = msgspec.convert(table.values[key], field.type, dec_hook=self._path)
             except msgspec.ValidationError:
+                words, is_right = in_words(field.type), False
+            if not is_right and not self._find_wrong_items(table, key, field.type):
                 given = json.dumps(table.values[key], ensure_ascii=False, default=str)
-                message = f"`{key}` must be {in_words(field.type)}, not {given}"
-                self._report("wrong-value", table.lines[key], message)
+                self._report("wrong-value", table.lines[key], f"`{key}` must be {words}, not {given}")
         try:
             return struct(**values) if len(self.problems) == before else None
         except (TypeError, ValueError) as error:  # options that do not go together
             self._report("wrong-value", table.lines[""], f"{table.name}: {error}")
             return None
+
+    def _find_wrong_items(self, table: _Table, key: str, kind: Any) -> bool:
+        """Report what is wrong inside of the tables of a list; False if nothing is, or `key` is something else."""
+        item_kind, items = next(iter(get_args(kind)), None), table.values[key]
+        struct = next(filter(_is_struct, (item_kind, *get_args(item_kind))), None)
+        if struct is None or not isinstance(items, list):
+            return False
+        before, line = len(self.problems), table.lines[key]
+        # of `[[…]]`; tables of a list in one value have the line of that
+        headers = (lines for path, lines in self._item_lines.items() if path[-1] == key and lines[0] == line)
+        lines = next(headers, [line] * len(items))
+        for item, item_line in zip(items, lines, strict=False):
+            if isinstance(item, dict):
+                part = _Table(f"`{key}` of {table.name}", item, dict.fromkeys(("", *item), item_line))
+                self._refuse_unknown(part, _names_of(struct))
+                self._read(part, struct)
+        return len(self.problems) > before
 
     def _path(self, kind: type, value: Any) -> Path:
         """Return a path in the file as an absolute one; msgspec asks for each, and reports the TypeError."""

@@ -32,7 +32,7 @@ class LoopFrame(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 class LoopOption(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """A joint that closes a loop, between two frames: links by their URDF names, or frames on them."""
 
-    name: str
+    name: Annotated[str, msgspec.Meta(pattern=r"\S")]
     kind: LoopKind
     frames: tuple[str | LoopFrame, str | LoopFrame]
     """That of the parent, and that of the child."""
