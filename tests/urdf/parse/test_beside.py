@@ -82,15 +82,22 @@ def test_axes_that_are_none_are_told() -> None:
 
 
 def test_another_yaml_says_nothing() -> None:
-    assert join(URDF, b"controller: {gain: 3}\n", "a.yaml") == (URDF, ())
+    for other in (b"controller: {gain: 3}\n", b"- closed_loop\n", b"drive: {closed_loop: true}\n", b"closed_loop:\n"):
+        assert join(URDF, other, "a.yaml")[1] in ((), [])
 
 
 @pytest.mark.parametrize(("yaml", "line", "words"), [
     (b"a: 1\nclosed_loop: [[x, y]\ntype: ['6d']\n", 3, "expected"),
-    (b"a: 1\nclosed_loop: [[x, y]]\ntype: []\n", 2, "it has 1 loops and 0 types"),
-    (b"closed_loop: [[x, y]]\ntype: ['5d']\n", 1, "the type '5d' is none of 3d, 6d"),
-    (b"closed_loop: [[x]]\ntype: ['6d']\n", 1, "not enough values"),
-    (b"closed_loop: 5\ntype: ['6d']\n", 1, ""),
+    (b"a: 1\nclosed_loop: [[x, y]]\ntype: []\n", 2, "it has 1 loop and 0 types"),
+    (b"closed_loop: [[x, y]]\ntype: ['5d']\n", 2, "the type '5d' is none of 3d, 6d"),
+    (b"closed_loop: [[x]]\ntype: ['6d']\n", 1, "an item of `closed_loop` is no pair of frames"),
+    (b"closed_loop: [[x, [y]]]\ntype: ['6d']\n", 1, "an item of `closed_loop` is no name"),
+    (b"closed_loop: 5\ntype: ['6d']\n", 1, "`closed_loop` is no list"),
+    (b"a: 1\nclosed_loops: [[x, y]]\ntype: ['6d']\n", 2, "`closed_loops` is unknown, perhaps `closed_loop` is meant"),
+    (YAML.replace(b"['m']", b"m"), 3, "`name_mot` is no list"),
+    (YAML.replace(b"[SPHERICAL]", b"[]"), 1, "it has 1 joint and 0 joint types"),
+    (YAML.replace(b"[SPHERICAL]", b"[[X]]"), 5, "an item of `joint_type` is no name"),
+    (YAML.replace(b"[SPHERICAL]", b"[BALL]"), 5, "the joint type 'BALL' is none of FIXED, SPHERICAL"),
 ])  # fmt: skip
 def test_a_fault_is_one_line(yaml: bytes, line: int, words: str) -> None:
     with pytest.raises(SourceError) as raised:

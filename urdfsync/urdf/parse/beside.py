@@ -12,12 +12,13 @@ So its lines are known, and all that reads the URDF reads them as well. A joint 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 from xml.etree.ElementTree import SubElement
 from xml.sax.saxutils import quoteattr
 
 from urdfsync.diagnostics import SourceError
+from urdfsync.spelling import counted
 from urdfsync.urdf.parse import xml
 
 AXES = "joint_axes"
@@ -45,7 +46,7 @@ def join(content: bytes, other: bytes, file: str) -> tuple[bytes, Sequence[tuple
     try:
         document = yaml.compose(other, yaml.SafeLoader)
         elements = list(_elements(document)) if document else []
-    except (yaml.YAMLError, AttributeError, TypeError, ValueError) as error:
+    except (yaml.YAMLError, _LoopsError) as error:
         mark = getattr(error, "problem_mark", None)
         line = mark.line + 1 if mark else other.count(b"\n", 0, other.find(_MARK)) + 1
         message = f"this is no list of loops: {getattr(error, 'problem', None) or error}"
@@ -62,26 +63,62 @@ def with_plain_joints(content: bytes) -> bytes:
     return re.sub(rb"<%s [^>]*/>" % AXES.encode(), b"", content)
 
 
+class _LoopsError(Exception):
+    """A node of the YAML that can't be read; it has the attributes of PyYAML's errors."""
+
+    def __init__(self, problem: str, node: Any = None) -> None:
+        super().__init__(problem)
+        self.problem, self.problem_mark = problem, node and node.start_mark
+
+
+def _items(parts: Mapping[str, Any], key: str) -> Sequence[Any]:
+    """Return the items of a list, none without it."""
+    node = parts.get(key)
+    if node is None or node.value in ("", "null", "~"):
+        return ()
+    if node.id != "sequence":
+        raise _LoopsError(f"`{key}` is no list", node)
+    return node.value  # type: ignore[no-any-return] # it is a list of nodes
+
+
+def _names(nodes: Sequence[Any], key: str) -> Sequence[Any]:
+    """Return the nodes; each must be a name or another text."""
+    for node in nodes:
+        if node.id != "scalar":
+            raise _LoopsError(f"an item of `{key}` is no name", node)
+    return nodes
+
+
 def _elements(document: Any) -> Iterator[tuple[str, int]]:
     """Yield each element, and its line in the YAML."""
-    parts = {key.value: value.value for key, value in document.value}
-    pairs, kinds = parts.get("closed_loop", []), parts.get("type", [])
+    if document.id != "mapping":
+        return  # another YAML that has the word in it
+    parts = {key.value: value for key, value in document.value if key.id == "scalar"}
+    for key, node in parts.items():
+        if key.startswith("closed_loop") and "closed_loop" not in parts and node.id == "sequence":
+            raise _LoopsError(f"the key `{key}` is unknown, perhaps `closed_loop` is meant", node)
+    pairs, kinds = _items(parts, "closed_loop"), _names(_items(parts, "type"), "type")
     if len(pairs) != len(kinds):
-        raise ValueError(f"it has {len(pairs)} loops and {len(kinds)} types")
+        raise _LoopsError(f"it has {counted(len(pairs), 'loop')} and {counted(len(kinds), 'type')}")
     for pair, kind in zip(pairs, kinds, strict=True):
-        first, second = (quoteattr(end.value) for end in pair.value)
+        if pair.id != "sequence" or len(pair.value) != 2:
+            raise _LoopsError("an item of `closed_loop` is no pair of frames", pair)
+        first, second = (quoteattr(end.value) for end in _names(pair.value, "closed_loop"))
         if kind.value.lower() not in _KINDS:
-            raise ValueError(f"the type {kind.value!r} is none of {', '.join(_KINDS)}")
+            raise _LoopsError(f"the type {kind.value!r} is none of {', '.join(_KINDS)}", kind)
         name = quoteattr(f"{pair.value[0].value}_{pair.value[1].value}")
         ends = f"<link1 link={first}/><link2 link={second}/>"
         kind_name = _KINDS[kind.value.lower()]
         yield f'<loop_joint name={name} type="{kind_name}">{ends}</loop_joint>', pair.start_mark.line + 1
-    for joint in parts.get("name_mot", []):
+    for joint in _names(_items(parts, "name_mot"), "name_mot"):
         name = quoteattr(joint.value)
         yield f"<transmission name={name}><joint name={name}/></transmission>", joint.start_mark.line + 1
-    for joint, kind in zip(parts.get("joint_name", []), parts.get("joint_type", []), strict=True):
+    joints, kinds = (_names(_items(parts, key), key) for key in ("joint_name", "joint_type"))
+    if len(joints) != len(kinds):
+        raise _LoopsError(f"it has {counted(len(joints), 'joint')} and {counted(len(kinds), 'joint type')}")
+    for joint, kind in zip(joints, kinds, strict=True):
         if kind.value not in _TYPES:
-            raise ValueError(f"the joint type {kind.value!r} is none of {', '.join(_TYPES)}")
+            raise _LoopsError(f"the joint type {kind.value!r} is none of {', '.join(_TYPES)}", kind)
         yield f'<{AXES} joint={quoteattr(joint.value)} axes="{_TYPES[kind.value]}"/>', joint.start_mark.line + 1
 
 
