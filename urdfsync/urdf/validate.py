@@ -145,6 +145,7 @@ _WARNINGS = {
     "inertia-triangle": "export the inertia again; until then, a simulation may not be physical",
     "shape-size": "correct the size, or remove the shape",
     "loop-contradiction": "correct one of them",
+    "loop-one-end": "correct the name of the other link, or state the loop as `loops` in the configuration",
     "loop-excess": "take them out of `driven`, or model their drives as efforts by hand",
     # legal, but hardly meant
     "no-inertia": "give the links an <inertial>",

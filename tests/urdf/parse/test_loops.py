@@ -84,22 +84,69 @@ def test_the_configuration_states_loops_by_links_or_frames() -> None:
 
 
 def test_the_configuration_wins_over_the_source() -> None:
+    ends = LoopFrame("rocker", (0.2, 0.3, 0.0)), LoopFrame("rod", (0.4, 0.2, 0.0), (0.0, 0.0, 1.0))
+    reading = read(LOOP_JOINT, options=Options(loops=(LoopOption("mine", "ball", ends),)))
+    assert reading.robot is not None
+    assert [(loop.name, loop.kind) for loop in reading.robot.loops] == [("mine", "ball")]
+    assert [found.code for found in reading.diagnostics] == ["loop-contradiction"]
+
+
+def test_the_configuration_wins_over_a_loop_of_the_source_that_is_wrong() -> None:
+    other = LoopOption("closing", "revolute", ("rod", "rocker"))
+    reading = read(LOOP_JOINT.replace("rocker", "rockr"), options=Options(loops=(other,)))
+    assert [found.code for found in reading.diagnostics] == ["loop-contradiction"]
+
+
+def test_the_same_loop_in_the_configuration_is_no_contradiction() -> None:
+    """Each place fills in the axes that a kind does not have in its own way."""
+    rod = LoopFrame("rod", (0.4, 0.2, 0.0), (0.0, 0.0, 1.0))
+    same = LoopOption("closing", "revolute", (rod, LoopFrame("rocker", (0.2, 0.3, 0.0))))
+    reading = read(LOOP_JOINT, options=Options(loops=(same,)))
+    assert reading.diagnostics == ()
+    assert reading.robot is not None
+    assert reading.robot.loops == loops(LOOP_JOINT)
+
+
+def test_the_configuration_says_more_of_a_pair_of_frames() -> None:
+    """That is how a pair is said to be no ball: so it contradicts nothing."""
     other = LoopOption("mine", "revolute", ("closing_bar_2", "closing_bar_1"))
     reading = read(*FRAMES, options=Options(loops=(other,)))
+    assert reading.diagnostics == ()
     assert reading.robot is not None
     assert [(loop.name, loop.kind) for loop in reading.robot.loops] == [("mine", "revolute")]
-    assert "loop-contradiction" in [found.code for found in reading.diagnostics]
+
+
+def test_one_frame_of_a_pair_is_told() -> None:
+    """An export that renames the other one would open the robot in silence."""
+    (finding,) = read(FRAMES[0], FRAMES[2]).diagnostics
+    assert (finding.code, finding.severity, finding.line) == ("loop-one-end", Severity.WARNING, 10)
+    assert "there is no link 'closing_bar_2'" in finding.message
+
+
+def test_a_misspelt_loop_joint_is_told() -> None:
+    (finding,) = read(LOOP_JOINT.replace("loop_joint", "loopjoint")).diagnostics
+    assert (finding.code, finding.hint) == ("unknown-element", "perhaps 'loop_joint' is meant")
+
+
+def test_two_configured_loops_of_one_name_are_one_error() -> None:
+    option = LoopOption("bar", "ball", ("rod", "rocker"))
+    assert loops(options=Options(loops=(option, LoopOption("bar", "ball", ("rod", "base"))))) == loops(
+        options=Options(loops=(option,))
+    )
 
 
 @pytest.mark.parametrize(("element", "code", "words"), [
     (LOOP_JOINT.replace("rocker", "rockr"), "loop-of-no-link", "perhaps 'rocker' is meant"),
     (LOOP_JOINT.replace("rocker", "rod"), "loop-one-link", "name two links"),
+    (LOOP_JOINT.replace('link="rocker"', ""), "missing-attribute", "add it"),
     (LOOP_JOINT.replace("0 0 2", "0 0 0"), "loop-axis", "give the axes directions"),
     (LOOP_JOINT.replace("revolute", "prismatic"), "loop-joint", "ball, revolute, universal or fixed"),
     (LOOP_JOINT.replace("0.4 0.2 0", "0.4 0.2"), "bad-number", "decimal numbers"),
     (DRAKE.replace("body_B", "body_C"), "missing-element", "add it"),
     (GAZEBO.replace("<parent>rod</parent>", ""), "missing-element", "add it"),
     (GAZEBO.replace("<child>rocker</child>", "<child>rockr</child>"), "loop-of-no-link", "perhaps 'rocker' is meant"),
+    (GAZEBO.replace("<pose>", "<pose relative_to='rod'>"), "loop-joint", "write it in the frame of link 'rocker'"),
+    (GAZEBO.replace("<xyz>", "<xyz expressed_in='__model__'>"), "loop-joint", "in the frame of link 'rocker'"),
     (LOOP_JOINT + LOOP_JOINT, "duplicate-loop", "rename or remove one loop"),
     (LOOP_JOINT + LOOP_JOINT.replace("closing", "again"), "loop-twice", "remove one of them"),
 ])  # fmt: skip

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping
 
 import msgspec
 
+from urdfsync.spelling import counted
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.robot import Vector
 from urdfsync.urdf.validate import Finding
@@ -81,6 +82,6 @@ def find_loop_findings(closed: Assembly) -> Iterator[Finding]:
         if closure.weaker:
             yield Finding("loop-weaker", f"loop {name}", f"loop {name!r} is {closure.weaker}")
     if closed.excess:
-        names, freedoms = ", ".join(map(repr, closed.excess)), len(closed.states)
-        message = f"joints {names} are not driven: the loops leave {freedoms} freedoms, which others move"
+        names, freedoms = ", ".join(map(repr, closed.excess)), counted(len(closed.states), "freedom")
+        message = f"the drives of {names} are left out: the loops leave {freedoms}, which others move"
         yield Finding("loop-excess", f"loop {closed.tree.loops[0].name}", message)

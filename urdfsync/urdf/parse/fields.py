@@ -114,7 +114,8 @@ class Reader:
 
     def keep(self, child: Element, path: str, tags: Collection[str], owner: str) -> None:
         """Keep an element that has none of `tags`; warn about one that looks like a misspelt one."""
-        if child.tag not in _ELEMENTS and ":" not in child.tag and (hint := perhaps(child.tag, tags, 0.8)):
+        is_known = child.tag in _ELEMENTS or child.tag in tags or ":" in child.tag
+        if not is_known and (hint := perhaps(child.tag, tags, 0.8)):
             message = f"{path}: the element <{child.tag}> is unknown, and has no effect"
             self.add(child, "unknown-element", message, hint)
         self.extensions.append((owner, child))

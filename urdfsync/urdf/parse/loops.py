@@ -71,31 +71,46 @@ def read_loops(reader: Reader, root: Element, robot: Robot, options: Options) ->
         else:
             read = _read_loop_joint if element.tag == "loop_joint" else _read_ball
             loop = read(reader, element, path, name)
-        if loop is not None:
+        if loop is not None and loop.parent and loop.child:  # a name that is missing is told already
             loops.append(loop)
     # a frame may be that of a joint, which is that of its child
     loops = [
         replace(loop, parent=ends.get(loop.parent, loop.parent), child=ends.get(loop.child, loop.child))
         for loop in loops
     ]
-    loops += _frames_by_name(reader, robot.links)
-    reader.extend(validate.check_loops(loops, links))
     configured = configured_loops(options.loops)
-    faulty = {finding.path.removeprefix("loop ") for finding in validate.check_loops(configured, links)}
-    chosen = [loop for loop in configured if loop.name not in faulty]  # option_names tells the others
-    for loop in loops:
-        rival = next((other for other in configured if other.name == loop.name or _ends(other) == _ends(loop)), None)
+    faulty = {finding.path for finding in validate.check_loops(configured, links)}
+    paths = validate.element_paths("loop", (loop.name for loop in configured))
+    # option_names tells the others
+    chosen = [loop for path, loop in zip(paths, configured, strict=True) if path not in faulty]
+    of_source = list[Loop]()
+    for loop in map(_with_axes_of_its_kind, loops):
+        rival = _find_rival(loop, configured)
         if rival is None:
-            chosen.append(loop)
+            of_source.append(loop)
         elif _unit(rival) != _unit(loop):
             message = f"loop {loop.name!r} is stated otherwise by `loops` in the configuration, which counts"
             reader.extend([validate.Finding("loop-contradiction", f"loop {loop.name}", message)])
-    return tuple(map(_unit, chosen))
+    of_source += _frames_by_name(reader, robot.links, configured)
+    reader.extend(validate.check_loops(of_source, links))
+    return tuple(map(_unit, (*chosen, *of_source)))
 
 
 def configured_loops(loops: Sequence[LoopOption]) -> list[Loop]:
-    """Return the loops of the option `loops`, their axes as written."""
-    return [_between(loop.name, loop.kind, loop.frames, loop.axis, loop.child_axis) for loop in loops]
+    """Return the loops of the option `loops`, the axes of their kinds as written."""
+    read = (_between(loop.name, loop.kind, loop.frames, loop.axis, loop.child_axis) for loop in loops)
+    return list(map(_with_axes_of_its_kind, read))
+
+
+def _find_rival(loop: Loop, configured: Sequence[Loop]) -> Loop | None:
+    """Return the configured loop that wins over one of the source: it has its name or its frames."""
+    return next((other for other in configured if other.name == loop.name or _ends(other) == _ends(loop)), None)
+
+
+def _with_axes_of_its_kind(loop: Loop) -> Loop:
+    """Return a loop without axes that its kind does not have, which each place fills in otherwise."""
+    axis = loop.axis if loop.kind in ("revolute", "universal") else (0.0, 0.0, 1.0)
+    return replace(loop, axis=axis, child_axis=loop.child_axis if loop.kind == "universal" else (1.0, 0.0, 0.0))
 
 
 def _between(name: str, kind: LoopKind, frames: Iterable[str | LoopFrame], axis: Vector, child_axis: Vector) -> Loop:
@@ -168,6 +183,13 @@ def _read_joint(
             hint = 'add that link to the robot, or leave the loop out by `allow = ["loop-joint"]`'
             reader.add(element, "loop-joint", f"{path} has a frame on link {link!r}, which only Gazebo has", hint)
             kind = None
+    for tag, attribute in (("pose", "relative_to"), ("axis/xyz", "expressed_in"), ("axis2/xyz", "expressed_in")):
+        part = reader.find(element, tag)
+        frame = child if part is None else part.get(attribute) or child
+        if kind and child and frame != child:
+            message, hint = f"{path} has its <{tag}> in the frame {frame!r}", f"write it in the frame of link {child!r}"
+            reader.add(element, "loop-joint", message, hint)
+            kind = None
     numbers = reader.numbers(element, ["pose"], path, "bad-number", 6) or (0.0,) * 6
     axis = _vector(reader, element, "axis/xyz", path) or (0.0, 0.0, 1.0)
     second = _vector(reader, element, "axis2/xyz", path)
@@ -197,15 +219,25 @@ def _origin(of: Pose) -> Origin:
     return Origin(xyz, rpy)  # type: ignore[arg-type]
 
 
-def _frames_by_name(reader: Reader, links: Sequence[Link]) -> Iterator[Loop]:
-    """Yield a ball for each pair of links that onshape-to-robot names as the ends of a loop."""
+def _frames_by_name(reader: Reader, links: Sequence[Link], configured: Sequence[Loop]) -> Iterator[Loop]:
+    """Yield a ball for each pair of links that onshape-to-robot names as the ends of a loop, if no option states it."""
     pairs: dict[str, dict[str, str]] = {}
     for link in links:
         if match := _CLOSING.fullmatch(link.name):
             pairs.setdefault(match[1], {})[match[2]] = link.name
+    framed = {link for loop in configured for link in (loop.parent, loop.child)}
     for name, pair in pairs.items():
-        if len(pair) == 2:
+        if len(pair) == 1:
+            (end,) = pair.values()
+            if end not in framed:
+                other = f"{name}_{'2' if '1' in pair else '1'}"
+                message = f"link {end!r} closes no loop by its name: there is no link {other!r}"
+                hint = validate.perhaps(other, {link.name for link in links} - {end})
+                reader.extend([validate.Finding("loop-one-end", f"link {end}", message, hint)])
+            continue
+        loop = Loop(name, "ball", pair["1"], pair["2"])
+        if _find_rival(loop, configured) is None:
             reader.lines.setdefault(f"loop {name}", reader.lines[f"link {pair['1']}"])
             message = f"links {pair['1']!r} and {pair['2']!r} close a loop by their names, as a ball"
             reader.extend([validate.Finding("loop-by-name", f"loop {name}", message)])
-            yield Loop(name, "ball", pair["1"], pair["2"])
+            yield loop

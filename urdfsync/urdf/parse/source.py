@@ -23,7 +23,7 @@ from urdfsync.urdf.parse.drives import configured_drives, read_drives, with_driv
 from urdfsync.urdf.parse.elements import read_joint, read_link, read_material, resolve_materials
 from urdfsync.urdf.parse.fields import Reader, quoted, summary
 from urdfsync.urdf.parse.gazebo import read_contacts, warn_of_left_out
-from urdfsync.urdf.parse.loops import find_loop_elements, read_loops
+from urdfsync.urdf.parse.loops import TAGS, find_loop_elements, read_loops
 from urdfsync.urdf.parse.sensors import read_sensors
 from urdfsync.urdf.robot import Extension, Robot
 
@@ -148,7 +148,7 @@ def _read(reader: Reader, document: xml.Document, options: Options) -> Robot:
         elif child.tag == "inertial":
             reader.add(child, "stray-inertial", "this <inertial> is in no link, and is left out of the model")
         if child.tag not in _MODELLED:
-            reader.keep(child, "robot", _MODELLED, "")
+            reader.keep(child, "robot", (*_MODELLED, *TAGS), "")
         if child.tag in ("gazebo", "ros2_control"):
             reader.used.add(child)  # its parts are read one by one, or are not modelled
     for element in find_loop_elements(root):
