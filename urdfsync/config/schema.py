@@ -97,6 +97,7 @@ def _refuse_control_characters(schema: Any) -> None:
     for part in schema.values() if isinstance(schema, dict) else schema if isinstance(schema, list) else ():
         _refuse_control_characters(part)
     if isinstance(schema, dict) and schema.get("type") == "string":
-        schema.setdefault("pattern", _NO_CONTROL)
+        if schema.setdefault("pattern", _NO_CONTROL) != _NO_CONTROL:
+            schema["allOf"] = [{"pattern": _NO_CONTROL}]
     elif isinstance(schema, dict) and isinstance(schema.get("additionalProperties"), dict):
         schema.setdefault("propertyNames", {"pattern": _NO_CONTROL})
