@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
 import msgspec
@@ -11,7 +11,7 @@ import msgspec
 from urdfsync.config import Config, RobotConfig, working_folder
 from urdfsync.diagnostics import ConfigError, Diagnostic, UrdfsyncError
 from urdfsync.domain import Role
-from urdfsync.engine.actions import Reason
+from urdfsync.engine.actions import Action, Reason
 from urdfsync.engine.decide import decide_package
 from urdfsync.engine.generation import Generation, generate_robot
 from urdfsync.engine.inputs import inspect
@@ -52,10 +52,13 @@ class RobotEdits(msgspec.Struct, frozen=True):
     failed: bool = False
 
 
-def find_edited(generation: Generation) -> Iterator[EditedFile]:
-    """Yield the edited files of a robot, in the order of their paths. Raises UrdfsyncError."""
+def find_edited(generation: Generation, actions: Iterable[Action] | None = None) -> Iterator[EditedFile]:
+    """Yield the edited files of a robot, in the order of their paths. Raises UrdfsyncError.
+
+    `actions` are those of its package; None to decide them.
+    """
     files = generation.inputs.files
-    for action in decide_package(generation).actions:
+    for action in decide_package(generation).actions if actions is None else actions:
         key = action.origin or action.path
         is_text = action.role not in (Role.IMPORT, Role.ORDER) and action.reason is not Reason.MOVED_AWAY
         if is_text and action.mine not in (None, action.base, action.generated):

@@ -71,6 +71,7 @@ def gather(
     compared, older = _with_older(compared, generation, shown_before)
     changes, result = compared.result.changes or Changes(), compared.result
     domain, snapshot = generation.inputs.domain, generation.now.snapshot
+    actions = result.actions if against is None else None  # others are those of a comparison
     return Content(
         robot=robot,
         version=(generation.now, generation.imported.contents),
@@ -82,7 +83,7 @@ def gather(
         changes=_change_words(changes),
         files=_files(generation),
         diagram=domain.drawing(snapshot, generation.imported.imports, robot.target, robot.options) or "",
-        edits=RobotEdits(robot.name, config.root, tuple(find_edited(generation))),
+        edits=RobotEdits(robot.name, config.root, tuple(find_edited(generation, actions))),
         conflicts=result.conflicts,
     )
 
