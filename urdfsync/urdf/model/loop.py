@@ -13,6 +13,8 @@ from urdfsync.urdf.robot import MOTION_KINDS, Loop
 
 def loop_reaches(closed: Assembly) -> Mapping[str, Mapping[str, Any]]:
     """Return the longest way of the sweep in Test, by driven joint in a loop, as a parameter of the start record."""
+    if not closed.reach:
+        return {}
     tree, taken = closed.tree, taken_names(closed.tree)
     return {
         joint.name: {
