@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import re
+import subprocess
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
 import pytest
+from support.commands import Execute
 from support.files import fresh_models, models
 from support.git import NEEDS_GIT, Repository
-from support.networks import C1, R2, RECORD, edit, kinds, run
+from support.networks import C1, MODEL, R2, RECORD, edit, kinds, run
 
 from urdfsync.engine.actions import Reason
 from urdfsync.state.record import Choice
@@ -108,6 +111,46 @@ def merge_and_settle(repository: Repository) -> None:
     repository.git("checkout", "-q", "ours")
     repository.merge("theirs")
     repository.commit()
+
+
+def unite_two_elements(repository: Repository, execute: Execute, how: str) -> None:
+    """Two branches add an element each; git merges by elements, by lines, or leaves markers of either kind."""
+    Path("ladder.json").write_text(json.dumps(json.loads(Path("ladder.json").read_text()), indent=1))
+    if how == "driver":
+        Path(".gitattributes").write_text("*.mo merge=urdfsync\n")
+        execute("merge-driver", "--install")
+    repository.git("config", "merge.conflictStyle", "diff3" if how == "diff3" else "merge")
+    branch(repository, "start", list)
+    branch(repository, "ours", lambda: add("R8"), start="start")
+    branch(repository, "theirs", lambda: add("R9"), start="start")
+    with contextlib.suppress(subprocess.CalledProcessError):
+        repository.git("merge", "-q", "ours")
+    repository.git("checkout", "-q", "HEAD", "--", "ladder.json")
+    add("R8")
+
+
+@pytest.mark.parametrize("how", ["driver", "lines", "diff3"])
+@pytest.mark.parametrize("is_committed", [False, True])
+def test_what_git_made_of_two_builds_is_nobodys_edit(
+    repository: Repository, execute: Execute, tmp_path: Path, how: str, is_committed: bool
+) -> None:
+    unite_two_elements(repository, execute, how)
+    if is_committed:
+        repository.commit()
+    result = run()
+    assert not result.conflicts
+    assert models() == fresh_models(tmp_path / "fresh")
+    assert run().in_step
+
+
+@pytest.mark.parametrize("how", ["driver", "lines"])
+def test_an_edit_of_what_git_merged_is_found(repository: Repository, execute: Execute, how: str) -> None:
+    note(MODEL, "before")
+    unite_two_elements(repository, execute, how)
+    if "<<<<<<<" in Path(MODEL).read_text():
+        pytest.skip("git has left markers")
+    (found,) = run().conflicts
+    assert found.action.path == MODEL
 
 
 def test_an_edit_with_an_ambiguous_base_is_never_kept_in_silence(repository: Repository) -> None:

@@ -132,9 +132,18 @@ def test_clean_merges_need_no_word_of_the_user_if_the_configuration_allows_them(
     assert (resolved.reason, resolved.choice) == (Reason.KEEP, Choice.KEEP), "edited, and left as it was"
 
 
+def test_edits_of_a_file_that_git_united_are_those_that_no_branch_recorded() -> None:
+    action = Action("a.txt", Reason.CONFLICT, Role.MODEL)
+    ours, theirs = "1\n\na\n\n2\n", "3\n\na\n\n4\n"
+    for mine, merged in (("1\n\na\n\n4\n", "5\n\na\n\n6\n"), ("1\n\nb\n\n4\n", "5\n\nb\n\n6\n")):
+        for bases in ([ours, theirs], [theirs, ours]):
+            found = find_conflict(action, bases, mine, "5\n\na\n\n6\n")
+            assert (found.merged(Choice.MERGE), found.rejected) == (merged, "")
+
+
 def test_bases_of_two_branches_that_give_different_merges_give_none() -> None:
     action = Action("a.txt", Reason.CONFLICT, Role.MODEL)
-    both = find_conflict(action, ["1\n", "2\n"], "1\n", "2\n")
+    both = find_conflict(action, ["1\n", "2\n"], "3\n", "1\n")
     assert both.merged(Choice.MERGE) is None
     assert both.rejected == "two branches recorded different bases, which give different merges"
     same = find_conflict(action, ["1\n\na\n", "1\r\n\r\na\r\n"], MINE, GENERATED)

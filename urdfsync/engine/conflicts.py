@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import PurePosixPath
 from typing import TYPE_CHECKING
@@ -80,7 +81,8 @@ def find_conflict(
     from urdfsync.merge.renames import rename, without_clashes
 
     is_modelica = action.path.endswith(".mo")
-    merges = [merge(base, mine, generated, is_modelica=is_modelica, names=names) for base in bases]
+    edited = over_bases(bases, mine, is_modelica=is_modelica) or [(base, mine) for base in bases]
+    merges = [merge(base, text, generated, is_modelica=is_modelica, names=names) for base, text in edited]
     first = merges[0] if merges else None
     rejected = f"the merge {first.flaw}" if first and first.flaw else ""
     if first and any(other.text != first.text for other in merges):
@@ -90,6 +92,24 @@ def find_conflict(
     kept = rename(base, mine, without_clashes(names, mine))[1] if names and base and action.origin else mine
     texts = base, mine, generated, first
     return Conflict(action.path, *texts, origin=action.origin, kept=kept, rejected=rejected)
+
+
+def over_bases(bases: Sequence[str], mine: str, *, is_modelica: bool) -> list[tuple[str, str]]:
+    """Return the edits of a file as edits of its last base and of its first one: the base, and that with the edits.
+
+    Git may have united what several branches recorded: what one of these texts has is no edit of another. A base is
+    left out that the edits contradict.
+    """
+    from urdfsync.merge import merge
+
+    edited = []
+    for way in dict.fromkeys([tuple(bases), tuple(reversed(bases))]):
+        text: str | None = mine
+        for base, other in itertools.pairwise(way):
+            text = None if text is None else merge(base, text, other, is_modelica=is_modelica).text
+        if text is not None and way:
+            edited.append((way[-1], text))
+    return edited
 
 
 def resolve(

@@ -9,16 +9,17 @@ import msgspec
 
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.domain import ChangeClass, Role
+from urdfsync.engine import united
 from urdfsync.engine.actions import DISPUTED, ORPHANS, Action, Actions, Reason
-from urdfsync.engine.conflicts import MERGES, PREFERENCES, Conflict, find_conflict, resolve
+from urdfsync.engine.conflicts import MERGES, PREFERENCES, Conflict, find_conflict, over_bases, resolve
 from urdfsync.engine.fit import Misfit, Package, find_misfits
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import Inputs
 from urdfsync.engine.needed import keep_needed
-from urdfsync.engine.package_files import PackageFiles
+from urdfsync.engine.package_files import PackageFiles, text_hash
 from urdfsync.engine.package_names import renamed_names
 from urdfsync.engine.parents import SharedFile, merge_order
-from urdfsync.engine.rules import File, decide, put_off, valid_choices
+from urdfsync.engine.rules import NEVER_WRITTEN, File, decide, put_off, valid_choices
 from urdfsync.engine.undo import apply_undo, former_names
 from urdfsync.files import shown
 from urdfsync.modelica.files import class_parts
@@ -26,9 +27,6 @@ from urdfsync.modelica.layout import with_within
 from urdfsync.modelica.literals import numbers_only
 from urdfsync.modelica.names import is_identifier
 from urdfsync.state.record import UsersChoice, role_of
-
-_MARKER = r"(?m)^(?:<{7,}|>{7,}) "
-"""A merge marker of git. `=======` alone is also a rule of a comment."""
 
 
 class Decision(msgspec.Struct, frozen=True):
@@ -79,7 +77,7 @@ def decide_package(generation: Generation) -> Decision:
     actions = keep_needed(generation, actions, merged)
 
     order_actions, orders, shared = _decide_orders(generation, actions)
-    _refuse_markers(files, actions, orders.keys())
+    _refuse_markers(files, actions, (key for key, text in orders.items() if re.search(united.MARKER, text)))
     has_conflicts = any(action.is_conflict for action in actions)
     numbers = _renumbered(generation, actions, merged, conflicts) if has_conflicts else ()
     origins = set(generation.moves.values())
@@ -112,13 +110,28 @@ def _find_files(generation: Generation) -> dict[str, File]:
 
 
 def _adjust(inputs: Inputs, action: Action) -> Action:
-    """Keep a text that could not be given back, and with `adopt` a file that urdfsync did not write."""
+    """Return the action that contents and options lead to, beyond what hashes say."""
     # the record may be a stranger's, who has put the hash of a file of the user's into it
     if action.reason is Reason.DELETE and action.role is not Role.IMPORT and inputs.last.base(action.base) is None:
         return msgspec.structs.replace(action, reason=Reason.ORPHAN)
     if action.reason is Reason.UNOWNED and inputs.options.adopts:
         return msgspec.structs.replace(action, reason=Reason.KEEP, base=action.generated)
+    if action.reason is Reason.CONFLICT and _is_merged_by_git(inputs, action):
+        return msgspec.structs.replace(action, reason=Reason.UPDATE, base=action.mine)
     return action
+
+
+def _is_merged_by_git(inputs: Inputs, action: Action) -> bool:
+    """Return whether git alone made a file, of the texts that two branches recorded."""
+    record = inputs.last.files.get(action.path, NEVER_WRITTEN)
+    if not record.is_ambiguous or action.role is Role.IMPORT:
+        return False
+    versions = united.find_versions(inputs.files.path(action.path))
+    if not versions or not {text_hash(version) for version in versions} <= {*record.hashes}:
+        return False
+    text, is_modelica = inputs.files.text(action.path) or "", action.path.endswith(".mo")
+    by_elements = over_bases(versions, text, is_modelica=is_modelica)
+    return united.is_merge_by_lines(text, versions) or any(version == edited for version, edited in by_elements)
 
 
 def _renamed(generation: Generation) -> Mapping[str, str]:
@@ -236,7 +249,7 @@ def _refuse_markers(files: PackageFiles, actions: Iterable[Action], orders: Iter
     edited = [a for a in actions if a.mine not in (None, a.base, a.generated) and a.role is not Role.IMPORT]
     for key in dict.fromkeys((*(action.origin or action.path for action in edited), *orders)):
         text = files.text(key)
-        if text and (match := re.search(_MARKER, text)):
+        if text and (match := re.search(united.MARKER, text)):
             line = text.count("\n", 0, match.start()) + 1
             message, hint = "unresolved merge markers", "settle them in the file, then build again"
             file = shown(files.path(key))
@@ -318,14 +331,15 @@ def _decide_orders(
     decided, texts, shared = list[Action](), dict[str, str](), list[SharedFile]()
     for key in sorted(recorded.keys() | desired.keys()):
         old, names, owned = files.text(key), desired.get(key, ()), removable.get(key, [])
+        text = old
         if old is not None and inputs.last.record.is_united:
             # the file may be that of one branch, with a class that the other one has renamed
-            owned = [*owned, *_dangling_lines(files, key, old)]
+            owned, text = [*owned, *_dangling_lines(files, key, old)], united.join_sides(old)
         if inputs.options.adopts and old is None:  # a new file would hide classes of the user's from tools
             users = _classes_beside(key, files.classes(key.removesuffix("package.order")))
             names = (*names, *(name for name in users if name not in names))
         names = (*names, *_classes_beside(key, given_back))
-        new = texts[key] = merge_order(old, names, owned)
+        new = texts[key] = merge_order(text, names, owned)
         if old is None:
             reason = Reason.FORGET if not new else Reason.RESTORE if key in recorded else Reason.CREATE
         else:

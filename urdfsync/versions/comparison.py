@@ -36,9 +36,9 @@ from urdfsync.engine.source import Source
 from urdfsync.files import shown
 from urdfsync.modelica.names import class_name
 from urdfsync.output.phrases import change_counts, generator_change
+from urdfsync.revisions import Revision
 from urdfsync.state import expansion
 from urdfsync.state.store import Store
-from urdfsync.versions.revisions import Revision
 
 _DOMAIN = "urdf"
 """Domain of a source that no robot of the configuration has."""

@@ -12,7 +12,7 @@ import pytest
 from support.git import NEEDS_GIT, Repository
 
 from urdfsync.diagnostics import SourceError
-from urdfsync.versions.revisions import Revision
+from urdfsync.revisions import Revision
 
 pytestmark = NEEDS_GIT
 
