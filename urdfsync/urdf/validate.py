@@ -165,7 +165,7 @@ _WARNINGS = {
 }
 _NOTES = {
     "loop-by-name": "state it as `loops` in the configuration if it is of another kind",
-    "loop-closed": "a start pose that closes it is in the record of starts",
+    "loop-closed": "the models of a package begin where it is closed",
     "loop-weaker": "nothing is to be done: the motion is the same",
     "second-reader-failed": "go by the reading of urdfsync alone",
     "not-in-record": 'add "package" to `approach` for them',

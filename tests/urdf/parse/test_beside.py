@@ -93,6 +93,7 @@ def test_another_yaml_says_nothing() -> None:
     (b"closed_loop: [[x]]\ntype: ['6d']\n", 1, "an item of `closed_loop` is no pair of frames"),
     (b"closed_loop: [[x, [y]]]\ntype: ['6d']\n", 1, "an item of `closed_loop` is no name"),
     (b"closed_loop: 5\ntype: ['6d']\n", 1, "`closed_loop` is no list"),
+    (b"closed_loop: []\ntype: []\nclosed_loop: []\n", 3, "the key `closed_loop` stands twice"),
     (b"a: 1\nclosed_loops: [[x, y]]\ntype: ['6d']\n", 2, "`closed_loops` is unknown, perhaps `closed_loop` is meant"),
     (YAML.replace(b"['m']", b"m"), 3, "`name_mot` is no list"),
     (YAML.replace(b"[SPHERICAL]", b"[]"), 1, "it has 1 joint and 0 joint types"),

@@ -93,7 +93,11 @@ def _elements(document: Any) -> Iterator[tuple[str, int]]:
     """Yield each element, and its line in the YAML."""
     if document.id != "mapping":
         return  # another YAML that has the word in it
-    parts = {key.value: value for key, value in document.value if key.id == "scalar"}
+    parts = dict[str, Any]()
+    for key, value in document.value:
+        if key.id == "scalar" and key.value in parts:
+            raise _LoopsError(f"the key `{key.value}` stands twice", key)
+        parts |= {key.value: value} if key.id == "scalar" else {}
     for key, node in parts.items():
         if key.startswith("closed_loop") and "closed_loop" not in parts and node.id == "sequence":
             raise _LoopsError(f"the key `{key}` is unknown, perhaps `closed_loop` is meant", node)
