@@ -14,7 +14,7 @@ import pytest
 from support.commands import Execute
 from support.files import fresh_models, models
 from support.git import NEEDS_GIT, Repository
-from support.networks import C1, MODEL, R2, RECORD, edit, kinds, run
+from support.networks import C1, MODEL, R2, RECORD, configure, edit, kinds, run
 
 from urdfsync.engine.actions import Reason
 from urdfsync.state.record import Choice
@@ -113,7 +113,7 @@ def merge_and_settle(repository: Repository) -> None:
     repository.commit()
 
 
-def unite_two_elements(repository: Repository, execute: Execute, how: str) -> None:
+def unite_two_elements(repository: Repository, execute: Execute, how: str, command: str = "merge") -> None:
     """Two branches add an element each; git merges by elements, by lines, or leaves markers of either kind."""
     Path("ladder.json").write_text(json.dumps(json.loads(Path("ladder.json").read_text()), indent=1))
     if how == "driver":
@@ -124,8 +124,8 @@ def unite_two_elements(repository: Repository, execute: Execute, how: str) -> No
     branch(repository, "ours", lambda: add("R8"), start="start")
     branch(repository, "theirs", lambda: add("R9"), start="start")
     with contextlib.suppress(subprocess.CalledProcessError):
-        repository.git("merge", "-q", "ours")
-    repository.git("checkout", "-q", "HEAD", "--", "ladder.json")
+        repository.git(command, "ours")
+    repository.git("checkout", "-q", "theirs", "--", "ladder.json")
     add("R8")
 
 
@@ -143,14 +143,33 @@ def test_what_git_made_of_two_builds_is_nobodys_edit(
     assert run().in_step
 
 
-@pytest.mark.parametrize("how", ["driver", "lines"])
-def test_an_edit_of_what_git_merged_is_found(repository: Repository, execute: Execute, how: str) -> None:
-    note(MODEL, "before")
-    unite_two_elements(repository, execute, how)
-    if "<<<<<<<" in Path(MODEL).read_text():
-        pytest.skip("git has left markers")
-    (found,) = run().conflicts
-    assert found.action.path == MODEL
+@pytest.mark.parametrize("command", ["rebase", "cherry-pick"])
+def test_what_a_rebase_stops_at_is_nobodys_edit(
+    repository: Repository, execute: Execute, tmp_path: Path, command: str
+) -> None:
+    unite_two_elements(repository, execute, "lines", command)
+    assert "<<<<<<<" in Path(MODEL).read_text()
+    assert not run().conflicts
+    assert models() == fresh_models(tmp_path / "fresh")
+    assert run().in_step
+
+
+def test_an_edit_of_what_git_merged_stays(repository: Repository, execute: Execute, tmp_path: Path) -> None:
+    configure('on_conflict = "merge"\n')
+    note(MODEL, "mine")
+    unite_two_elements(repository, execute, "driver")
+    assert kinds(run())[MODEL] is Reason.MERGE
+    assert "// mine" in Path(MODEL).read_text()
+    assert without_notes(models()) == fresh_models(tmp_path / "fresh")
+
+
+def test_markers_in_an_edited_file_are_settled_by_who_edited_it(repository: Repository, execute: Execute) -> None:
+    configure('on_conflict = "merge"\n')
+    note(MODEL, "mine")
+    unite_two_elements(repository, execute, "lines")
+    before = models()
+    assert "unresolved merge markers" in execute("build", code=2).words
+    assert models() == before
 
 
 def test_an_edit_with_an_ambiguous_base_is_never_kept_in_silence(repository: Repository) -> None:

@@ -12,6 +12,8 @@ from urdfsync.revisions import Revision
 
 MARKER = r"(?m)^(?:<{7,}|>{7,}) "
 """A merge marker of git. `=======` alone is also a rule of a comment."""
+_UNDER_WAY = "MERGE_HEAD", "CHERRY_PICK_HEAD", "REBASE_HEAD"
+"""What git calls the commit that it is bringing to HEAD."""
 _BETWEEN_MARKERS = re.compile(
     r"(?ms)^<{7} [^\n]*\n(?P<ours>.*?)(?:^\|{7}[^\n]*\n.*?)?^={7}\r?\n(?P<theirs>.*?)^>{7} [^\n]*(?:\n|\Z)"
 )
@@ -29,12 +31,12 @@ def is_merge_by_lines(text: str, versions: Iterable[str]) -> bool:
 
 
 def find_versions(file: Path) -> list[str]:
-    """Return a text file as the commits have it that a merge unites: one that is under way, or the last commit.
+    """Return a text file as the two commits have it that git unites: now, in a merge or a rebase, or in the last merge.
 
     Nothing if there is no such merge, or if a commit has no such text.
     """
     dependencies.mark_incomplete()  # a commit changes the answer, and no file
-    for names in (("HEAD", "MERGE_HEAD"), ("HEAD^1", "HEAD^2")):
+    for names in (*(("HEAD", name) for name in _UNDER_WAY), ("HEAD^1", "HEAD^2")):
         try:
             return [Revision(file.parent, name).read(file).decode() for name in names]
         except (SourceError, UnicodeDecodeError):
