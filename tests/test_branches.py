@@ -143,6 +143,21 @@ def test_what_git_made_of_two_builds_is_nobodys_edit(
     assert run().in_step
 
 
+def test_what_is_taken_out_of_a_merge_is_an_edit(repository: Repository, execute: Execute) -> None:
+    unite_two_elements(repository, execute, "driver")
+    edit(MODEL, "  connect(elementR8.n, ground.p);\n", "")
+    assert len(run().conflicts) == 1
+
+
+def test_what_git_made_of_two_builds_is_put_aside(repository: Repository, execute: Execute) -> None:
+    unite_two_elements(repository, execute, "driver")
+    merged = Path(MODEL).read_text()
+    run()
+    assert Path(MODEL).read_text() != merged
+    run(choices={MODEL: Choice.UNDO})
+    assert Path(MODEL).read_text() == merged
+
+
 @pytest.mark.parametrize("command", ["rebase", "cherry-pick"])
 def test_what_a_rebase_stops_at_is_nobodys_edit(
     repository: Repository, execute: Execute, tmp_path: Path, command: str

@@ -8,7 +8,8 @@ from pathlib import Path
 import pytest
 from support.git import NEEDS_GIT, Repository
 
-from urdfsync.engine.united import find_versions, is_merge_by_lines, join_sides
+from urdfsync.engine import united
+from urdfsync.engine.united import find_versions, join_sides
 
 MERGE = "a\n<<<<<<< HEAD\nb\n=======\nc\n>>>>>>> theirs\nd\n"
 DIFF3 = "a\n<<<<<<< HEAD\nb\n||||||| 1f0a\nx\n=======\nc\n>>>>>>> theirs\nd\n"
@@ -30,18 +31,33 @@ def test_both_sides_of_markers_are_joined(text: str, joined: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "is_gits"),
+    ("text", "is_lacking", "adds"),
     [
-        ("a\nb\nc\nd\n", True),
-        ("a\nb\nd\n", True),
-        (MERGE, True),
-        ("a\nb\nc\nd\nmine\n", False),
-        ("b\nc\nd\n", False),
-        (MERGE.replace("b", "mine"), False),
+        ("a\nb\nc\nd\n", False, False),
+        ("a\nb\nd\n", False, False),
+        (MERGE, False, False),
+        ("a\nb\nc\nd\nmine\n", False, True),
+        ("b\nc\nd\n", True, False),
+        ("a\nc\nd\n", True, False),
+        (MERGE.replace("\nb", "\nmine"), False, True),
     ],
 )
-def test_a_merge_by_lines_adds_nothing_and_lacks_nothing_that_is_shared(text: str, is_gits: bool) -> None:
-    assert is_merge_by_lines(text, ["a\nb\nd\n", "a\nc\nd\n"]) is is_gits
+def test_what_a_merge_lacks_and_adds(text: str, is_lacking: bool, adds: bool) -> None:
+    versions = ["a\nb\nd\n", "a\nc\nd\n"]
+    assert united.lacks(text, versions, "a\nb\nC\nd\ne\n") is is_lacking
+    assert united.adds_lines(text, versions) is adds
+
+
+def test_classes_are_compared_by_their_elements() -> None:
+    def model(*lines: str) -> str:
+        return "\n".join(["model M", *lines, "end M;\n"])
+
+    shared, ours, theirs = "  Real x;", "  Real y;", '  Real z "theirs";'
+    versions = [model(shared, ours), model(shared, theirs)]
+    assert not united.lacks(model(shared, ours, "  Real z;"), versions, model(shared, ours, theirs))
+    assert united.lacks(model(shared, ours), versions, model(shared, theirs)), "which the merged source still has"
+    assert not united.lacks(model(shared, ours), versions, model(shared)), "which nobody wants any more"
+    assert united.lacks(model(ours, theirs), versions, model()), "which both have"
 
 
 @NEEDS_GIT

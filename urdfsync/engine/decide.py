@@ -60,7 +60,7 @@ def decide_package(generation: Generation) -> Decision:
     Raises OutputError for what can't be worked with, such as links or merge markers.
     """
     inputs, files, last = generation.inputs, generation.inputs.files, generation.inputs.last
-    actions = tuple(_adjust(inputs, action) for action in decide(_find_files(generation), generation.moves))
+    actions = tuple(_adjust(generation, action) for action in decide(_find_files(generation), generation.moves))
     chosen = valid_choices(inputs.options.choices, actions)
     actions, undone = apply_undo(inputs, actions, chosen)
 
@@ -109,20 +109,22 @@ def _find_files(generation: Generation) -> dict[str, File]:
     return files
 
 
-def _adjust(inputs: Inputs, action: Action) -> Action:
+def _adjust(generation: Generation, action: Action) -> Action:
     """Return the action that contents and options lead to, beyond what hashes say."""
+    inputs = generation.inputs
     # the record may be a stranger's, who has put the hash of a file of the user's into it
     if action.reason is Reason.DELETE and action.role is not Role.IMPORT and inputs.last.base(action.base) is None:
         return msgspec.structs.replace(action, reason=Reason.ORPHAN)
     if action.reason is Reason.UNOWNED and inputs.options.adopts:
         return msgspec.structs.replace(action, reason=Reason.KEEP, base=action.generated)
-    if action.reason is Reason.CONFLICT and _is_merged_by_git(inputs, action):
+    if action.reason is Reason.CONFLICT and _is_merged_by_git(generation, action):
         return msgspec.structs.replace(action, reason=Reason.UPDATE, base=action.mine)
     return action
 
 
-def _is_merged_by_git(inputs: Inputs, action: Action) -> bool:
+def _is_merged_by_git(generation: Generation, action: Action) -> bool:
     """Return whether git alone made a file, of the texts that two branches recorded."""
+    inputs = generation.inputs
     record = inputs.last.files.get(action.path, NEVER_WRITTEN)
     if not record.is_ambiguous or action.role is Role.IMPORT:
         return False
@@ -130,8 +132,11 @@ def _is_merged_by_git(inputs: Inputs, action: Action) -> bool:
     if not versions or not {text_hash(version) for version in versions} <= {*record.hashes}:
         return False
     text, is_modelica = inputs.files.text(action.path) or "", action.path.endswith(".mo")
+    generated = generation.package.content(inputs.folder.path(action.path)).decode()
+    if united.lacks(text, versions, generated):
+        return False
     by_elements = over_bases(versions, text, is_modelica=is_modelica)
-    return united.is_merge_by_lines(text, versions) or any(version == edited for version, edited in by_elements)
+    return not united.adds_lines(text, versions) or any(version == edited for version, edited in by_elements)
 
 
 def _renamed(generation: Generation) -> Mapping[str, str]:

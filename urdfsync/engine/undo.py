@@ -112,7 +112,8 @@ def _written_over(
             continue
         if action.mine and (is_taken or is_replaced):
             before, old = inputs.files.text(action.path) or "", inputs.last.put_aside.texts.get(path)
-            base = before if action.mine == action.base else inputs.last.base(action.base)
+            base = inputs.last.base(action.base)  # None for what git has merged
+            base = before if base is not None and action.mine == action.base else base
             base = old.base if old and action.reason is Reason.UNDO else base
             is_again = old is not None and old.base == base  # the same merge, undone or made again
             if base != before:

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from urdfsync import dependencies
 from urdfsync.diagnostics import SourceError
+from urdfsync.modelica.tree import SyntaxTree, read_tree
 from urdfsync.revisions import Revision
 
 MARKER = r"(?m)^(?:<{7,}|>{7,}) "
@@ -24,10 +25,29 @@ def join_sides(text: str) -> str:
     return _BETWEEN_MARKERS.sub(r"\g<ours>\g<theirs>", text)
 
 
-def is_merge_by_lines(text: str, versions: Iterable[str]) -> bool:
-    """Return whether a text has all lines that its versions share, and none that no version has."""
-    lines, sides = {*join_sides(text).splitlines()}, [{*version.splitlines()} for version in versions]
-    return set.intersection(*sides) <= lines <= set.union(*sides)
+def lacks(text: str, versions: Iterable[str], generated: str) -> bool:
+    """Return whether a class lacks an element that its versions share, or that one of them and the generated one have.
+
+    In another text lines count for elements. One with markers is on its way.
+    """
+    if join_sides(text) != text:
+        return False
+    of_sides = [_elements(version) for version in versions]
+    wanted = set.intersection(*of_sides) | (set.union(*of_sides) & _elements(generated))
+    return not wanted <= _elements(text)
+
+
+def adds_lines(text: str, versions: Iterable[str]) -> bool:
+    """Return whether a text has a line that is in no version."""
+    return not {*join_sides(text).splitlines()} <= {line for version in versions for line in version.splitlines()}
+
+
+def _elements(text: str) -> set[str]:
+    tree = read_tree(text)
+    body = tree.find("body") if tree else None
+    if body is None or not isinstance(body.node, SyntaxTree):
+        return {*text.splitlines()}
+    return {part.key for part in body.node.parts}
 
 
 def find_versions(file: Path) -> list[str]:
