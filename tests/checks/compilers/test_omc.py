@@ -84,15 +84,16 @@ def test_libraries_and_the_package_are_loaded_then_each_model_is_checked(ask: As
         file.touch()
     (result,) = ask({"checkModel": BALANCED + '""\n'}, roots=(str(library), str(robot)))
     assert (result.problem, result.unknowns) == ("", 4)
-    version, standard, *files, text, check = asked(tmp_path)
+    version, flags, standard, *files, text, check = asked(tmp_path)
     assert (version, standard, check) == ("getVersion()", "loadModel(Modelica)", "checkModel(Good)")
+    assert flags == 'setCommandLineOptions("--matchingAlgorithm=PFPlus")'
     assert files == [f'loadFile("{folder}/package.mo")' for folder in (library / "Own", robot)]
     assert text.endswith('/task0.mo")')
 
 
 def test_an_omc_without_a_c_compiler_is_told_to_do_without(ask: Ask, tmp_path: Path) -> None:
     ask({"getVersion": '"v1.27.0-dev-ea251558-rust"\n""\n', "checkModel": BALANCED + '""\n'})
-    assert asked(tmp_path)[1] == 'setCommandLineOptions("--simCodeTarget=wasm-jit")'
+    assert asked(tmp_path)[1] == 'setCommandLineOptions("--matchingAlgorithm=PFPlus --simCodeTarget=wasm-jit")'
 
 
 @pytest.mark.parametrize(("load", "check", "problem"), [
@@ -196,7 +197,7 @@ def test_an_fmu_comes_back_and_is_told_how_to_integrate(ask: Ask, tmp_path: Path
     (result,) = ask({"buildModelFMU": BUILT.format(file=tmp_path / "Good.fmu")}, task)
     assert (result.problem, result.fmu) == ("", b"an archive")
     calls = asked(tmp_path)
-    assert calls[1] == 'setCommandLineOptions("--fmiFlags=s:cvode")'
+    assert calls[1] == 'setCommandLineOptions("--matchingAlgorithm=PFPlus --fmiFlags=s:cvode")'
     assert calls[-1] == 'buildModelFMU(Good, version="3.0", fmuType="cs", fileNamePrefix="Good")'
 
 

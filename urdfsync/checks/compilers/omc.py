@@ -40,6 +40,9 @@ STARTS_PROGRAMS = True
 _TOLERANCE = 1e-8
 _PATIENCE = 30.0
 """Seconds in which OpenModelica has to tell its version."""
+_MATCHING = "--matchingAlgorithm=PFPlus"
+"""The default, PFPlusExt, does the same and takes five times as long for robots with many joints in loops: it looks at
+all equations again for each state that index reduction adds."""
 _NOBODY = "http://127.0.0.1:9"
 _VALUE = re.compile(
     r"\s*(?:(?P<record>record (?P<name>\w+)\n.*?\nend (?P=name);)"
@@ -139,14 +142,13 @@ def complaints(problem: str) -> list[Complaint]:
 def work(job: CompileJob) -> Iterator[CompileResult]:
     """See `Compiler`: all in one script. What can't be loaded is the problem of each task."""
     folder = Path(tempfile.mkdtemp())
-    files = _package_files(job)
     version = _ask(job, folder, ["getVersion()"])[0].value
-    # the one that compiles to WebAssembly needs no C compiler, and has no other target
-    options = ['setCommandLineOptions("--simCodeTarget=wasm-jit")'] if version.endswith("-rust") else []
+    is_webassembly = version.endswith("-rust")  # which needs no C compiler, and has no other target
+    flags = _MATCHING + " --simCodeTarget=wasm-jit" * is_webassembly
     if any(task.export for task in job.tasks):  # else an FMU for co-simulation takes Euler's method, one step for each
-        solver = "dassl" if options else "cvode"
-        options.append(f'setCommandLineOptions("--fmiFlags=s:{solver}")')
-    loads = [*options, "loadModel(Modelica)", *(f"loadFile({quoted(path.as_posix())})" for path in files)]
+        flags += f" --fmiFlags=s:{'dassl' if is_webassembly else 'cvode'}"
+    files = [f"loadFile({quoted(path.as_posix())})" for path in _package_files(job)]
+    loads = [f"setCommandLineOptions({quoted(flags)})", "loadModel(Modelica)", *files]
     calls = [_calls(task, number, folder) for number, task in enumerate(job.tasks)]
     answers = iter(_ask(job, folder, [*loads, *(call for some in calls for call in some)]))
     problem = "\n".join(_problem(next(answers)) for _ in loads).strip()
