@@ -87,6 +87,19 @@ def test_a_start_whose_rounding_opens_long_bars_is_closed_before_it_is_judged() 
     assert max(abs(moving.solved[0.0].reactions[0].gap)) < 1e-14
 
 
+def test_what_a_loop_leaves_open_is_told_in_the_world() -> None:
+    """A planar loop leaves its bars apart along the axes; the base of a check turns."""
+    (loop,) = FOUR_BAR.loops
+    apart = replace(loop, child_origin=replace(loop.child_origin, xyz=(*loop.child_origin.xyz[:2], 5e-5)))
+    moving = subject(replace(FOUR_BAR, loops=(apart,)))
+    ends = (apart.parent, apart.origin), (apart.child, apart.child_origin)
+    for solved in moving.solved.values():
+        frames = [(*solved.frame(link), np.array(origin.xyz)) for link, origin in ends]
+        parent, child = (place + axes @ xyz for place, axes, xyz in frames)
+        assert solved.reactions[0].gap == pytest.approx(child - parent, abs=1e-12)
+        assert np.linalg.norm(child - parent) == pytest.approx(5e-5)
+
+
 def test_light_parts_on_heavy_ones_are_left_what_closed_poses_leave_open() -> None:
     """A ball at the coupler's end turns freely."""
     (loop,), light = FOUR_BAR.loops, Inertial(1e-6, inertia=Inertia(ixx=3e-11, iyy=3e-11, izz=3e-11))

@@ -35,7 +35,7 @@ class Reaction(NamedTuple):
     """A loop at an instant."""
 
     gap: Array
-    """From the parent's frame to the child's, in the world."""
+    """From the parent's frame to the child's, in the root's frame."""
     force: Array
     """Of the parent on the child, in the parent's frame of the loop."""
     torque: Array

@@ -292,6 +292,7 @@ class Reference:
         load = pin.rnea(self.model, data, state.q, state.v, state.a) + self.losses(state.v)
         pin.framesForwardKinematics(self.model, data, state.q)
         reactions = self.closing.reactions(state.positions, load) if self.closing else []
+        reactions = [one._replace(gap=data.oMi[1].rotation @ one.gap) for one in reactions]
         return Solution(self, data, state.q, load[:3], load[3:6], state.ways.T @ load, reactions)
 
     def losses(self, v: Array) -> Array:
@@ -326,7 +327,7 @@ class Solution(msgspec.Struct, frozen=True):
     efforts: Array
     """Efforts of the axes."""
     reactions: Sequence[Reaction]
-    """Of the loops, in the order of the tree."""
+    """Of the loops, in the order of the tree; gaps are in the world."""
 
     def frame(self, link: str) -> tuple[Array, Array]:
         """Return place and axes (as columns) of a link's frame in the world."""
