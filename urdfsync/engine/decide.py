@@ -135,8 +135,9 @@ def _is_merged_by_git(generation: Generation, action: Action) -> bool:
     generated = generation.package.content(inputs.folder.path(action.path)).decode()
     if united.lacks(text, versions, generated):
         return False
-    by_elements = over_bases(versions, text, is_modelica=is_modelica)
-    return not united.adds_lines(text, versions) or any(version == edited for version, edited in by_elements)
+    if not united.adds_lines(text, versions):
+        return True
+    return any(version == edited for version, edited in over_bases(versions, text, is_modelica=is_modelica))
 
 
 def _renamed(generation: Generation) -> Mapping[str, str]:
