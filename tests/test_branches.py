@@ -143,8 +143,13 @@ def test_what_git_made_of_two_builds_is_nobodys_edit(
     assert run().in_step
 
 
-def test_what_is_taken_out_of_a_merge_is_an_edit(repository: Repository, execute: Execute) -> None:
-    unite_two_elements(repository, execute, "driver")
+@pytest.mark.parametrize("how", ["driver", "lines"])
+def test_what_is_taken_out_of_a_merge_is_an_edit(repository: Repository, execute: Execute, how: str) -> None:
+    unite_two_elements(repository, execute, how)
+    if how == "lines":
+        edit(MODEL, "<<<<<<< HEAD\n", "")
+        edit(MODEL, "=======\n", "")
+        Path(MODEL).write_text(re.sub(r">>>>>>> .*\n", "", Path(MODEL).read_text()))
     edit(MODEL, "  connect(elementR8.n, ground.p);\n", "")
     assert len(run().conflicts) == 1
 

@@ -31,21 +31,22 @@ def test_both_sides_of_markers_are_joined(text: str, joined: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "is_lacking", "adds"),
+    ("text", "is_lacking", "is_by_lines"),
     [
-        ("a\nb\nc\nd\n", False, False),
-        ("a\nb\nd\n", False, False),
-        (MERGE, False, False),
-        ("a\nb\nc\nd\nmine\n", False, True),
+        ("a\nb\nc\nd\n", False, True),
+        ("a\nb\nd\n", False, True),
+        (MERGE, False, True),
+        ("a\nb\nc\nd\nmine\n", False, False),
         ("b\nc\nd\n", True, False),
-        ("a\nc\nd\n", True, False),
-        (MERGE.replace("\nb", "\nmine"), False, True),
+        ("a\nc\nd\n", True, True),
+        (MERGE.replace("\nb", "\nmine"), False, False),
+        (MERGE.replace("a\n", ""), False, False),
     ],
 )
-def test_what_a_merge_lacks_and_adds(text: str, is_lacking: bool, adds: bool) -> None:
+def test_what_a_merge_lacks_and_adds(text: str, is_lacking: bool, is_by_lines: bool) -> None:
     versions = ["a\nb\nd\n", "a\nc\nd\n"]
     assert united.lacks(text, versions, "a\nb\nC\nd\ne\n") is is_lacking
-    assert united.adds_lines(text, versions) is adds
+    assert united.is_merge_by_lines(text, versions) is is_by_lines
 
 
 def test_classes_are_compared_by_their_elements() -> None:

@@ -135,7 +135,7 @@ def _is_merged_by_git(generation: Generation, action: Action) -> bool:
     generated = generation.package.content(inputs.folder.path(action.path)).decode()
     if united.lacks(text, versions, generated):
         return False
-    if not united.adds_lines(text, versions):
+    if united.is_merge_by_lines(text, versions):
         return True
     return any(version == edited for version, edited in over_bases(versions, text, is_modelica=is_modelica))
 

@@ -37,9 +37,10 @@ def lacks(text: str, versions: Iterable[str], generated: str) -> bool:
     return not wanted <= _elements(text)
 
 
-def adds_lines(text: str, versions: Iterable[str]) -> bool:
-    """Return whether a text has a line that is in no version."""
-    return not {*join_sides(text).splitlines()} <= {line for version in versions for line in version.splitlines()}
+def is_merge_by_lines(text: str, versions: Iterable[str]) -> bool:
+    """Return whether a text has all lines that its versions share, and none that no version has."""
+    lines, sides = {*join_sides(text).splitlines()}, [{*version.splitlines()} for version in versions]
+    return set.intersection(*sides) <= lines <= set.union(*sides)
 
 
 def _elements(text: str) -> set[str]:

@@ -95,9 +95,11 @@ def _elements(document: Any) -> Iterator[tuple[str, int]]:
         return  # another YAML that has the word in it
     parts = dict[str, Any]()
     for key, value in document.value:
-        if key.id == "scalar" and key.value in parts:
+        if key.id != "scalar":
+            continue
+        if key.value in parts:
             raise _LoopsError(f"the key `{key.value}` stands twice", key)
-        parts |= {key.value: value} if key.id == "scalar" else {}
+        parts[key.value] = value
     for key, node in parts.items():
         if key.startswith("closed_loop") and "closed_loop" not in parts and node.id == "sequence":
             raise _LoopsError(f"the key `{key}` is unknown, perhaps `closed_loop` is meant", node)
