@@ -16,8 +16,7 @@ from support.files import fresh_models, models
 from support.git import NEEDS_GIT, Repository
 from support.networks import C1, MODEL, R2, RECORD, configure, edit, kinds, run
 
-from urdfsync.engine.actions import Reason
-from urdfsync.state.record import Choice
+from urdfsync.engine.actions import Choice, Reason
 
 pytestmark = NEEDS_GIT
 

@@ -67,7 +67,7 @@ def lines(found: Changes) -> list[tuple[str, str, Any, Any]]:
 
 
 def import_(content: str, **facts: Any) -> Import:
-    return Import("Resources/a.stl", f"source of {content}", content, 1, facts)
+    return Import("Resources/a.stl", f"source of {content}", content, facts)
 
 
 def test_equal_versions_have_no_changes() -> None:

@@ -89,7 +89,7 @@ def make(name: str) -> Case:
     conversion = domain.convert(dependency, dependency.candidates[0], content, {})
     hashes = digest(content), digest(conversion.content)
     facts = json.loads(json.dumps(conversion.facts))
-    entry = Import(dependency.target, *hashes, domain.converter, facts)
+    entry = Import(dependency.target, *hashes, facts)
     return Case(domain, options, snapshot, dependency, {dependency.key: entry})
 
 

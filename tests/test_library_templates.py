@@ -28,7 +28,7 @@ from urdfsync.urdf.robot import (
 )
 
 MESH = Mesh("robots/six_axis_arm/meshes/base_casting.stl")
-IMPORTS = {key(MESH): Import(f"Resources/{MESH.filename}", "", "", 0, {"bounds": ((0, 0, 0), (0, 0, 0)), "hull": ()})}
+IMPORTS = {key(MESH): Import(f"Resources/{MESH.filename}", "", "", {"bounds": ((0, 0, 0), (0, 0, 0)), "hull": ()})}
 SHAPES: tuple[Geometry, ...] = (
     Box((0.1, 0.1, 0.1)),
     Cylinder(radius=0.05, length=0.1),

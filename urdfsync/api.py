@@ -136,11 +136,11 @@ def build_and_check(config: Config, robots: Sequence[RobotConfig], options: Buil
 def status(*robots: str, **given: Any) -> Results[Result]:
     """Say how each file stands, from a `build` that writes nothing: `action.status` of a result's `actions`.
 
-    A source that xacro or a command makes is not made anew: `stale` names the inputs that changed.
+    No command that makes a source is run: `stale` names its inputs that changed.
     """
     from urdfsync.output.status import lines
 
-    return Results(build(*robots, dry=True, expands=False, **given), lines)
+    return Results(build(*robots, dry=True, **given), lines)
 
 
 def diff(

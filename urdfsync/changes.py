@@ -71,9 +71,9 @@ class Changes(msgspec.Struct, frozen=True):
     """Structure first, then numbers, then rounding and what is not modelled."""
     renames: Mapping[ElementKey, str] = msgspec.field(default_factory=dict)
     generator: bool = False
-    """Whether templates, options or the output revision differ."""
+    """Whether templates, options or the release of urdfsync differ."""
     options: tuple[str, ...] = ()
-    """The options that differ, if templates and output revision do not."""
+    """The options that differ, if templates and release do not."""
 
     @property
     def change_class(self) -> ChangeClass:

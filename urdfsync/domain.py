@@ -114,8 +114,6 @@ class Import(msgspec.Struct, frozen=True, omit_defaults=True):
     """SHA-256 (hex) of the dependency's bytes, and of those of `others`."""
     target_hash: str
     """SHA-256 (hex) of the imported bytes."""
-    converter: int | None
-    """`Domain.converter` at the time of the import; None for an older copy, which was not made from these bytes."""
     facts: Mapping[str, Any]
     others: tuple[str, ...] = ()
     """Other files that it is made of, found or not: paths from the folder of the dependency's own file."""
@@ -142,7 +140,7 @@ class ChangeClass(enum.StrEnum):
     STRUCTURAL = "structural"
     """Models, packages or their order depend on it."""
     GENERATOR = "generator"
-    """Template, option or revision differ, which turn the model into files."""
+    """Template, option or release differ, which turn the model into files."""
 
     @property
     def rank(self) -> int:
@@ -471,12 +469,6 @@ class Domain(Protocol):
     """Name in the configuration; also the folder below `templates/`, unless `templates` names another."""
     templates: Path | None = None
     """Folder with the domain's templates; None for the folder of its name in urdfsync's own."""
-    revision: int = 1
-    """Raised whenever the same snapshot, options and templates give other text."""
-    fits_since: int = 1
-    """The oldest revision whose packages fit the libraries that they use as they are now."""
-    converter: int = 1
-    """Raised whenever `convert` gives other bytes for the same input."""
     warnings: Collection[str] = ()
     """Codes of the domain's warnings and notes, which a configuration may ignore."""
     options: type[Any]

@@ -6,8 +6,7 @@ import msgspec
 import pytest
 
 from urdfsync.domain import Role
-from urdfsync.engine.actions import CONFLICTS, ORPHANS, Action, Actions, Kind, Reason
-from urdfsync.state.record import Choice
+from urdfsync.engine.actions import CONFLICTS, ORPHANS, Action, Actions, Choice, Kind, Reason
 
 
 def act(reason: Reason, path: str = "a.mo") -> Action:

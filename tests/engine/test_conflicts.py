@@ -12,9 +12,8 @@ from support.files import fresh_models, models
 from support.networks import edit
 
 from urdfsync.domain import Role
-from urdfsync.engine.actions import Action, Reason
+from urdfsync.engine.actions import Action, Choice, Reason, UsersChoice
 from urdfsync.engine.conflicts import find_conflict, resolve
-from urdfsync.state.record import Choice, UsersChoice
 
 FORE, HAND, WRIST = (
     "modelica/Arm/Links/ForeParameters.mo",

@@ -12,8 +12,7 @@ from support.networks import inner_kinds as kinds
 
 from urdfsync import cli, registry
 from urdfsync.diagnostics import Severity
-from urdfsync.engine.actions import Reason
-from urdfsync.state.record import Choice
+from urdfsync.engine.actions import Choice, Reason
 
 LINKS = tuple(urdfs.link(name, 1.0) for name in ("base", "arm", "hand"))
 SWING = urdfs.joint("swing", "continuous", "base", "arm")

@@ -35,6 +35,7 @@ def undone_merge(execute: Execute) -> None:
     write_source("wrist")
     execute("build", "--merge")
     execute("resolve", str(MODEL), "--undo", code=None)
+    execute("resolve", str(MODEL), "--keep", code=None)
 
 
 def make_folder(_: Execute) -> None:

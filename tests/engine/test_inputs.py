@@ -34,8 +34,8 @@ REFUSED: dict[str, tuple[dict[str, str], Callable[[], object]]] = {
     "out [no-templates]": ({"templates": '"own"'}, Path),
     "urdfsync.toml:5: error: robot `ladder`: `prefix` names `in`, which is a node; choose another one "
     "[prefix-is-node]": ({"prefix": '"in"'}, Path),
-    ".urdfsync/robots/ladder.state: error: a newer urdfsync built robot `ladder`": (
-        *({}, lambda: edit(MANIFEST, "revision 1", "revision 2")),
+    ".urdfsync/robots/ladder.state:31: error: urdfsync 10.1.0 wrote this state, which is newer than this one": (
+        *({}, lambda: edit(MANIFEST, 'release "0', 'release "10')),
     ),
 }
 """What stops a build, by how its message begins: keys of the robot, and what is done to files."""

@@ -10,10 +10,9 @@ from typing import cast
 from support.networks import C1, LADDER, R2, RECORD, conflicts, drop, edit, inner_kinds, rename, run, source
 
 from urdfsync.domain import Role
-from urdfsync.engine.actions import Action, Reason
+from urdfsync.engine.actions import Action, Choice, Reason
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.needed import keep_needed
-from urdfsync.state.record import Choice
 
 
 def test_the_record_of_an_element_that_is_renamed_and_then_goes_is_kept_where_it_is_mentioned(project: Path) -> None:

@@ -11,11 +11,10 @@ import pytest
 from urdfsync.changes import Changes
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Role
-from urdfsync.engine.actions import Action, Actions, Reason
+from urdfsync.engine.actions import Action, Actions, Choice, Reason
 from urdfsync.engine.conflicts import Conflict
 from urdfsync.engine.result import Checked, Exit, Result, exit_code
 from urdfsync.merge import Merge, merge
-from urdfsync.state.record import Choice
 
 FAULT = Diagnostic(Severity.ERROR, "broken", "it is broken")
 HINT = Diagnostic(Severity.WARNING, "odd", "it is odd")

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from urdfsync.domain import Role
-from urdfsync.engine.actions import Action, Reason
+from urdfsync.engine.actions import Action, Choice, Reason, UsersChoice, sides_hash
 from urdfsync.engine.conflicts import find_conflict, resolve
 from urdfsync.engine.rules import (
     CLASS_FOLDER,
@@ -23,7 +23,7 @@ from urdfsync.engine.rules import (
     put_off,
     valid_choices,
 )
-from urdfsync.state.record import Choice, FileRecord, UsersChoice, sides_hash
+from urdfsync.state.record import FileRecord
 
 
 @pytest.mark.parametrize(

@@ -5,7 +5,8 @@ from __future__ import annotations
 import pytest
 
 from urdfsync.domain import Role
-from urdfsync.state.record import FileRecord, role_of, sides_hash
+from urdfsync.engine.actions import sides_hash
+from urdfsync.state.record import FileRecord, role_of
 
 
 @pytest.mark.parametrize(

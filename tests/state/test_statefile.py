@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 
 from urdfsync.diagnostics import StateError
 from urdfsync.domain import Import
-from urdfsync.state.record import Choice, FileRecord, Generator, Open, Record, UsersChoice
+from urdfsync.engine.actions import Choice, UsersChoice
+from urdfsync.state.record import FileRecord, Generator, Open, Record
 from urdfsync.state.statefile import dumps, loads
 
 A, B = "a" * 64, "b" * 64
@@ -22,7 +23,7 @@ ARM = Record(
     generator=Generator("urdf", 3, "0123"),
     options={"base": "fixed", "frames": ["tip"]},
     snapshot={"links": {"tip": {"mass": 1.5}}, "joints": {}, "name": "arm"},
-    imports={"tip.stl": (Import("Resources/tip.stl", A, B, 2, {"hull": [[0.0, 1.0]]}),)},
+    imports={"tip.stl": (Import("Resources/tip.stl", A, B, {"hull": [[0.0, 1.0]]}),)},
     files={"modelica/Plant/Arm/Arm.mo": FileRecord((A,))},
 )
 OPEN = Open({"Arm.mo": UsersChoice(Choice.MERGE, B)}, {"links": {"tip": {"mass": 2.0}}}, {("link", "end"): "tip"})

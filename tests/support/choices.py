@@ -6,9 +6,9 @@ from collections.abc import Mapping
 from typing import Any
 
 from urdfsync.config import Config
+from urdfsync.engine.actions import Choice, UsersChoice
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
-from urdfsync.state.record import Choice, UsersChoice
 
 
 def options(loaded: Config, *, choices: Mapping[str, Choice] | None = None, **request: Any) -> BuildOptions:

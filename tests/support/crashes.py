@@ -197,7 +197,7 @@ def contents(project: Path) -> Mapping[str, bytes | None]:
 def _needed(project: Path, robot: str) -> bytes:
     """The bases that a record needs, by their hashes."""
     store = Store(project)
-    state = store.load(robot)
+    state, _ = store.load(robot)
     assert state is not None
     needed = {sha256 for file in state.files.values() for sha256 in file.hashes}
     return repr([(digest, store.base(robot, digest)) for digest in sorted(needed)]).encode()

@@ -18,10 +18,15 @@ def snapshot(folder: Path) -> dict[str, tuple[int, bytes]]:
 
 @contextlib.contextmanager
 def unchanged(folder: Path, but: str = "") -> Iterator[None]:
-    """What happens within writes no file below a folder, but for one."""
-    before = {**snapshot(folder), but: None}
+    """What happens within writes no file below a folder, but for one, and for what this machine notes."""
+    before = {**without_notes(folder), but: None}
     yield
-    assert {**snapshot(folder), but: None} == before
+    assert {**without_notes(folder), but: None} == before
+
+
+def without_notes(folder: Path) -> dict[str, tuple[int, bytes] | None]:
+    """The contents of all files below a folder, but for the notes of this machine, which are its own."""
+    return {path: content for path, content in snapshot(folder).items() if not path.startswith(".urdfsync/notes/")}
 
 
 def models() -> dict[str, str]:

@@ -104,7 +104,7 @@ def _imports(random: Random) -> Mapping[str, Import]:
     for file in robots.FILES:
         if size := random.choice((None, 1.0, 2.0)):
             facts = {"bounds": [[0.0, 0.0, 0.0], [size] * 3], "hull": random.choice(([], [[size, 0.0, 0.0]]))}
-            found[lookup.key(Mesh(file))] = Import(f"Resources/{file}", str(facts), str(facts), 1, facts)
+            found[lookup.key(Mesh(file))] = Import(f"Resources/{file}", str(facts), str(facts), facts)
     return found
 
 

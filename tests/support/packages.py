@@ -127,7 +127,7 @@ def _imports(reading: Reading, path: Path, options: Options) -> tuple[dict[str, 
         found = next((candidate for candidate in dependency.candidates if candidate.is_file()), None)
         if found is not None:
             conversion = DOMAIN.convert(dependency, found, found.read_bytes(), {})
-            imports[dependency.key] = Import(dependency.target, "", "", DOMAIN.converter, conversion.facts)
+            imports[dependency.key] = Import(dependency.target, "", "", conversion.facts)
             contents[dependency.target] = conversion.content
     return imports, contents
 

@@ -123,8 +123,9 @@ class Fresh:
 
 
 def contents(folder: Path) -> dict[str, bytes]:
-    """Content of each file below a folder."""
-    return {path.relative_to(folder).as_posix(): path.read_bytes() for path in _files(folder)}
+    """Content of each file below a folder, but for the notes of this machine, which are its own."""
+    files = {path.relative_to(folder).as_posix(): path.read_bytes() for path in _files(folder)}
+    return {path: content for path, content in files.items() if ".urdfsync/notes/" not in path}
 
 
 def _put_meshes(root: Path, content: bytes) -> None:

@@ -43,6 +43,7 @@ def edit(conflicts: Sequence[Conflict]) -> tuple[Path, dict[str, str]]:
         file = folder / str(number) / PurePosixPath(conflict.path).name  # many have the same name
         file.parent.mkdir()
         proposal = conflict.merge.proposal if conflict.merge else _both(conflict.mine, conflict.generated)
+        proposal = proposal if conflict.edited is None else conflict.edited
         file.write_bytes(encode(proposal))
         try:  # not in the project's folder, where an editor may look for settings
             code = subprocess.run([*words, str(file)], cwd=file.parent, check=False).returncode  # noqa: S603

@@ -15,14 +15,13 @@ from urdfsync.api import build_and_check, load
 from urdfsync.commands import arguments, editor
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Role
-from urdfsync.engine.actions import USERS, Action, Reason
+from urdfsync.engine.actions import USERS, Action, Choice, Reason, UsersChoice
 from urdfsync.engine.build import build
 from urdfsync.engine.package_files import key_of
 from urdfsync.engine.result import Exit, Result, exit_code
 from urdfsync.files import shown
 from urdfsync.output.console import Console
 from urdfsync.output.results import show_result
-from urdfsync.state.record import Choice, UsersChoice
 
 
 def add(commands: arguments.Commands) -> None:
@@ -83,9 +82,8 @@ def run(args: argparse.Namespace, console: Console) -> int:
     # a choice belongs to the texts that this plan has seen: a file that is saved from now on stays as it is
     choices = {action.path: UsersChoice(choice, action.sides) for _, action in targets.values()}
     edited, folder = dict[str, str](), None
-    if choice is Choice.EDIT:  # this plan has the texts of files that wait after another choice, too
-        again = build(configuration, robots, arguments.request(args, console, dry=True, choices=choices))
-        disputed = [texts for result in again for texts in result.conflict_texts if texts.path in targets]
+    if choice is Choice.EDIT:
+        disputed = [texts for result in planned for texts in result.conflict_texts if texts.path in targets]
         folder, edited = editor.edit(disputed) if disputed else (None, {})
     for path, text in edited.items():
         choices[path] = msgspec.structs.replace(choices[path], text=text)
@@ -164,20 +162,21 @@ def _compare(
     A conflict that the choice does not settle is shown as such, with the reason.
     """
     actions = {action.path: action for result in results for action in result.actions}
+    result_of = {result.robot: result for result in results}
     failed = {result.robot for result in results if result.failed}
     accepted, problems = set[str](), list[Diagnostic]()
     for path, (result, before) in targets.items():
         after, place = actions.get(path), result.shown(before.origin or path)
         if result.robot in failed:
             continue
-        if after is not None and after.sides != before.sides:
+        if path in result_of[result.robot].settled:
+            accepted.add(path)
+        elif after is not None and after.sides != before.sides:
             message = "the file or its generated text changed after they were read, so your choice was not applied"
             hint = "look at it, then choose again"
             problems.append(Diagnostic(Severity.WARNING, "changed-meanwhile", message, place, hint=hint))
-        elif after is None or (after.choice is not choice and not before.is_conflict):
+        elif not before.is_conflict:
             problems.append(_without_effect(choice, before, place))
-        elif not after.is_conflict:
-            accepted.add(path)
     return accepted, problems
 
 

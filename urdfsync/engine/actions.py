@@ -3,13 +3,47 @@
 from __future__ import annotations
 
 import enum
+import hashlib
 from collections.abc import Iterable
 from typing import Self
 
 import msgspec
 
 from urdfsync.domain import Role
-from urdfsync.state.record import Choice, sides_hash
+
+
+class Choice(enum.StrEnum):
+    """The user's decision about a file."""
+
+    KEEP = "keep"
+    """The file stays as the user has it, until something new would be written."""
+    TAKE = "take"
+    """The generated text replaces the user's file."""
+    MERGE = "merge"
+    """Both sides' changes, if they merge cleanly."""
+    MERGE_MINE = "merge-mine"
+    """Both sides' changes; where they contradict each other, the user's."""
+    MERGE_GENERATED = "merge-generated"
+    """Both sides' changes; where they contradict each other, the generated ones."""
+    EDIT = "edit"
+    """The text that the user makes of both sides in an editor."""
+    UNDO = "undo"
+    """The text and the base before the last choice, or before a build replaced them."""
+
+
+class UsersChoice(msgspec.Struct, frozen=True):
+    """The user's decision about one file. It holds for the two texts that he saw: one that was saved since stays."""
+
+    choice: Choice
+    sides: str
+    """`sides_hash` of them."""
+    text: str | None = None
+    """The text that the user made of both sides, for `Choice.EDIT`."""
+
+
+def sides_hash(mine: str | None, generated: str | None) -> str:
+    """Return one hash for the texts of both sides, from theirs."""
+    return hashlib.sha256(f"{mine} {generated}".encode()).hexdigest()
 
 
 class Kind(enum.StrEnum):
@@ -35,6 +69,8 @@ class FileStatus(enum.StrEnum):
     """The user changed it, and there is nothing new for it."""
     ORPHAN = "orphan"
     """Nothing generates it any longer, and it stays because it is the user's or something of the user's needs it."""
+    UNKNOWN = "unknown"
+    """No build is known to have written it, and nothing generates it."""
     IN_STEP = "in step"
 
 
@@ -50,11 +86,9 @@ class Reason(enum.StrEnum):
     RESTORE = ("restore", Kind.WRITE, FileStatus.MISSING, "you deleted it",
                "{n} to restore", "{n} restored because you deleted {them}")
     DELETE = "delete", Kind.DELETE, FileStatus.STALE, "no longer generated", "{n} to delete", "{n} deleted"
-    ADOPT = ("adopt", Kind.LEAVE, FileStatus.IN_STEP, "it already equals the generated text",
-             "{n} already equal to the generated text")
     MERGE = ("merge", Kind.WRITE, FileStatus.STALE, "your edits and what is new, merged",
              "{n} to merge with your edits", "{n} merged with your edits")
-    UNDO = ("undo", Kind.WRITE, FileStatus.STALE, "it is as you had it before the last build",
+    UNDO = ("undo", Kind.WRITE, FileStatus.STALE, "it is as you had it before",
             "{n} to give back as you had {them}", "{n} given back as you had {them}")
     MOVE = ("move", Kind.WRITE, FileStatus.STALE, "its path is new; your edits move here",
             "{n} to move with your edits", "{n} moved with your edits")
@@ -69,6 +103,7 @@ class Reason(enum.StrEnum):
     CONFLICT = ("conflict", Kind.CONFLICT, FileStatus.CONFLICT, "you edited it, and its generated text changed too",
                 "{n} conflict{s}")
     UNOWNED = "unowned", Kind.CONFLICT, FileStatus.CONFLICT, "urdfsync did not write the file that is there"
+    UNKNOWN = "unknown", Kind.LEAVE, FileStatus.UNKNOWN, "nothing generates it, and no build wrote it"
     UNCHANGED = "unchanged", Kind.LEAVE, FileStatus.IN_STEP, "nothing to do"
     MOVED_AWAY = "moved-away", Kind.DELETE, FileStatus.STALE, "its path is new; your edits move there"
     FORGET = "forget", Kind.LEAVE, None, "no longer generated, and already gone"
@@ -168,20 +203,12 @@ class Action(msgspec.Struct, frozen=True):
     @property
     def waits_for(self) -> str:
         """The reason why it waits, as a clause; empty if it does not."""
-        if not self.is_waiting:
-            return ""
-        waits = "resolved, waits until the other" if self.choice else "waits until the"
-        return f"{waits} conflicts are resolved"
+        return "waits until the conflicts are resolved" if self.is_waiting else ""
 
     @property
     def is_on_disk(self) -> bool:
         """Whether there is a file that the generated content can replace."""
         return self.mine is not None
-
-    @property
-    def handed_to_user(self) -> bool:
-        """Whether the user keeps a file that is no longer generated: urdfsync no longer tracks it."""
-        return self.reason is Reason.FORGET and self.choice is Choice.KEEP
 
 
 class Actions(tuple[Action, ...]):
@@ -195,5 +222,5 @@ class Actions(tuple[Action, ...]):
 
     @property
     def decided(self) -> tuple[Action, ...]:
-        """All actions but `unchanged`: for most builds a few of thousands."""
-        return tuple(action for action in self if action.reason is not Reason.UNCHANGED)
+        """All actions but on files that are as they should be: for most builds a few of thousands."""
+        return tuple(action for action in self if action.reason not in (Reason.UNCHANGED, Reason.UNKNOWN))

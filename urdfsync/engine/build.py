@@ -32,6 +32,7 @@ from urdfsync.engine.plan import plan_robot
 from urdfsync.engine.result import Result
 from urdfsync.engine.stage import Plan
 from urdfsync.files import shown
+from urdfsync.state import notes
 from urdfsync.state.lock import Lock, LockedError, build_lock
 from urdfsync.state.store import Store
 from urdfsync.state.transaction import Transactions, UnfinishedError, is_interrupted
@@ -107,9 +108,11 @@ class _Builder:
             plan = self._pool.plan(robot) if self._pool else plan_robot(self._config, robot, self._options)
             if self._options.dry:
                 if self._is_current(plan):
+                    self._note(robot, plan)
                     return plan.result
                 continue
             if not (plan.result.writes or plan.writes or self._transactions.is_pending()):
+                self._note(robot, plan)
                 return plan.result
             dependencies.mark_incomplete()  # what was read is about to change
             self._lock.acquire(self._wait)
@@ -120,11 +123,16 @@ class _Builder:
             applied = self._transactions.apply(robot.name, [*shared, *plan.writes], plan.emptied)
             self.notes += applied.diagnostics
             if not applied.not_done:  # else somebody saved a file in between
+                self._note(robot, plan)
                 return plan.result
             saved = applied.not_done[0]
         message = "it keeps changing during the build"
         hint = "close the program that writes it, then build again"
         raise OutputError.of("restless", message, shown(saved), hint=hint)
+
+    def _note(self, robot: RobotConfig, plan: Plan) -> None:
+        if plan.notes:
+            notes.save(self._state_folder, robot.name, plan.notes)
 
     def _is_current(self, plan: Plan) -> bool:
         """Return whether no other build wrote, or began to, since the plan was made."""

@@ -3,30 +3,29 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 import msgspec
 
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.domain import ChangeClass, Role
 from urdfsync.engine import united
-from urdfsync.engine.actions import DISPUTED, ORPHANS, Action, Actions, Reason
-from urdfsync.engine.conflicts import MERGES, PREFERENCES, Conflict, find_conflict, over_bases, resolve
+from urdfsync.engine.actions import DISPUTED, ORPHANS, Action, Actions, Choice, Reason
+from urdfsync.engine.conflicts import PREFERENCES, Conflict, find_conflict, over_bases, resolve
 from urdfsync.engine.fit import Misfit, Package, find_misfits
 from urdfsync.engine.generation import Generation
-from urdfsync.engine.inputs import Inputs
 from urdfsync.engine.needed import keep_needed
 from urdfsync.engine.package_files import PackageFiles, text_hash
-from urdfsync.engine.package_names import renamed_names
+from urdfsync.engine.package_names import names_of, renamed_names
 from urdfsync.engine.parents import SharedFile, merge_order
-from urdfsync.engine.rules import NEVER_WRITTEN, File, decide, put_off, valid_choices
-from urdfsync.engine.undo import apply_undo, former_names
+from urdfsync.engine.rules import NEVER_WRITTEN, File, decide, put_off
 from urdfsync.files import shown
 from urdfsync.modelica.files import class_parts
 from urdfsync.modelica.layout import with_within
+from urdfsync.modelica.lexer import words_in
 from urdfsync.modelica.literals import numbers_only
 from urdfsync.modelica.names import is_identifier
-from urdfsync.state.record import UsersChoice, role_of
+from urdfsync.state.record import role_of
 
 
 class Decision(msgspec.Struct, frozen=True):
@@ -59,21 +58,13 @@ def decide_package(generation: Generation) -> Decision:
 
     Raises OutputError for what can't be worked with, such as links or merge markers.
     """
-    inputs, files, last = generation.inputs, generation.inputs.files, generation.inputs.last
+    inputs, files = generation.inputs, generation.inputs.files
     actions = tuple(_adjust(generation, action) for action in decide(_find_files(generation), generation.moves))
-    chosen = valid_choices(inputs.options.choices, actions)
-    actions, undone = apply_undo(inputs, actions, chosen)
-
     disputed = [action for action in actions if action.reason in DISPUTED and action.role is not Role.IMPORT]
     names = _renamed(generation) if disputed else {}
     conflicts = {one.path: _conflict(generation, one, names) for one in disputed}
-    pending = last.record.open.choices if last.record.open else {}
-    # what is in a former folder has its key there
-    pending = {path if path in last.files else inputs.folder.key(path): choice for path, choice in pending.items()}
-    choices = {**valid_choices(pending, actions, is_pending=True), **chosen}
-    conflicts, choices = _without_misfits(generation, actions, conflicts, choices)
-    actions, merged = resolve(actions, conflicts, choices, merging=inputs.robot.on_conflict == "merge")
-    merged |= undone
+    conflicts = _without_misfits(generation, actions, conflicts)
+    actions, merged = resolve(actions, conflicts, merging=inputs.robot.on_conflict == "merge")
     actions = keep_needed(generation, actions, merged)
 
     order_actions, orders, shared = _decide_orders(generation, actions)
@@ -81,11 +72,21 @@ def decide_package(generation: Generation) -> Decision:
     has_conflicts = any(action.is_conflict for action in actions)
     numbers = _renumbered(generation, actions, merged, conflicts) if has_conflicts else ()
     origins = set(generation.moves.values())
-    all_actions = Actions(put_off((*actions, *order_actions), numbers, origins, inputs.has_moved))
+    unknown = _find_unknown(generation, actions)
+    all_actions = Actions(put_off((*actions, *order_actions, *unknown), numbers, origins, inputs.has_moved))
     waiting = {action.path for action in all_actions if action.is_waiting}
     shared = [file for file in shared if files.key(file.path) not in waiting]
     misfits = find_misfits(generation, all_actions, {**orders, **merged})
     return Decision(all_actions, {**orders, **merged}, conflicts, tuple(shared), tuple(misfits))
+
+
+def _find_unknown(generation: Generation, actions: Iterable[Action]) -> Iterator[Action]:
+    """Yield the Modelica files in the package that nothing generates and that no record knows."""
+    inputs, known = generation.inputs, {action.path for action in actions}
+    others = tuple(f"{inputs.files.key(one.folder)}/" for one in inputs.config.robots if one != inputs.robot)
+    for key in sorted(inputs.files.classes(inputs.folder) - known):
+        if not key.startswith(others) and key.removesuffix("/package.mo") + ".mo" not in known:
+            yield Action(key, Reason.UNKNOWN, Role.MODEL)
 
 
 def _find_files(generation: Generation) -> dict[str, File]:
@@ -112,9 +113,11 @@ def _find_files(generation: Generation) -> dict[str, File]:
 def _adjust(generation: Generation, action: Action) -> Action:
     """Return the action that contents and options lead to, beyond what hashes say."""
     inputs = generation.inputs
-    # the record may be a stranger's, who has put the hash of a file of the user's into it
-    if action.reason is Reason.DELETE and action.role is not Role.IMPORT and inputs.last.base(action.base) is None:
-        return msgspec.structs.replace(action, reason=Reason.ORPHAN)
+    if action.reason is Reason.DELETE and action.mine is not None:
+        package = generation.package
+        is_generated = any(package.hash(path) == action.mine for path in package.artifacts)
+        if not (is_generated or inputs.last.has_generated(action.path, action.mine, action.role)):
+            return msgspec.structs.replace(action, reason=Reason.ORPHAN)
     if action.reason is Reason.UNOWNED and inputs.options.adopts:
         return msgspec.structs.replace(action, reason=Reason.KEEP, base=action.generated)
     if action.reason is Reason.CONFLICT and _is_merged_by_git(generation, action):
@@ -142,10 +145,7 @@ def _is_merged_by_git(generation: Generation, action: Action) -> bool:
 
 def _renamed(generation: Generation) -> Mapping[str, str]:
     """Return new names by the old ones, of all that has got another one since the last complete build."""
-    changes = generation.changes
-    # no name is gone if only numbers changed
-    is_structural = changes is None or changes.change_class.rank >= ChangeClass.STRUCTURAL.rank
-    if not generation.inputs.last.files or not is_structural:
+    if not generation.inputs.last.files or not generation.is_structural:
         return {}
     return renamed_names(generation)
 
@@ -157,13 +157,16 @@ def _conflict(generation: Generation, action: Action, names: Mapping[str, str]) 
     mine, generated = files.text(key), generation.package.content(path).decode()
     record = last.files.get(key)
     hashes = record.hashes if record and action.base in record.hashes else (action.base,)
-    bases = [base for sha256 in hashes if (base := last.base(sha256)) is not None]
+    texts = [generated if sha256 == action.generated else last.base(sha256) for sha256 in hashes]
+    # each base counts: of one that is lost nobody knows what is new
+    bases = [text for text in texts if text is not None] if None not in texts else []
     if mine is None:
         package = files.text(f"{key.removesuffix('.mo')}/package.mo") or ""
-        texts = bases[0] if bases else None, package, generated, None
-        reason = "you made a folder of the class"
-        return Conflict(action.path, *texts, origin=action.origin, rejected=reason)
-    conflict = find_conflict(action, bases, mine, generated, {**former_names(generation, action), **names})
+        reason, base = "you made a folder of the class", bases[0] if bases else None
+        return Conflict(action.path, base, package, generated, None, origin=action.origin, rejected=reason)
+    if not names and bases:  # a choice was undone after the build that brought new names
+        names = names_of(generation, last.notes.renamed, frozenset(words_in(bases[0])))
+    conflict = find_conflict(action, bases, mine, generated, names)
     if action.origin and action.path.endswith(".mo"):
         package = ".".join((generation.inputs.robot.target.package, *class_parts(path)))
         conflict = msgspec.structs.replace(conflict, kept=with_within(conflict.kept, package))
@@ -171,43 +174,37 @@ def _conflict(generation: Generation, action: Action, names: Mapping[str, str]) 
 
 
 def _without_misfits(
-    generation: Generation,
-    actions: Sequence[Action],
-    conflicts: dict[str, Conflict],
-    choices: dict[str, UsersChoice],
-) -> tuple[dict[str, Conflict], dict[str, UsersChoice]]:
-    """Return the conflicts without the merges that would bring in what means nothing, and choices without such texts.
+    generation: Generation, actions: Sequence[Action], conflicts: Mapping[str, Conflict]
+) -> dict[str, Conflict]:
+    """Return the conflicts without the merges that would bring in what means nothing.
 
     Of contradictions each side is tried in turn: no preference is proposed in vain.
     """
-    sound, valid = dict(conflicts), dict(choices)
-    for key, reason in _bad_merges(generation, actions, conflicts, choices).items():
-        conflict, choice = conflicts[key], choices.get(key)
-        if choice and choice.choice in PREFERENCES:
-            sound[key] = msgspec.structs.replace(conflict, refused=frozenset({choice.choice}), rejected=reason)
-        else:
-            merge = conflict.merge.rejected if conflict.merge else None
-            sound[key] = msgspec.structs.replace(conflict, merge=merge, rejected=reason)
-        if choice and choice.text is not None:
-            del valid[key]
-    settled = {key for key, choice in choices.items() if choice.choice not in MERGES}
+    sound = dict(conflicts)
+    for key, reason in _bad_merges(generation, actions, sound).items():
+        merge = sound[key].merge
+        sound[key] = msgspec.structs.replace(sound[key], merge=merge and merge.rejected, rejected=reason)
     for side in PREFERENCES:
-        open_ = [key for key, one in sound.items() if key not in settled and one.merged(None) is None]
-        tried = {key: UsersChoice(side, "") for key in open_ if sound[key].merged(side) is not None}
-        bad = _bad_merges(generation, actions, sound, choices | tried) if tried else {}
-        for key in bad.keys() & tried.keys():
-            sound[key] = msgspec.structs.replace(sound[key], refused=sound[key].refused | {side})
-    return sound, valid
+        tried = {key for key, one in sound.items() if one.merged(None) is None and one.merged(side) is not None}
+        for key in _bad_merges(generation, actions, sound, dict.fromkeys(tried, side)) if tried else ():
+            if key in tried:
+                sound[key] = msgspec.structs.replace(sound[key], refused=sound[key].refused | {side})
+    return sound
 
 
 def _bad_merges(
     generation: Generation,
     actions: Sequence[Action],
     conflicts: Mapping[str, Conflict],
-    choices: Mapping[str, UsersChoice],
+    choices: Mapping[str, Choice] = {},
 ) -> dict[str, str]:
     """Return why merges would not be right, by key. All that are possible are taken for that."""
-    planned, merged = resolve(actions, conflicts, choices, merging=True)
+    preferred = dict(conflicts)
+    for key, choice in choices.items():
+        if (merge := conflicts[key].merge) is not None:
+            merge = msgspec.structs.replace(merge, text=conflicts[key].merged(choice))
+            preferred[key] = msgspec.structs.replace(conflicts[key], merge=merge)
+    planned, merged = resolve(actions, preferred, merging=True)
     if not merged:
         return {}
     package = Package(generation, keep_needed(generation, planned, merged), merged, is_open=True)
@@ -219,9 +216,7 @@ def _bad_merges(
     reasons = dict[str, str]()
     for key, conflict in conflicts.items():
         misfits = [one for one in new if one.key == key and (conflict.origin or key, one.fault) not in old]
-        choice = choices.get(key)
-        text = conflict.merged(choice.choice, choice.text) if choice else conflict.merged(None)
-        if misfits and text == merged.get(key) != conflict.mine:
+        if misfits and key in merged and merged[key] != conflict.mine:
             reasons[key] = f"in the merge, {misfits[0].finding.message} (line {misfits[0].finding.line})"
     return reasons
 
@@ -264,52 +259,48 @@ def _refuse_markers(files: PackageFiles, actions: Iterable[Action], orders: Iter
         raise OutputError(*errors)
 
 
-def _recorded_orders(inputs: Inputs) -> dict[str, tuple[str, ...]]:
-    """Return the lines of each `package.order` that follow from the last complete build, by key.
+def _recorded_orders(generation: Generation) -> dict[str, tuple[str, ...]]:
+    """Return the lines of each `package.order` that the last build wrote, by key.
 
     Without its model they are those of the recorded files: their order is lost then.
     """
-    last, orders = inputs.last, dict[str, tuple[str, ...]]()
-    if last.record.snapshot is None and not last.record.is_united:
-        return orders
-    if last.package:
-        orders = {last.folder.key(path): names for path, names in last.package.orders.items()}
-    else:
-        for key in last.files:
-            folder, _, name = key.removesuffix("/package.mo").removesuffix(".mo").rpartition("/")
-            if f"{folder}/".startswith(last.folder.key("")) and key.endswith(".mo"):
-                order = f"{folder}/package.order"
-                orders[order] = (*orders.get(order, ()), name)
-    if "." in last.target.package:
+    inputs, last, orders = generation.inputs, generation.inputs.last, dict[str, tuple[str, ...]]()
+    package = last.package if generation.is_structural or inputs.has_moved else generation.package
+    if last.record.files and package:
+        orders = {last.folder.key(path): names for path, names in package.orders.items()}
+    for key in last.files:
+        folder, _, name = key.removesuffix("/package.mo").removesuffix(".mo").rpartition("/")
+        if f"{folder}/".startswith(last.folder.key("")) and key.endswith(".mo"):
+            names = orders.get(f"{folder}/package.order", ())
+            orders[f"{folder}/package.order"] = names if name in names else (*names, name)
+    if "." in last.target.package and last.record.files:
         above, _, name = last.folder.rpartition("/")
         orders[f"{above}/package.order" if above else "package.order"] = (name,)
     return {key: names for key, names in orders.items() if inputs.files.is_inside(key)}
 
 
-def _removable_lines(owned: Mapping[str, tuple[str, ...]], actions: Iterable[Action]) -> dict[str, list[str]]:
-    """Return the lines of `package.order` files that urdfsync may remove: not those of classes that stay.
+def _removable_lines(
+    generation: Generation, order: str, text: str, recorded: Sequence[str], actions: Iterable[Action]
+) -> list[str]:
+    """Return the lines of a `package.order` that go: those of deleted classes, and recorded ones that no class has.
 
-    The line of a class that is deleted goes with it, whoever wrote it.
+    That a line is recorded is no proof: it may be that of a class of the user's. Where git has united two states, the
+    file may be that of one branch, with classes that the other one has renamed.
     """
-    lines = {key: list(names) for key, names in owned.items()}
-    for action in actions:
-        folder, _, name = action.path.removesuffix("/package.mo").removesuffix(".mo").rpartition("/")
-        names = lines.get(f"{folder}/package.order")
-        if names is None or action.generated is not None:
-            continue
-        if action.reason in ORPHANS or action.handed_to_user:
-            names[:] = [line for line in names if line != name]
-        elif action.reason is not Reason.UNDO:
-            names.append(name)
-    return lines
+    inputs, folder = generation.inputs, order.removesuffix("package.order")
+    paths = (action.path.removesuffix("/package.mo").removesuffix(".mo") for action in actions if action.is_deletion)
+    deleted = [path.removeprefix(folder) for path in paths if path.rpartition("/")[0] == folder.rstrip("/")]
+    listed = {line.strip() for line in text.splitlines()}
+    candidates = listed if inputs.last.record.is_united else listed.intersection(recorded)
+    return [*deleted, *_dangling_lines(inputs.files, order, candidates.difference(deleted))]
 
 
-def _dangling_lines(files: PackageFiles, order: str, text: str) -> list[str]:
+def _dangling_lines(files: PackageFiles, order: str, names: Iterable[str]) -> list[str]:
     """Return the names in a `package.order` that no class has, and that its `package.mo` does not mention."""
     folder = order.removesuffix("package.order")
-    mentioned = re.findall(r"\w+", files.text(f"{folder}package.mo") or "")
-    names = {line.strip() for line in text.splitlines()}.difference(mentioned)
-    return [name for name in names if is_identifier(name) and not files.has_class(folder, name)]
+    missing = [name for name in names if is_identifier(name) and not files.has_class(folder, name)]
+    mentioned = set(re.findall(r"\w+", files.text(f"{folder}package.mo") or "")) if missing else set()
+    return [name for name in missing if name not in mentioned]
 
 
 def _classes_beside(order: str, keys: Iterable[str]) -> list[str]:
@@ -327,24 +318,25 @@ def _decide_orders(
     Also what to do with the files around the package, that of the last build included.
     """
     inputs, files, robot = generation.inputs, generation.inputs.files, generation.inputs.robot
-    recorded = _recorded_orders(inputs)
+    recorded = _recorded_orders(generation)
     desired = {inputs.folder.key(path): names for path, names in generation.package.orders.items()}
     if robot.folder.parent != robot.output and inputs.parents.listed:
         desired[files.key(robot.folder.parent / "package.order")] = (robot.folder.name,)
-    removable = _removable_lines(recorded, actions)
     inside = (inputs.folder.key(""), inputs.last.folder.key(""))
-    given_back = [action.path for action in actions if action.reason is Reason.UNDO and action.generated is None]
+    orphans = [action.path for action in actions if action.reason in ORPHANS]
     decided, texts, shared = list[Action](), dict[str, str](), list[SharedFile]()
     for key in sorted(recorded.keys() | desired.keys()):
-        old, names, owned = files.text(key), desired.get(key, ()), removable.get(key, [])
-        text = old
-        if old is not None and inputs.last.record.is_united:
-            # the file may be that of one branch, with a class that the other one has renamed
-            owned, text = [*owned, *_dangling_lines(files, key, old)], united.join_sides(old)
+        old, names, owned, text = files.text(key), desired.get(key, ()), list[str](), None
+        if old is not None:
+            text = united.join_sides(old) if inputs.last.record.is_united else old
+            written = recorded.get(key, ())
+            removable = _removable_lines(generation, key, text, written, actions)
+            owned = [*(name for name in written if name in names), *removable]
         if inputs.options.adopts and old is None:  # a new file would hide classes of the user's from tools
             users = _classes_beside(key, files.classes(key.removesuffix("package.order")))
             names = (*names, *(name for name in users if name not in names))
-        names = (*names, *_classes_beside(key, given_back))
+        if recorded.get(key):  # an orphan that was given back
+            names = (*names, *(name for name in _classes_beside(key, orphans) if name not in names))
         new = texts[key] = merge_order(text, names, owned)
         if old is None:
             reason = Reason.FORGET if not new else Reason.RESTORE if key in recorded else Reason.CREATE

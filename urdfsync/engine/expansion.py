@@ -16,7 +16,7 @@ from pathlib import Path
 import msgspec
 
 from urdfsync.config import Config, RobotConfig
-from urdfsync.dependencies import read_file, read_variable
+from urdfsync.dependencies import is_file, read_file, read_variable
 from urdfsync.diagnostics import SourceError
 from urdfsync.engine import ros_packages
 from urdfsync.engine.xacro_worker import Answer, Problem, Request, find_matches
@@ -99,6 +99,13 @@ class Inputs:
         changed += [name for name in made.patterns if made.patterns[name] != now.patterns[name]]
         return (*changed, *(f"${name}" for name in made.variables if made.variables[name] != now.variables[name]))
 
+    def why_not_expandable(self, made: Expansion, error: SourceError) -> str:
+        """Return what this machine lacks to expand a source again, as a clause; empty if the source is wrong."""
+        if error.diagnostics[0].code == "no-xacro":
+            return "xacro is not installed"
+        missing = [name for name, sha256 in made.files.items() if sha256 and not _is_there(self.path(name))]
+        return f"{missing[0]} is not on this machine" if missing else ""
+
     def places(self, made: Expansion) -> list[tuple[int, str, int]]:
         """Return the line of each element in an expansion, with the file as people see it and the line it is from."""
         try:
@@ -111,6 +118,13 @@ class Inputs:
     def paths(self, names: Iterable[str]) -> list[Path]:
         """Return the paths of those files, or patterns, that are on this machine."""
         return [path for path in map(self.path, names) if path is not None]
+
+
+def _is_there(path: Path | None) -> bool:
+    try:
+        return path is not None and is_file(path)
+    except (OSError, ValueError):  # a name may be a stranger's, and none of a file
+        return False
 
 
 def file_hash(path: Path) -> str | None:

@@ -17,7 +17,6 @@ from urdfsync.engine.inputs import Inputs, orphaned_robots
 from urdfsync.engine.package_files import key_of
 from urdfsync.engine.package_names import begins_with, new_name, new_names, recently_renamed
 from urdfsync.files import shown
-from urdfsync.modelica.names import LIBRARY
 from urdfsync.modelica.unresolved import Unresolved
 from urdfsync.state.store import Store
 
@@ -45,7 +44,8 @@ def find_all(generation: Generation, decision: Decision) -> tuple[Diagnostic, ..
         hint = "put urdfsync.toml into a folder of the project, and narrower folders into `users`"
         place = shown(inputs.config.file), inputs.robot.lines.get("users", 0)
         findings.append(Diagnostic(Severity.WARNING, "too-many-folders", message, *place, hint=hint))
-    findings += [*_left_behind(inputs, actions), *_outdated(inputs, actions)]
+    findings += _left_behind(inputs, actions)
+    findings += [inputs.damage] if inputs.damage else []
     if generation.changes is not None and inputs.last.version is not None and generation.changes.changes:
         for path, finding in inputs.domain.find_doubtful(
             inputs.last.version, generation.now, generation.changes.renames
@@ -155,20 +155,6 @@ def _changed_connectors(generation: Generation) -> Iterator[Diagnostic]:
             message = f"{element}: its {connector} `{connector_change.old}` {now}"
             place = shown(robot.source), generation.lines.get(element, 0)
             yield Diagnostic(Severity.NOTE, CONNECTORS, message, *place, hint=connector_change.hint)
-
-
-def _outdated(inputs: Inputs, actions: Actions) -> Iterator[Diagnostic]:
-    """A warning of a package that an older urdfsync wrote, that does not fit the library, and waits for conflicts."""
-    if inputs.last.version is None or inputs.last.record.generator.revision >= inputs.domain.fits_since:
-        return
-    conflicts = [shown(inputs.files.path(action.origin or action.path)) for action in actions if action.is_conflict]
-    if conflicts and any(action.is_waiting for action in actions):
-        named = conflicts[0] if len(conflicts) == 1 else f"each of {len(conflicts)} conflicts"
-        command = conflicts[0] if len(conflicts) == 1 else f"--all --robot {inputs.robot.name}"
-        message = f"an older urdfsync wrote this package: it does not fit the library {LIBRARY} of this version"
-        hint = f"it fits the library again once {named} is resolved: urdfsync resolve {command}"
-        folder = shown(inputs.files.path(inputs.last.folder))
-        yield Diagnostic(Severity.WARNING, "outdated-package", message, folder, hint=hint)
 
 
 def orphaned_state(config: Config) -> list[Diagnostic]:

@@ -140,7 +140,9 @@ class Package(Mapping[str, bytes]):
         inside, classes, keys = inputs.folder.key(""), set[str](), set[str]()
         for action in self._actions:
             key = action.path
-            if action.role in (Role.ORDER, Role.IMPORT) or not (key.endswith(".mo") and key.startswith(inside)):
+            if action.reason is Reason.UNKNOWN or action.role in (Role.ORDER, Role.IMPORT):
+                continue
+            if not (key.endswith(".mo") and key.startswith(inside)):
                 continue
             keys.add(key)
             classes |= {key} if action.generated else set()
@@ -151,7 +153,7 @@ class Package(Mapping[str, bytes]):
             elif is_open and action.is_conflict:
                 found[inputs.folder.path(key)] = file._replace(text="")
             elif action.keeps_text:
-                is_forgotten = action.reason is Reason.FORGET and not action.handed_to_user
+                is_forgotten = action.reason is Reason.FORGET
                 if (sha256 := files.hash(key, action.role)) and not is_forgotten:
                     record = inputs.last.files.get(key)
                     is_edited = sha256 not in (action.generated, *(record.hashes if record else ()))
@@ -293,13 +295,18 @@ class Package(Mapping[str, bytes]):
         if not self._is_waiting:
             return self._generation.package.content(place).decode() if place in artifacts else ""
         record = inputs.last.files.get(inputs.folder.key(place))
-        return (inputs.last.base(record.generated) or "") if record and not record.is_ambiguous else ""
+        return (inputs.last.base(record.hashes[0]) or "") if record and len(record.hashes) == 1 else ""
 
     def _is_lost(self, name: str) -> bool:
         """Whether a text that is replaced or deleted declares a name, and the one in its place does not."""
+        files, folder = self._inputs.files, self._inputs.folder
+        replaced = list[tuple[str, str]]()
+        if not all(action.is_waiting for action in self._actions):  # else the package is as it was before the choices
+            replaced += [(folder.path(key), text_of(text)) for key, text in files.replaced.items()]
         for action in self._actions:
-            key, path = action.origin or action.path, self._inputs.folder.path(action.path)
-            old = self._inputs.files.any_text(key) if action.writes and key.endswith(".mo") else ""
+            if action.writes and (key := action.origin or action.path).endswith(".mo"):
+                replaced.append((folder.path(action.path), files.any_text(key)))
+        for path, old in replaced:
             if name not in old or name not in declared_names([old]):  # parsing all texts would take too long
                 continue
             if path not in self or name not in declared_names([text_of(self[path])]):

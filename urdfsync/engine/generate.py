@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING, Any
 
@@ -11,7 +11,7 @@ import msgspec
 
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
 from urdfsync.domain import Artifact, Domain, Import, Order, Snapshot, Target, Templates
-from urdfsync.files import normalised, shown, text_digest
+from urdfsync.files import digest, normalised, shown, text_digest
 from urdfsync.modelica.files import class_path
 from urdfsync.modelica.layout import check_class_file
 
@@ -33,16 +33,11 @@ class Package:
         self._templates, self._name = templates, name
         self._texts: dict[str, bytes] = {}
         self._hashes: dict[str, str] = {}
-        self._stored: Callable[[str], str | None] = lambda _: None
 
     def content(self, path: str) -> bytes:
         """Return the text of one file. Raises ConfigError for a template that can't be used."""
         if path not in self._texts:
-            stored = self._stored(self._hashes[path]) if path in self._hashes else None
-            if stored is None:
-                self._texts[path] = _render(_renderer(self._templates), self.artifacts[path], self._name)
-            else:
-                self._texts[path] = stored.encode()
+            self._texts[path] = _render(_renderer(self._templates), self.artifacts[path], self._name)
         return self._texts[path]
 
     def hash(self, path: str) -> str:
@@ -51,10 +46,16 @@ class Package:
             self._hashes[path] = text_digest(self.content(path))
         return self._hashes[path]
 
-    def set_hashes(self, hashes: Mapping[str, str], stored: Callable[[str], str | None]) -> None:
-        """Name the hashes of texts that need no rendering; `stored` returns the text of a hash, None if it is lost."""
-        self._hashes.update(hashes)
-        self._stored = stored
+    def skip(self, noted: Mapping[str, tuple[str, str]]) -> None:
+        """Take the hashes of texts that this program has rendered on this machine, as `notes` returned them."""
+        for path, artifact in self.artifacts.items():
+            data_hash, text_hash = noted.get(path, ("", ""))
+            if data_hash == _data_hash(artifact):
+                self._hashes[path] = text_hash
+
+    def notes(self) -> dict[str, tuple[str, str]]:
+        """Return the hashes of template with data, and of text, of all files whose text is known."""
+        return {path: (_data_hash(self.artifacts[path]), sha256) for path, sha256 in self._hashes.items()}
 
     def changed_since(self, last: Package) -> frozenset[str]:
         """Return the paths whose text can differ from that of another package of the same templates."""
@@ -66,6 +67,10 @@ class Package:
             ):
                 changed.add(path)
         return frozenset(changed)
+
+
+def _data_hash(artifact: Artifact) -> str:
+    return digest(msgspec.json.encode((artifact.template, artifact.data), order="sorted"))
 
 
 def generate(

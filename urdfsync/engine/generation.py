@@ -11,7 +11,7 @@ import msgspec
 from urdfsync import changes
 from urdfsync.changes import Changes
 from urdfsync.diagnostics import Diagnostic
-from urdfsync.domain import ElementKey, Lookup, Version
+from urdfsync.domain import ChangeClass, ElementKey, Lookup, Version
 from urdfsync.engine import imports, source
 from urdfsync.engine.generate import Package, generate
 from urdfsync.engine.imports import Imported
@@ -72,11 +72,18 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
             options = [name for name in names if getattr(last.options, name) != getattr(robot.options, name)]
         return msgspec.structs.replace(differences, generator=True, options=tuple(options))
 
+    @property
+    def is_structural(self) -> bool:
+        """Whether files or names may come or go: not if only numbers changed since the last complete build."""
+        return self.changes is None or self.changes.change_class.rank >= ChangeClass.STRUCTURAL.rank
+
     @cached_property
     def moves(self) -> dict[str, str]:
         """New and old key of text files whose element was renamed, or whose package moved."""
         inputs, last = self.inputs, self.inputs.last
         texts = set(map(last.folder.path, last.files))
+        if not (self.is_structural or inputs.has_moved):
+            return {}
         recorded = last.package.artifacts if last.package else {}
         before = {path: (file.owner, file.template) for path, file in recorded.items() if path in texts}
         now = {path: (file.owner, file.template) for path, file in self.package.artifacts.items()}
@@ -120,17 +127,8 @@ def _generate(inputs: Inputs) -> Generation:
     for key, finding in domain.import_findings(imported.imports):
         findings.append(msgspec.structs.replace(finding, file=file, line=lines.get(key, 0)))
     package = generate(domain, snapshot, imported.imports, robot.target, robot.options, inputs.templates)
-    is_complete = not (last.record.open or last.record.is_united)
-    is_same = last.record.generator == inputs.generator and last.options is not None
-    if is_complete and last.package and is_same and not options.full:
-        # Texts whose template and data are as in the last complete build need not be rendered, whatever options say.
-        files = {last.folder.path(key): record for key, record in last.files.items()}
-        hashes = {
-            path: files[path].generated
-            for path in package.artifacts.keys() - package.changed_since(last.package)
-            if path in files and len(files[path].hashes) == 1
-        }
-        package.set_hashes(hashes, last.base)
+    if last.notes.program == inputs.program and not options.full:
+        package.skip(last.notes.texts)
     return Generation(inputs, Version(snapshot, imported.imports), reading.lines, tuple(findings), imported, package)
 
 

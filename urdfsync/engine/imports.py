@@ -46,6 +46,8 @@ class RecordedFile(msgspec.Struct, frozen=True, dict=True):
     """Its content in the package."""
     written: tuple[str, ...] = ()
     """The hashes that builds have recorded of it, be it not the last one."""
+    is_noted: bool = False
+    """Whether this program has converted it on this machine, so that it need not be converted again."""
 
     @cached_property
     def hash(self) -> str:
@@ -64,6 +66,8 @@ class Imported(msgspec.Struct):
     imports: dict[str, Import] = msgspec.field(default_factory=dict)
     contents: dict[str, bytes] = msgspec.field(default_factory=dict)
     diagnostics: list[Diagnostic] = msgspec.field(default_factory=list)
+    converted: set[str] = msgspec.field(default_factory=set)
+    """Keys of the files that were converted now."""
     refused: list[tuple[Dependency, Path]] = msgspec.field(default_factory=list)
     """Files that were found, and could not be converted."""
 
@@ -100,8 +104,8 @@ def import_files(
 ) -> Imported:
     """Import every dependency; `source` is how diagnostics name the file that refers to them.
 
-    A conversion of the last build serves again if it has the same input, unless the build is a full one or the package
-    `has_moved`. What can't be found or read is left out, or its recorded copy serves.
+    A conversion that this machine has noted serves again if it has the same input, unless the build is a full one or
+    the package `has_moved`. What can't be found or read is left out, or its recorded copy serves.
     Raises StateError if a copy must serve of which the recorded facts are lost.
     """
     result = Imported()
@@ -162,9 +166,9 @@ def _import(
     others = _read_mentioned(domain, dependency, path, text)
     sha256 = digest(b"".join((text, *others.values())))
     own = recorded.get(dependency.key)
-    if own and (own.entry.source_hash, own.entry.converter) == (sha256, domain.converter):
+    if own and own.entry.source_hash == sha256:
         facts, files = _needed(dependency, own.entry), _find_recorded(dependency, recorded)
-        if facts is not None and all(file.is_intact for _, _, file in files):
+        if facts is not None and all(file.is_noted and file.is_intact for _, _, file in files):
             for key, target, file in files:
                 own_facts = facts if file is own else file.entry.facts
                 entry = msgspec.structs.replace(file.entry, target=target, facts=own_facts)
@@ -180,8 +184,9 @@ def _import(
         return unreadable(error.diagnostics[0].message, error.diagnostics[0].hint)
     for (key, target), part in zip(_places(dependency), (conversion, *conversion.more), strict=False):
         names = (*others,) if part is conversion else ()
-        entry = Import(target, sha256, digest(part.content), domain.converter, part.facts, names)
+        entry = Import(target, sha256, digest(part.content), part.facts, names)
         result.add(key, entry, part.content)
+        result.converted.add(key)
     return None
 
 
@@ -253,7 +258,6 @@ def _keep_copy(
             entry,
             target=target,
             target_hash=file.hash if is_older or is_placed_anew else entry.target_hash,
-            converter=None if is_older else entry.converter,
             facts=facts if file is own else entry.facts,
         )
         result.add(key, entry, file.copy if file.hash == entry.target_hash else None)

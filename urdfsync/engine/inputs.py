@@ -7,19 +7,21 @@ from functools import cached_property
 
 import msgspec
 
-from urdfsync import registry
+from urdfsync import __version__, registry
 from urdfsync.config import Config, RobotConfig
 from urdfsync.dependencies import file_type
-from urdfsync.diagnostics import OutputError, StateError, UrdfsyncError
+from urdfsync.diagnostics import Diagnostic, OutputError, UrdfsyncError
 from urdfsync.domain import Domain, Templates
 from urdfsync.engine import parents, source
 from urdfsync.engine.last_build import LastBuild, option_values
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.package_files import Folder, PackageFiles
 from urdfsync.engine.parents import Parents
+from urdfsync.engine.program import program_hash
 from urdfsync.engine.source import Source
 from urdfsync.engine.users_files import UsersFiles, find_users_files
 from urdfsync.files import shown
+from urdfsync.state.notes import load as load_notes
 from urdfsync.state.record import Generator, Record
 from urdfsync.state.store import Store
 
@@ -40,11 +42,20 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
     folder: Folder
     """Of the package now."""
     parents: Parents
+    program: str
+    """Hash of the program and the templates, by which notes of this machine hold."""
+    damage: Diagnostic | None = None
+    """A warning if lines of the recorded state can't be read."""
 
     @property
     def former_name(self) -> str | None:
         """Name of the robot in the last build, if it has another one now."""
         return self.last.name if self.last.name != self.robot.name else None
+
+    @property
+    def always_merges(self) -> bool:
+        """Whether the configuration asks to merge, not this command alone."""
+        return any(robot.name == self.robot.name and robot.on_conflict == "merge" for robot in self.config.robots)
 
     @property
     def has_moved(self) -> bool:
@@ -65,21 +76,21 @@ def inspect(config: Config, robot: RobotConfig, options: BuildOptions) -> Inputs
     files = PackageFiles(config, robot)
     folder = Folder(files.key(robot.folder))
     above = Parents(listed=False) if options.removes else parents.check(config, robot, domain.uses(robot.options))
-    record, name = store.load(robot.name, strict=not options.full), robot.name
+    (record, damage), name = store.load(robot.name), robot.name
+    others = {files.key(other.folder) for other in config.robots if other.name != robot.name}
+    if record and record.folder in others:  # it is another robot's, whose files are not to be deleted
+        record = None
     if record is None:  # was it built into this folder by another name, which is no longer configured?
         name = next((name for name, place in orphaned_robots(store, config) if place == folder), name)
-        record = store.load(name) if name != robot.name else None
-    if options.adopts and record and (record.snapshot is not None or record.is_united):
+        record = store.load(name)[0] if name != robot.name else None
+    notes = load_notes(store.folder, name)
+    if options.adopts and record and record.files:
         message, hint = f"robot `{robot.name}` was built already", "`urdfsync resolve` settles its conflicts"
         place = shown(config.file), robot.lines[""]
         raise OutputError.of("already-built", message, *place, hint=hint)
     templates = source.templates(config, robot, domain)
     text = Source(b"", "") if options.removes else source.read_source(config, robot, store, options, name)
-    generator = Generator(robot.domain, domain.revision, templates.digest)
-    if record and record.generator.domain == robot.domain and record.generator.revision > domain.revision:
-        message = f"a newer urdfsync built robot `{robot.name}`; this older one can't build it"
-        file = shown(store.path(robot.name))
-        raise StateError.of("newer-state", message, file, hint="update urdfsync")
+    generator = Generator(robot.domain, __version__, templates.digest)
     record = record or Record(
         package=robot.target.package,
         class_=robot.target.name,
@@ -87,8 +98,12 @@ def inspect(config: Config, robot: RobotConfig, options: BuildOptions) -> Inputs
         generator=generator,
         options=option_values(robot.options),
     )
-    last = LastBuild(name, record, store, files, domain, robot, templates)
-    return Inputs(config, robot, options, domain, templates, generator, text, store, last, files, folder, above)
+    program = program_hash(robot.domain, templates.digest)
+    if notes.program != program:  # what another program made is made anew; what was written stays so
+        notes = msgspec.structs.replace(notes, texts={}, imports=frozenset())
+    last = LastBuild(name, record, notes, store, files, domain, robot, templates)
+    read = domain, templates, generator, text, store, last, files, folder, above
+    return Inputs(config, robot, options, *read, program, damage)
 
 
 def orphaned_robots(store: Store, config: Config) -> Iterator[tuple[str, str | None]]:
@@ -98,7 +113,7 @@ def orphaned_robots(store: Store, config: Config) -> Iterator[tuple[str, str | N
     for name in store.names():
         if name.casefold() not in configured:
             try:
-                record = store.load(name)
+                record, _ = store.load(name)
             except UrdfsyncError:
                 record = None
             yield name, record.folder if record else None

@@ -9,26 +9,38 @@ from typing import Any
 import msgspec
 
 from urdfsync.config import RobotConfig
-from urdfsync.diagnostics import OutputError
+from urdfsync.diagnostics import UrdfsyncError
 from urdfsync.domain import Domain, Import, Role, Target, Templates, Version
 from urdfsync.engine.generate import Package, generate
 from urdfsync.engine.imports import RecordedFile
 from urdfsync.engine.package_files import Folder, PackageFiles
 from urdfsync.engine.rules import NEVER_WRITTEN, OnDisk
+from urdfsync.files import digest
+from urdfsync.state.notes import Notes
 from urdfsync.state.record import FileRecord, Record
-from urdfsync.state.store import PutAside, Store
+from urdfsync.state.store import Aside, Store
 
-NO_MODEL = (KeyError, TypeError, AttributeError, ValueError)
-"""Errors that a domain raises for a recorded snapshot that is none of its own."""
+NO_MODEL = (
+    ArithmeticError,
+    AssertionError,
+    AttributeError,
+    LookupError,
+    RecursionError,
+    TypeError,
+    UrdfsyncError,
+    ValueError,
+)
+"""Errors that a domain raises for a recorded snapshot that is none of its own: anybody may have written it."""
 
 
 class LastBuild(msgspec.Struct, frozen=True, dict=True):
-    """The last complete build of a robot."""
+    """The last build of a robot, as it is recorded, and as this machine has noted it."""
 
     name: str
     """The robot's name then."""
     record: Record
     """Without a model and files if the robot was never built, or if its state is lost."""
+    notes: Notes
     _store: Store
     _files: PackageFiles
     _domain: Domain
@@ -80,41 +92,65 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
         files = list[RecordedFile]()
         for entry in entries:
             key = self.folder.key(entry.target)
-            files.append(RecordedFile(entry, self._files.read(key), self.files.get(key, NEVER_WRITTEN).hashes))
+            written = self.files.get(key, NEVER_WRITTEN).hashes
+            files.append(RecordedFile(entry, self._files.read(key), written, import_hash(entry) in self.notes.imports))
         return next((file for file in files if file.is_intact), files[0])
 
     @cached_property
     def version(self) -> Version | None:
-        """The model; None if there was none, or it is lost, or united and not whole."""
-        if self.record.snapshot is None or (self.record.is_united and self.package is None):
+        """The model; None if there was none, or it is lost."""
+        if self.record.snapshot is None or self.record.generator.domain != self._robot.domain:
             return None
-        return self._version
-
-    @cached_property
-    def _version(self) -> Version:
         imports = {key: file.entry for key, file in self.imports.items()}
-        return Version(self.record.snapshot or {}, imports, self.options)
+        return Version(self.record.snapshot, imports, self.options)
 
     @cached_property
     def package(self) -> Package | None:
-        """The package, from today's templates; None if there can't be one, as of a model that is not whole."""
-        if self.record.snapshot is None or self.record.generator.domain != self._robot.domain:
+        """The package that follows from the model by today's templates; None if none does."""
+        if self.version is None:
             return None
-        options = self.options or self._robot.options
+        options, imports = self.options or self._robot.options, self.version.imports or {}
         try:
-            imports: Mapping[str, Import] = self._version.imports or {}
-            return generate(self._domain, self.record.snapshot, imports, self.target, options, self._templates)
-        except (*NO_MODEL, OutputError):
+            return generate(self._domain, self.version.snapshot, imports, self.target, options, self._templates)
+        except NO_MODEL:
             return None
+
+    def has_generated(self, key: str, sha256: str, role: Role) -> bool:
+        """Return whether a file on disk is what was generated: noted here, or made again from the recorded model.
+
+        That its hash is recorded is no proof: the file may be a person's, and the record a stranger's.
+        """
+        path = self.folder.path(key)
+        if sha256 in self.notes.written:
+            return True
+        if role is Role.IMPORT:
+            return any(file.entry.target == path and file.hash == sha256 for file in self.imports.values())
+        try:
+            return self.package is not None and path in self.package.artifacts and self.package.hash(path) == sha256
+        except NO_MODEL:
+            return False
 
     def base(self, sha256: str | None) -> str | None:
         """Return the text with this hash that was generated once; None if it is not stored."""
         return self._store.base(self.name, sha256) if sha256 else None
 
+    def bases(self, record: FileRecord) -> dict[str, str]:
+        """Return the texts of a file's bases that are stored, by hash."""
+        return {sha256: text for sha256 in record.hashes if (text := self.base(sha256)) is not None}
+
     @cached_property
-    def put_aside(self) -> PutAside:
-        """Texts of the user's that the build wrote over, and the names that it changed."""
-        return self._store.put_aside(self.name)
+    def aside(self) -> Mapping[str, Aside]:
+        """Texts that builds and choices replaced, by path below the package."""
+        return self._store.aside(self.name)
+
+    def aside_text(self, path: str) -> bytes | None:
+        """Return a text that was replaced; None if it is lost."""
+        return self._store.aside_text(self.name, path)
+
+
+def import_hash(entry: Import) -> str:
+    """Return a hash over all that is recorded of an import."""
+    return digest(msgspec.json.encode(entry, order="sorted"))
 
 
 def option_values(options: msgspec.Struct) -> dict[str, Any]:

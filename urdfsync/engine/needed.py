@@ -9,13 +9,12 @@ from collections.abc import Mapping, Sequence
 import msgspec
 
 from urdfsync.domain import Role
-from urdfsync.engine.actions import USERS, Action, Reason
+from urdfsync.engine.actions import Action, Reason
 from urdfsync.engine.fit import Package
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.package_files import encode
 from urdfsync.engine.package_names import class_of
 from urdfsync.modelica.files import code_of, text_of
-from urdfsync.state.record import Choice
 
 _CLASS_KINDS = frozenset({"block", "class", "connector", "function", "model", "package", "record", "type"})
 
@@ -57,8 +56,11 @@ def _find_mentioned(generation: Generation, actions: Sequence[Action], merged: M
     package = Package(generation, actions, merged)
     words = {inputs.files.key(file): code_words(content) for file, content in package.users.items()}
     all_words = set().union(*words.values())
-    decided = {action.path for action in actions if action.choice is Choice.KEEP and action.reason in USERS}
-    kept_words = set().union(*(words[key] for key in decided & words.keys()))
+    # names that a file has since it was generated so before: the user kept it as it was
+    kept_words = set[str]()
+    for key in {action.path for action in actions if action.reason is Reason.KEEP} & words.keys():
+        if before is not None and (path := inputs.last.folder.path(key)) in before.artifacts:
+            kept_words |= words[key] & code_words(before.content(path))
     pending = {action.path: action.role for action in actions if action.reason is Reason.DELETE}
     needed = set[str]()
     for path, role in pending.items():

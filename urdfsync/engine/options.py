@@ -9,7 +9,7 @@ from typing import TypeAlias
 import msgspec
 
 from urdfsync.config import ros_package_path
-from urdfsync.state.record import UsersChoice
+from urdfsync.engine.actions import UsersChoice
 
 Progress: TypeAlias = Callable[[str, int, int], None]
 """Called with a step of the work, how much of it is done, and of how much."""
@@ -28,8 +28,8 @@ class BuildOptions(msgspec.Struct, frozen=True):
     """Write nothing."""
     trusted: bool = False
     """Write to outputs outside of the configuration's folder, too."""
-    expands: bool = True
-    """Expand sources whose inputs have changed; without it, the last expansion stands for them."""
+    renews: bool = True
+    """Renew the recorded state even if no file of the package is written."""
     adopts: bool = False
     """Take files that are there before the first build for edits of the generated ones."""
     removes: bool = False

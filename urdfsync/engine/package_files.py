@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import NamedTuple
 
@@ -63,8 +63,16 @@ def note_state(path: str, facts: tuple[int, ...], content: bytes) -> FileState:
 class PackageFiles:
     """The files of one robot's package, by their key: the path from the configuration's folder, POSIX."""
 
-    def __init__(self, config: Config, robot: RobotConfig) -> None:
+    def __init__(
+        self,
+        config: Config,
+        robot: RobotConfig,
+        chosen: Mapping[str, bytes | None] = {},
+        replaced: Mapping[str, bytes] = {},
+    ) -> None:
+        """`chosen` are contents that count for those on disk, which are `replaced`; by key, None for no file."""
         self.root = config.root
+        self._chosen, self.replaced = chosen, replaced
         self._prefix = os.path.join(os.path.normpath(config.root), "")  # noqa: PTH118 - strings: there are thousands
         self._trees = [Tree(robot.output), Tree(config.root)]
         self._tree_of: dict[str, Tree | None] = {}  # by folder
@@ -85,6 +93,8 @@ class PackageFiles:
 
     def read(self, key: str) -> bytes | None:
         """Return a file's content, None if there is none. Raises OutputError for links, folders, unreadable files."""
+        if key in self._chosen:
+            return self._chosen[key]
         path = self._place(key)
         tree = self._tree(path.rpartition(os.sep)[0])
         return tree.read(path) if tree else None
@@ -119,7 +129,9 @@ class PackageFiles:
         """Return the state of a file when it was first seen, None if there was none. Raises OutputError as `read`."""
         path = self._place(key)
         if path not in self._states:
-            self._states[path] = self._read_state(path)
+            chosen = self._chosen.get(key)
+            state = state_of(chosen) if chosen is not None else None
+            self._states[path] = state if key in self._chosen else self._read_state(path)
         return self._states[path]
 
     def _read_state(self, path: str) -> FileState | None:
@@ -158,13 +170,13 @@ class PackageFiles:
 
     def has_classes(self, key: str, gone: Collection[str]) -> bool:
         """Return whether the folder of a `package.mo` holds classes other than it and those of the files in `gone`."""
-        folder = self.path(key).parent
+        folder, left = self.path(key).parent, {*gone, *(key for key, text in self._chosen.items() if text is None)}
         for path in map(folder.joinpath, dependencies.list_folder(folder)):
             package = path / "package.mo"
             if path.suffix == ".mo" and path.name != "package.mo" and dependencies.is_file(path):
-                if self.key(path) not in gone:
+                if self.key(path) not in left:
                     return True
-            elif dependencies.is_file(package) and self.key(package) not in gone:
+            elif dependencies.is_file(package) and self.key(package) not in left:
                 return True
         return False
 
@@ -174,11 +186,15 @@ class PackageFiles:
 
         folder = folder.removesuffix("/")
         place = str(self.path(folder))  # strings: there are thousands of files
-        return {folder + path[len(place) :].replace(os.sep, "/") for path in modelica_files(Path(place))}
+        found = {folder + path[len(place) :].replace(os.sep, "/") for path in modelica_files(Path(place))}
+        chosen = {key for key in self._chosen if key.startswith(f"{folder}/") and key.endswith(".mo")}
+        return (found - chosen) | {key for key in chosen if self._chosen[key] is not None}
 
     def has_class(self, folder: str, name: str) -> bool:
         """Whether a folder has a file or a folder for this class. `classes` leaves out links, which count here."""
-        place = self.path(folder)
+        place, key = self.path(folder), f"{folder.rstrip('/')}/{name}.mo"
+        if key in self._chosen:
+            return self._chosen[key] is not None
         return dependencies.is_file(place / f"{name}.mo") or dependencies.is_folder(place / name)
 
     def _place(self, key: str) -> str:
@@ -211,3 +227,8 @@ def text_hash(text: str) -> str:
 def encode(text: str) -> bytes:
     """Return the bytes of a text that `PackageFiles.text` gave, or of an edited one."""
     return text.encode(errors="surrogateescape")
+
+
+def with_line_ends(generated: bytes, mine: bytes) -> bytes:
+    """Return a generated text with the line ends that most lines of the file on disk have."""
+    return generated.replace(b"\n", b"\r\n") if 2 * mine.count(b"\r\n") > mine.count(b"\n") else generated

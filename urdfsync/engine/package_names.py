@@ -28,9 +28,7 @@ def renamed_identifiers(generation: Generation) -> dict[str, str]:
 
 def recently_renamed(generation: Generation) -> dict[str, str]:
     """Return the renamed identifiers, and before them those that the last build on this machine renamed."""
-    aside = generation.inputs.last.put_aside
-    former = {old: new for text in aside.texts.values() for old, new in text.renamed.items()}
-    both = {**former, **aside.renamed, **renamed_identifiers(generation)}
+    both = {**generation.inputs.last.notes.renamed, **renamed_identifiers(generation)}
     return {name: both[name] for name in sorted(both, key=len, reverse=True)}
 
 
@@ -44,7 +42,7 @@ def renamed_names(generation: Generation) -> dict[str, str]:
         return {}
     recorded = {inputs.last.folder.path(key): one for key, one in inputs.last.files.items() if one.hashes}
     files = {path: one for path, one in recorded.items() if path.endswith(".mo")}
-    before = declared_names(inputs.last.base(one.generated) or "" for path, one in files.items() if "/" not in path)
+    before = declared_names(inputs.last.base(one.hashes[0]) or "" for path, one in files.items() if "/" not in path)
     return names_of(generation, renamed, before | {*map(class_of, files)})
 
 

@@ -13,6 +13,7 @@ from urdfsync.engine.generation import generate_robot
 from urdfsync.engine.inputs import inspect
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Result
+from urdfsync.engine.settle import Settled, settle, with_choices
 from urdfsync.engine.stage import Plan, stage
 
 
@@ -24,8 +25,12 @@ def plan_robot(config: Config, robot: RobotConfig, options: BuildOptions) -> Pla
         result = Result(name, package, robot.folder, config.root, dry=options.dry, stale=stale)
         return Plan(result, inputs.store.hashes())
     generation = generate_robot(inputs)
-    decision = decide_package(generation)
-    plan = stage(generation, decision, find_all(generation, decision))
+    decision, settled = decide_package(generation), Settled()
+    if options.choices:
+        settled = settle(generation, decision)
+        generation = with_choices(generation, settled)
+        decision = decide_package(generation)
+    plan = stage(generation, decision, find_all(generation, decision), settled)
     if options.full or options.draw or plan.result.writes:
         dependencies.mark_incomplete()  # not all that this work reads is recorded as a dependency of the answer
     return plan

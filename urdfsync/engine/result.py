@@ -12,11 +12,10 @@ import msgspec
 
 from urdfsync.changes import Changes
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError
-from urdfsync.engine.actions import Action, Actions, Kind, Reason
-from urdfsync.engine.conflicts import Conflict, conflict_files
+from urdfsync.engine.actions import Action, Actions, Choice, Reason
+from urdfsync.engine.conflicts import Conflict
 from urdfsync.files import shown
 from urdfsync.spelling import counted
-from urdfsync.state.record import Choice
 
 _NAMED = 3
 """So many contradictions of a file are named in its sentence."""
@@ -88,9 +87,7 @@ class DisputedFile(msgspec.Struct, frozen=True):
         """Where a build saves the versions, from the configuration's folder: `base`, `generated`, `merge`."""
         if self.texts is None:
             return {}
-        folder = Path(os.path.relpath(self.result.folder, self.result.root)).as_posix()
-        aside = f".urdfsync/conflicts/{self.result.robot}"
-        return {name: f"{aside}/{path}" for name, (path, _) in conflict_files(self.texts, folder).items()}
+        return {kind: f".urdfsync/conflicts/{self.result.robot}/{path}" for kind, path in self.texts.files.items()}
 
     def offers(self, choice: Choice) -> bool:
         """Return whether a choice to merge settles it."""
@@ -122,7 +119,9 @@ class Result(msgspec.Struct, frozen=True):
     dry: bool = False
     """Nothing was written, whatever the actions say."""
     writes: bool = False
-    """The build has written what version control has, files or the recorded state, or would in a dry run."""
+    """The build has written files of the package, or would in a dry run."""
+    renews: bool = False
+    """The build has renewed the recorded state, or would in a dry run."""
     stale: tuple[str, ...] = ()
     """Files that have changed since the source was expanded, if the old text was used."""
     is_broken: bool = False
@@ -132,6 +131,8 @@ class Result(msgspec.Struct, frozen=True):
     """Changes of the model since the last build that wrote; None if there are none, or they are not known."""
     conflict_texts: tuple[Conflict, ...] = ()
     """The texts of the files that conflict, in the order of their paths."""
+    settled: frozenset[str] = frozenset()
+    """The keys of the files of which choices came about."""
     checked: Checked | None = None
     """Verdict of a check of the package; None if there was none. Its findings are among the diagnostics."""
 
@@ -163,7 +164,7 @@ class Result(msgspec.Struct, frozen=True):
     @property
     def is_built(self) -> bool:
         """Whether a build has written any file of the package, its record lost or not."""
-        return any(action.base is not None or action.reason is Reason.ADOPT for action in self.actions)
+        return any(action.base is not None or action.reason is Reason.UNCHANGED for action in self.actions)
 
     @property
     def is_first(self) -> bool:
@@ -177,7 +178,7 @@ class Result(msgspec.Struct, frozen=True):
             end = "the next build finishes it" if self.unfinished else "nothing was changed"
             return f"{error_count(self.diagnostics)}, {end}"
         parts = [*(["inputs changed since the last build"] if self.stale else []), *self.counts()]
-        if self.in_step and not any(action.writes or action.reason is Reason.ADOPT for action in self.actions.decided):
+        if self.in_step and not any(action.writes for action in self.actions.decided):
             fine = (Reason.UNCHANGED, Reason.KEEP, Reason.INCLUDED)
             total = sum(action.reason in fine for action in self.actions)
             parts.insert(0, f"in step, {counted(total, 'file')}")
@@ -201,12 +202,12 @@ class Result(msgspec.Struct, frozen=True):
                 them, have, s = ("them", "have", "s") if number > 1 else ("it", "has", "")
                 phrase = reason.to_do if self.dry else reason.done
                 phrases.append(phrase.format(n=number, them=them, have=have, s=s))
-        if (
-            self.dry
-            and self.writes
-            and all(reason.kind is Kind.LEAVE and reason is not Reason.ADOPT for reason in +reasons)
-        ):
-            phrases.append("recorded state to write")
+        if given_back := sum(one.choice is Choice.UNDO and one.is_conflict for one in self.actions):
+            phrases.insert(
+                0, f"{counted(given_back, 'file')} given back as you had {'it' if given_back == 1 else 'them'}"
+            )
+        if self.renews and not (self.writes or self.dry):
+            phrases.append("recorded state renewed: commit .urdfsync")
         if waiting := sum(action.is_waiting for action in self.actions.decided):
             what = "the conflict is" if reasons[Reason.CONFLICT] == 1 else "all conflicts are"
             phrases.append(f"{counted(waiting, 'file')} wait{'s' if waiting == 1 else ''} until {what} resolved")

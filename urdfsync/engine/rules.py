@@ -14,7 +14,7 @@ import msgspec
 
 from urdfsync.domain import Role
 from urdfsync.engine.actions import ORPHANS, Action, Reason
-from urdfsync.state.record import Choice, FileRecord, UsersChoice
+from urdfsync.state.record import FileRecord
 
 
 class ClassFolder(enum.Enum):
@@ -64,7 +64,7 @@ def decide_file(base: str | None, mine: OnDisk, generated: str | None) -> Reason
     if mine is None:
         return Reason.CREATE if base is None else Reason.RESTORE
     if mine == generated:
-        return Reason.UNCHANGED if base == generated else Reason.ADOPT
+        return Reason.UNCHANGED
     if base is None:
         return Reason.UNOWNED
     if mine == base:
@@ -122,8 +122,8 @@ def put_off(
     """Put off structural changes of a robot while one of its files is in conflict.
 
     Still written are files after which the package compiles: records of which only numbers change (their paths are
-    `numbers_only`), imported files, and files that are restored or taken as they were; but none of `origins`, which
-    elements leave that have another name now. Nothing is if the package `moves`. Conflicts about numbers alone put off
+    `numbers_only`), imported files, and files that are restored as they were; but none of `origins`, which elements
+    leave that have another name now. Nothing is if the package `moves`. Conflicts about numbers alone put off
     nothing else.
     """
     actions = tuple(actions)
@@ -132,8 +132,6 @@ def put_off(
 
     def waits(action: Action) -> bool:
         if not action.writes:
-            return action.choice is not None and not action.is_conflict
-        if action.choice is Choice.UNDO and not moves:
             return False
         if moves or action.origin is not None or action.path in origins:
             return True
@@ -141,8 +139,6 @@ def put_off(
             return action.reason is Reason.DELETE
         if action.reason is Reason.RESTORE:
             return action.role is Role.ORDER or action.base != action.generated
-        if action.choice is Choice.TAKE and action.base == action.generated:
-            return False
         return action.reason not in (Reason.UPDATE, Reason.MERGE) or action.path not in numbers_only
 
     return tuple(msgspec.structs.replace(action, is_waiting=True) if waits(action) else action for action in actions)
@@ -158,7 +154,7 @@ def files_after(
     """
     records = {} if is_complete else dict(recorded)
     for action in actions:
-        is_generated = action.reason in (Reason.UNCHANGED, Reason.ADOPT) or action.writes
+        is_generated = action.reason is Reason.UNCHANGED or action.writes
         if action.role is Role.ORDER or not (is_complete or is_generated):
             continue
         if action.generated is not None:
@@ -166,27 +162,3 @@ def files_after(
         elif is_complete and action.reason in ORPHANS and action.base is not None:
             records[action.path] = FileRecord((action.base,))
     return records
-
-
-def pending_choices(actions: Iterable[Action], texts: Mapping[str, str]) -> dict[str, UsersChoice]:
-    """Return the user's choices that wait, by path; `texts` has what he made of both sides of a file."""
-    pending = {}
-    for action in actions:
-        if action.choice and action.is_waiting and action.choice is not Choice.UNDO:
-            text = texts.get(action.path) if action.choice is Choice.EDIT else None
-            pending[action.path] = UsersChoice(action.choice, action.sides, text)
-    return pending
-
-
-def valid_choices(
-    choices: Mapping[str, UsersChoice], actions: Iterable[Action], *, is_pending: bool = False
-) -> dict[str, UsersChoice]:
-    """Return the choices of which both texts are still those that they were made on, by path."""
-    valid = {}
-    for action in actions:
-        choice = choices.get(action.path)
-        # an edited file that nothing is new for waits for nothing: a state that says so is not urdfsync's
-        is_excluded = is_pending and action.reason is Reason.KEEP
-        if choice and choice.sides == action.sides and not is_excluded:
-            valid[action.path] = choice
-    return valid

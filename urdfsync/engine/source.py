@@ -21,8 +21,9 @@ from urdfsync.dependencies import is_file, is_folder, mark_incomplete, read_file
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError, UrdfsyncError
 from urdfsync.domain import Domain, Reading, Snapshot, Templates
 from urdfsync.engine.options import BuildOptions
-from urdfsync.files import kind_of, shown, templates_digest
-from urdfsync.state.expansion import Expansion
+from urdfsync.files import digest, kind_of, shown, templates_digest
+from urdfsync.state.expansion import Expansion, dumps
+from urdfsync.state.notes import load as load_notes
 from urdfsync.state.store import Store
 
 if TYPE_CHECKING:
@@ -62,6 +63,8 @@ class Source(msgspec.Struct, frozen=True):
     expansion: Expansion | None = None
     stale: tuple[str, ...] = ()
     """Files that have changed since the source was expanded, if it was not expanded again."""
+    is_made_here: bool = False
+    """Whether this machine has expanded it, now or before."""
 
     @property
     def is_missing(self) -> bool:
@@ -108,6 +111,9 @@ class Source(msgspec.Struct, frozen=True):
 def read_source(config: Config, robot: RobotConfig, store: Store, options: BuildOptions, name: str = "") -> Source:
     """Read the robot's source, which xacro or a command may have to make first; `name` is its other name in the state.
 
+    xacro expands it anew, unless this machine has noted that text and what it was made of. Where xacro or a file is
+    missing, the recorded text serves. A dry run runs no command.
+
     Raises SourceError, at the line of the configuration for a source that can't be read, and ConfigError for a command
     that is not trusted.
     """
@@ -119,22 +125,37 @@ def read_source(config: Config, robot: RobotConfig, store: Store, options: Build
 
     inputs = expansion.Inputs(config.root, robot.source, (*robot.package_paths, *options.package_paths))
     made = store.load_expansion(name or robot.name)
-    stale = inputs.find_changes(robot, made) if made else NEVER
-    is_there = is_file(robot.source)
-    if robot.command and not is_there:
-        stale = stale or (robot.source.name,)
-    # a dry run writes nothing, and a command writes the source
-    if options.expands and not (robot.command and options.dry) and (stale or options.full):
-        made, stale = _expand(config, robot, inputs, options), ()
+    changed = inputs.find_changes(robot, made) if made else NEVER
+    is_noted = made is not None and expansion_hash(made) == load_notes(store.folder, name or robot.name).expansion
     if robot.command:
-        content = _read(config, robot) if options.expands or is_there else b""
+        is_there = is_file(robot.source)
+        changed = changed or (() if is_there else (robot.source.name,))
+        if (changed or options.full) and not options.dry:
+            made, changed, is_noted = _expand(config, robot, inputs, options), (), True
+        content = _read(config, robot) if is_there or not options.dry else b""
+        reason = "" if is_noted else "its command did not run on this machine"
     else:
+        reason = ""
+        if made is None or changed or options.full or not is_noted:
+            try:
+                made, changed = _expand(config, robot, inputs, options), ()
+            except SourceError as error:
+                if made is None or changed or not (reason := inputs.why_not_expandable(made, error)):
+                    raise
         content = made.text.encode() if made else b""
     if made is None:
-        return Source(content, shown(robot.source), stale=stale)
+        return Source(content, shown(robot.source), stale=changed)
     place = shown(config.file), robot.lines.get("arguments", 0)
-    told = _warnings(made, robot.source, place, f"robot `{robot.name}`: ")
-    return Source(content, shown(robot.source), inputs.places(made), told, made, stale)
+    told = list(_warnings(made, robot.source, place, f"robot `{robot.name}`: "))
+    if reason and not changed:
+        message = f"the source is taken as recorded, not checked: {reason}"
+        told.append(Diagnostic(Severity.NOTE, "as-recorded", message, shown(robot.source)))
+    return Source(content, shown(robot.source), inputs.places(made), tuple(told), made, changed, not reason)
+
+
+def expansion_hash(made: Expansion) -> str:
+    """Return the hash by which this machine notes what it has expanded."""
+    return digest(dumps(made))
 
 
 def _expand(config: Config, robot: RobotConfig, inputs: Inputs, options: BuildOptions) -> Expansion:

@@ -8,13 +8,12 @@ import shlex
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from urdfsync.engine.actions import Reason
+from urdfsync.engine.actions import Choice, Reason
 from urdfsync.engine.conflicts import Conflict
 from urdfsync.engine.result import DisputedFile, Result
 from urdfsync.output.console import Console, StyledLine, line
 from urdfsync.output.phrases import reason
 from urdfsync.spelling import counted
-from urdfsync.state.record import Choice
 
 FULL = 3
 """So many conflicts of a robot are shown in full without --verbose."""

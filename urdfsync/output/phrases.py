@@ -6,10 +6,9 @@ from collections import Counter
 
 from urdfsync.changes import Changes
 from urdfsync.domain import ChangeClass, ChangeKind, Role
-from urdfsync.engine.actions import Action, Reason
+from urdfsync.engine.actions import Action, Choice, Reason
 from urdfsync.output.outline import change_row, outline
 from urdfsync.spelling import counted
-from urdfsync.state.record import Choice
 
 _NAMED = {
     Reason.UPDATE: "{}",

@@ -1,21 +1,21 @@
-"""Findings that the last build of a robot said already: said again in full only with --verbose, else counted.
+"""Findings that the last build of a robot told already: told again in full only with --verbose, else counted.
 
-`.urdfsync/said/` has their hashes, a file for each robot. It is not committed, and safe to lose: then all is said
-again. Builds write it, and nothing else does.
+This machine notes what was told. If the notes are lost, all is told again.
 """
 
 from __future__ import annotations
 
-import contextlib
 from collections.abc import Sequence
-from pathlib import Path
+
+import msgspec
 
 from urdfsync.config import STATE_FOLDER
-from urdfsync.diagnostics import Diagnostic, OutputError, Severity
+from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.engine.result import Result
-from urdfsync.files import Tree, digest, put
+from urdfsync.files import digest
 from urdfsync.output.console import Console, line
 from urdfsync.spelling import counted
+from urdfsync.state import notes
 
 
 def show_findings(console: Console, result: Result, diagnostics: Sequence[Diagnostic]) -> None:
@@ -23,8 +23,9 @@ def show_findings(console: Console, result: Result, diagnostics: Sequence[Diagno
 
     Errors, and what is wrong with Modelica files, are said as long as they are true.
     """
-    file = result.root / STATE_FOLDER / "said" / result.robot
-    before, keys = _load(file, result.root), list(map(_key, diagnostics))
+    folder = result.root / STATE_FOLDER
+    known = notes.load(folder, result.robot)
+    before, keys = known.said, list(map(_key, diagnostics))
     new = [
         diagnostic
         for diagnostic, key in zip(diagnostics, keys, strict=True)
@@ -37,20 +38,10 @@ def show_findings(console: Console, result: Result, diagnostics: Sequence[Diagno
     if (rest := len(diagnostics) - len(new)) and not console.quiet:
         words = f"{result.robot}: {counted(rest, 'finding')} as before; --verbose shows {'it' if rest == 1 else 'them'}"
         console.print([line((words, "dim"))], error=True)
-    if before == set(keys) or result.dry or result.failed or console.quiet:
+    if before == frozenset(keys) or result.dry or result.failed or console.quiet:
         return
-    with contextlib.suppress(OutputError, OSError):  # then it is said again
-        if not Tree(result.root).check_folder(file.parent):
-            file.parent.mkdir()
-        put(file, "".join(f"{key}\n" for key in sorted(set(keys))).encode())
+    notes.save(folder, result.robot, msgspec.structs.replace(known, said=frozenset(keys)))
 
 
 def _key(diagnostic: Diagnostic) -> str:
     return digest(f"{diagnostic.code}\0{diagnostic.message}\0{diagnostic.file}".encode(errors="surrogatepass"))
-
-
-def _load(file: Path, root: Path) -> set[str]:
-    """Return the hashes of what was said; none if that is lost, or if something else is in its place."""
-    with contextlib.suppress(OutputError):
-        return {*(Tree(root).read(file) or b"").decode(errors="replace").split()}
-    return set()

@@ -54,7 +54,7 @@ def picture(generation: Generation, older: Contents | None) -> Picture:
             with contextlib.suppress(OSError):
                 content = read_file(file)
                 name = f"{digest(content)} {dependency.key}"
-                imports[dependency.key] = Import(name, "", "", None, {})
+                imports[dependency.key] = Import(name, "", "", {})
                 files[name] = _File(dependency.target, content, dependency.key)
     now, before = domain.scene(generation.now.snapshot, imports, robot.target, robot.options), None
     if now is None:

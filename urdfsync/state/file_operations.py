@@ -72,7 +72,7 @@ class Bound(msgspec.Struct, frozen=True, kw_only=True):
     """The content of a JSON file that names the file's own inode and time: no copy has both, nor a clone."""
 
     inode: int = 0
-    written: int = 0
+    written_at: int = 0
     """Time of change in ns."""
 
 
@@ -80,8 +80,8 @@ def write_bound(path: Path, content: Bound) -> None:
     """Write a new file that is bound to its inode and time."""
     with os.fdopen(os.open(path, _CREATE, 0o666), "wb") as file:
         status = os.fstat(file.fileno())
-        bound = msgspec.structs.replace(content, inode=status.st_ino, written=status.st_mtime_ns)
-        file.write(msgspec.json.encode(bound))
+        bound = msgspec.structs.replace(content, inode=status.st_ino, written_at=status.st_mtime_ns)
+        file.write(msgspec.json.encode(bound, order="sorted"))
     follows = os.utime not in os.supports_follow_symlinks  # only where there is no other way
     os.utime(path, ns=(status.st_mtime_ns, status.st_mtime_ns), follow_symlinks=follows)  # writing has changed it
 
@@ -89,7 +89,7 @@ def write_bound(path: Path, content: Bound) -> None:
 def is_bound(path: Path, content: Bound) -> bool:
     """Whether a file still has the inode and the time that its content names."""
     status = path.lstat()
-    return (status.st_ino, status.st_mtime_ns) == (content.inode, content.written)
+    return (status.st_ino, status.st_mtime_ns) == (content.inode, content.written_at)
 
 
 def exchange(path: Path, target: Path) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import TypeAlias
 
@@ -10,9 +10,9 @@ import msgspec
 
 from urdfsync.config import STATE_FOLDER, is_robot_name
 from urdfsync.dependencies import list_folder, walk_files
-from urdfsync.diagnostics import StateError
+from urdfsync.diagnostics import Diagnostic
 from urdfsync.files import Tree, digest, normalised, shown
-from urdfsync.state import bases, expansion, statefile
+from urdfsync.state import bases, expansion, notes, statefile
 from urdfsync.state.expansion import Expansion
 from urdfsync.state.record import Record
 from urdfsync.state.transaction import FileChange
@@ -40,26 +40,15 @@ StateHashes: TypeAlias = Mapping[Path, str | None]
 """Files of the state, and the hashes of their bytes when they were loaded; None for a file that was not there."""
 
 
-class Replaced(msgspec.Struct, frozen=True, omit_defaults=True):
-    """One text of the user's that a build wrote over."""
+class Aside(msgspec.Struct, frozen=True, omit_defaults=True):
+    """One text that was on disk before a build or a choice; it is a plain file below `.urdfsync/aside/`."""
 
-    before: str
-    """Text that stood there."""
-    base: str | None = None
-    """The generated text that this took into account; None if it is not known."""
     after: str | None = None
-    """Text that was written; None for the generated one."""
-    renamed: Mapping[str, str] = {}
-    """New identifiers by the old ones, of elements that this build gave other names."""
-
-
-class PutAside(msgspec.Struct, frozen=True, omit_defaults=True):
-    """What builds of one robot put aside on this machine. Safe to lose."""
-
-    texts: Mapping[str, Replaced] = {}
-    """By path below the package."""
-    renamed: Mapping[str, str] = {}
-    """Of the last build that wrote anything, as in `Replaced`."""
+    """Hash of what was written; None if the file was deleted."""
+    bases: tuple[str, ...] = ()
+    """Hashes of what the text is an edit of, once it is given back."""
+    texts: Mapping[str, str] = {}
+    """The texts of these bases that are known, by hash."""
 
 
 class Store:
@@ -79,26 +68,16 @@ class Store:
             return []
         return sorted(filter(is_robot_name, (name.removesuffix(SUFFIX) for name in files if name.endswith(SUFFIX))))
 
-    def load(self, robot: str, *, strict: bool = True) -> Record | None:
-        """The robot's record, None if it was never built. Raises StateError or OutputError if it can't be used.
+    def load(self, robot: str) -> tuple[Record | None, Diagnostic | None]:
+        """Return the robot's record, None if there is none that can be read, and a warning if it is damaged.
 
-        Unless `strict`, what can't be read of it is passed over.
+        Raises StateError for one that a newer urdfsync wrote, OutputError for a link or a folder in its place.
         """
         path = self.path(robot)
         content = self._bytes(path)
         if content is None:
-            return None
-        try:
-            text = content.decode(errors="strict" if strict else "replace")
-        except UnicodeDecodeError:
-            message, hint = "the recorded state can't be read: it is not UTF-8", "restore it from version control"
-            raise StateError.of("broken-state", message, shown(path), hint=hint) from None
-        try:
-            return statefile.loads(text.replace("\r\n", "\n"), shown(path), strict=strict)
-        except StateError as error:
-            if strict or any(found.code == "newer-state" for found in error.diagnostics):
-                raise
-            return None
+            return None, None
+        return statefile.loads(content.decode(errors="replace").replace("\r\n", "\n"), shown(path))
 
     def load_expansion(self, robot: str) -> Expansion | None:
         """The robot's source as it was expanded last; None if it never was, or if that is lost."""
@@ -114,12 +93,17 @@ class Store:
         content = self._bytes(self.base_file(robot, digit))
         return None if content is None else bases.loads(content)
 
-    def put_aside(self, robot: str) -> PutAside:
-        """Return what builds put aside; nothing if it can't be read."""
+    def aside(self, robot: str) -> Mapping[str, Aside]:
+        """Return what was put aside, by path below the package; nothing if that can't be read."""
         try:
-            return msgspec.json.decode(self._bytes(self._aside(robot)) or b"{}", type=PutAside)
+            index = msgspec.json.decode(self._bytes(self.aside_file(robot)) or b"{}", type=dict[str, Aside])
         except (ValueError, RecursionError):  # it may be a stranger's
-            return PutAside()
+            return {}
+        return {path: text for path, text in index.items() if statefile.is_inside(path)}
+
+    def aside_text(self, robot: str, path: str) -> bytes | None:
+        """Return a text that was put aside."""
+        return self._bytes(self.aside_file(robot, path))
 
     # --- places ---------------------------------------------------------------------------------------------------
 
@@ -139,8 +123,9 @@ class Store:
         """The files of a robot's bases."""
         return [self.base_file(robot, digit) for digit in bases.DIGITS]
 
-    def _aside(self, robot: str) -> Path:
-        return self.folder / "replaced" / f"{robot}.json"
+    def aside_file(self, robot: str, path: str = "index.json") -> Path:
+        """Return the file of a text that was put aside, by path below the package; or the list of them."""
+        return self.folder / "aside" / robot / path
 
     def drawing(self, robot: str) -> Path:
         """The file of the robot's diagram. Safe to lose."""
@@ -159,24 +144,34 @@ class Store:
             return []
         return [FileChange(path, content, None if old is None else digest(old))]
 
-    def save_aside(self, robot: str, aside: PutAside) -> list[FileChange]:
-        """How it gets to its file what a build puts aside."""
-        content = msgspec.json.encode(aside, order="sorted")
-        return self.save(self._aside(robot), content if content != b"{}" else None)
+    def save_aside(self, robot: str, index: Mapping[str, Aside], new: Mapping[str, bytes]) -> list[FileChange]:
+        """Return the writes for all that is put aside; `new` are texts by path. Texts that are not listed go."""
+        gone = (path for path in self.aside(robot) if path not in index)
+        changes = [change for path in gone for change in self.save(self.aside_file(robot, path), None)]
+        for path, text in new.items():
+            changes += self.save(self.aside_file(robot, path), text)
+        return changes + self.save(
+            self.aside_file(robot), msgspec.json.encode(index, order="sorted") if index else None
+        )
 
-    def save_conflicts(self, robot: str, contents: Mapping[str, bytes]) -> list[FileChange]:
-        """How the versions of what conflicts get to the robot's folder, by path, and how all others go."""
+    def conflict_files(self, robot: str) -> dict[str, bytes]:
+        """Return the versions of conflicts on disk, by path below the robot's folder."""
         folder = self.conflicts(robot)
         # raises OutputError for a link to the folder, which may lead to all of the disk
         existing = map(Path, walk_files(folder)) if self._tree.check_folder(folder) else ()
-        wanted = dict.fromkeys(sorted(existing)) | {folder / path: content for path, content in contents.items()}
-        return [change for path, content in wanted.items() for change in self.save(path, content)]
+        return {path.relative_to(folder).as_posix(): self._bytes(path) or b"" for path in existing}
+
+    def save_conflicts(self, robot: str, contents: Mapping[str, bytes], kept: Collection[str] = ()) -> list[FileChange]:
+        """Return the writes that bring versions to the robot's folder, by path; all others go, but those `kept`."""
+        folder = self.conflicts(robot)
+        wanted = dict.fromkeys(sorted(self.conflict_files(robot).keys() - set(kept))) | dict(contents)
+        return [change for path, content in wanted.items() for change in self.save(folder / path, content)]
 
     def remove(self, robot: str) -> list[FileChange]:
         """How all goes that there is of a robot."""
-        files = (*self.base_files(robot), self._aside(robot), self.drawing(robot), self.expansion(robot))
+        files = (*self.base_files(robot), self.drawing(robot), self.expansion(robot), notes.place(self.folder, robot))
         changes = [change for path in (*files, self.path(robot)) for change in self.save(path, None)]
-        return [*self.save_conflicts(robot, {}), *changes]
+        return [*self.save_conflicts(robot, {}), *self.save_aside(robot, {}, {}), *changes]
 
     def for_git(self) -> list[FileChange]:
         """How git is told what is safe to lose and how states merge; what the user has made of these files stays."""

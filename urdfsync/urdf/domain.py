@@ -60,8 +60,6 @@ class UrdfDomain(Domain):
     """URDF files to Modelica packages of multibody models."""
 
     name = "urdf"
-    revision = 10
-    fits_since = 9
     warnings = WARNINGS
     options = Options
 

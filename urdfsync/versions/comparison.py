@@ -298,7 +298,8 @@ def _read(
         joined.append(msgspec.structs.replace(same[0], candidates=tuple(candidates)))
     dependencies = version.revision.locate(joined, version.scratch) if version.revision else joined
     recorded = {
-        key: imports.RecordedFile(entry, known.contents.get(entry.target)) for key, entry in known.imports.items()
+        key: imports.RecordedFile(entry, known.contents.get(entry.target), is_noted=True)
+        for key, entry in known.imports.items()
     }
     imported = imports.import_files(domain, robot, options, dependencies, recorded, text.name)
     diagnostics = (*text.diagnostics, *map(text.locate, (*reading.diagnostics, *imported.diagnostics)))

@@ -47,7 +47,7 @@ def find_robot_paths(
     inputs = {str(config.file), str(robot.source), *(error.reads if error else ()), *([str(beside)] if beside else [])}
     outputs = {*parents.files(robot), str(store.path(robot.name))}
     with contextlib.suppress(UrdfsyncError, OSError):  # told by the build
-        state = store.load(robot.name)
+        state, _ = store.load(robot.name)
         if (expanded := store.load_expansion(robot.name)) is not None:
             expansion_inputs = Inputs(config.root, robot.source, (*robot.package_paths, *package_paths))
             inputs.update(map(str, expansion_inputs.paths(expanded.files)))

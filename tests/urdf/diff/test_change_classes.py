@@ -110,7 +110,7 @@ def everything_found(snapshot: Snapshot, options: Options) -> Mapping[str, Impor
     """Every mesh of a model as if it were there."""
     facts = {"bounds": [[0.0, 0.0, 0.0], [1.0, 1.0, 1.0]], "hull": [[0.0, 0.0, 0.0]]}
     found = DOMAIN.dependencies(snapshot, LOOKUP, options, {})
-    return {dependency.key: Import(dependency.target, "", "", DOMAIN.converter, facts) for dependency in found}
+    return {dependency.key: Import(dependency.target, "", "", facts) for dependency in found}
 
 
 def versions(history: Path, options: Options, meshes: bool) -> Iterator[Version]:

@@ -60,7 +60,7 @@ ROBOT = urdfs.robot(
 
 def import_(content: str, hull: bool = True) -> Import:
     facts = {"bounds": [[0.0] * 3, [1.0] * 3], "hull": [[0.0] * 3] if hull else []}
-    return Import("Resources/arm.stl", content, content, 1, facts)
+    return Import("Resources/arm.stl", content, content, facts)
 
 
 def version(edit: Callable[[Data], object] = lambda _: None, found: Import | None = None) -> Version:

@@ -44,7 +44,7 @@ POINTS = [[0.0, 0.0, -1.0], [1.0, 0.0, 0.0]]
 
 def imported(points: list[list[float]]) -> Mapping[str, Import]:
     facts = {"bounds": [[0.0, 0.0, -1.0], [1.0, 0.5, 0.0]], "hull": points}
-    return {key(MESH): Import("Resources/a_12345678.stl", "", "", 1, facts)}
+    return {key(MESH): Import("Resources/a_12345678.stl", "", "", facts)}
 
 
 def shapes_of(

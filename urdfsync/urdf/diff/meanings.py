@@ -159,7 +159,7 @@ def _data(element: Link | Joint, imports: Mapping[str, Import] | None, options: 
     if imports is None:
         facts = {"bounds": (), "hull": ((0.0, 0.0, 0.0),)}
         keys = _mesh_keys(element) if options.meshes == "import" else ()
-        imports = {key: Import(key, "", "", None, facts) for key in keys}
+        imports = {key: Import(key, "", "", facts) for key in keys}
     visuals, collisions = link_shapes(element, imports, "", options)
     height = list(touching(element, imports)) if options.base == "floating" else []
     model = link_model(visuals, collisions, options, element.contact)

@@ -1,0 +1,61 @@
+"""Texts that builds and choices replace: each is a plain file below `.urdfsync/aside/`, and can be given back.
+
+Put aside is what a person wrote, and what this machine did not generate: that it is recorded is no proof. A text stays
+there until its file is saved again and another build writes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from urdfsync.domain import Role
+from urdfsync.engine.actions import Reason
+from urdfsync.engine.decide import Decision
+from urdfsync.engine.generation import Generation
+from urdfsync.engine.package_files import PackageFiles, encode, state_of
+from urdfsync.engine.settle import Settled, known_bases
+from urdfsync.state.record import FileRecord
+from urdfsync.state.store import Aside
+
+
+def put_aside(
+    generation: Generation, decision: Decision, contents: Mapping[str, bytes | None], settled: Settled
+) -> tuple[dict[str, Aside], dict[str, bytes]]:
+    """Return all that is aside after a build, and the new texts, by path below the package.
+
+    `contents` are those that the build writes, by key; None for a deletion.
+    """
+    inputs, index, texts = generation.inputs, dict[str, Aside](), dict[str, bytes]()
+    on_disk = PackageFiles(inputs.config, inputs.robot) if settled.contents else inputs.files
+    for path, aside in inputs.last.aside.items():
+        if not contents or on_disk.hash(inputs.folder.key(path), Role.MODEL) == aside.after:
+            index[path] = aside
+
+    def add(key: str, text: bytes, record: FileRecord, bases: Mapping[str, str]) -> None:
+        path, after = inputs.folder.path(key), contents.get(key, settled.contents.get(key))
+        sha256 = None if after is None else state_of(after).text_sha256
+        index[path], texts[path] = Aside(sha256, record.hashes, dict(bases)), text
+
+    moved = {action.origin: action.path for action in decision.actions if action.origin and action.writes}
+    for key, before in settled.before.items():
+        if key not in moved:
+            add(key, *before)
+        elif key in settled.before_move:
+            add(moved[key], *settled.before_move[key])
+    for action in decision.actions:
+        key, conflict = action.path, decision.disputed.get(action.path)
+        if not action.writes or key not in contents or action.role is Role.ORDER or key in settled.before:
+            continue
+        if action.reason is Reason.MOVE:
+            is_other = conflict is not None and encode(conflict.kept) != contents[key]
+            if conflict is not None and is_other and action.origin not in settled.before:
+                add(key, encode(conflict.kept), *known_bases(conflict.kept_base))
+        elif action.reason is not Reason.MOVED_AWAY and (before_ := on_disk.read(key)) not in (None, contents[key]):
+            if on_disk.hash(key, action.role) in inputs.last.notes.written:
+                continue
+            record = inputs.last.files.get(key, FileRecord())
+            bases: Mapping[str, str] = inputs.last.bases(record)
+            if action.reason is Reason.MERGE and inputs.always_merges:  # else the next build would merge it again
+                record, bases = known_bases(generation.package.content(inputs.folder.path(key)).decode())
+            add(key, before_ or b"", record, bases)
+    return index, texts

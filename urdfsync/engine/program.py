@@ -1,0 +1,48 @@
+"""One hash for the program that generates packages: what this machine has noted holds for the same program only."""
+
+from __future__ import annotations
+
+import functools
+import os
+import sys
+from collections.abc import Iterator
+
+import urdfsync
+from urdfsync import registry
+from urdfsync.dependencies import stat_of
+from urdfsync.files import digest
+
+
+@functools.cache
+def program_hash(domain: str, templates: str) -> str:
+    """Return a hash over the files of urdfsync and of a domain by their stat values, and over what is installed.
+
+    `templates` is the hash of the templates. A process goes on with the code that it has loaded.
+    """
+    module = sys.modules.get(registry.top_level(domain), urdfsync)
+    files = sorted({urdfsync.__file__, module.__file__ or urdfsync.__file__})
+    facts = [fact for file in files for fact in _code(file)]
+    return digest(repr((urdfsync.__version__, sys.version, _installed(), facts, templates)).encode())
+
+
+def _code(file: str) -> Iterator[tuple[str, tuple[int, ...]]]:
+    """Yield the files of the package that a module is in, with their stat values; of no package, the module itself."""
+    if os.path.basename(file) != "__init__.py":  # noqa: PTH119
+        yield file, stat_of(os.stat(file))  # noqa: PTH116
+        return
+    folders = [os.path.dirname(file)]  # noqa: PTH120
+    while folders:
+        with os.scandir(folders.pop()) as entries:
+            for entry in sorted(entries, key=lambda entry: entry.name):
+                if entry.name.startswith(".") or entry.name == "__pycache__":
+                    continue
+                if entry.is_dir():
+                    folders.append(entry.path)
+                else:
+                    yield entry.path, stat_of(entry.stat())
+
+
+def _installed() -> list[str]:
+    """Return the names and versions of all that is installed: other libraries read meshes and render templates."""
+    places = [place for place in sys.path if os.path.isdir(place)]  # noqa: PTH112
+    return sorted(name for place in places for name in os.listdir(place) if name.endswith(".dist-info"))  # noqa: PTH208

@@ -1,0 +1,139 @@
+"""Choices of the user: each acts at once on its file, at the file's present path, and on its base.
+
+A choice is what a person could do by hand: save a text, and say which generated text it takes into account. So the
+files and bases are taken as the choices make them, and the build decides on that; it writes both together.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TypeAlias
+
+import msgspec
+
+from urdfsync.domain import Role
+from urdfsync.engine.actions import Action, Actions, Choice, Reason, UsersChoice
+from urdfsync.engine.decide import Decision
+from urdfsync.engine.generation import Generation
+from urdfsync.engine.package_files import PackageFiles, encode, text_hash, with_line_ends
+from urdfsync.state.record import FileRecord, role_of
+
+_EDITED = frozenset({Reason.KEEP, Reason.INCLUDED, Reason.MOVE, Reason.MERGE})
+"""Actions on files that the user edited, which he may replace by the generated ones."""
+
+
+Former: TypeAlias = tuple[bytes, FileRecord, Mapping[str, str]]
+"""A text, its record, and the texts of its bases that are known, by hash."""
+
+
+class Settled(msgspec.Struct):
+    """The files that choices have changed, before the build goes on; by their present keys."""
+
+    actions: dict[str, Action] = msgspec.field(default_factory=dict)
+    contents: dict[str, bytes | None] = msgspec.field(default_factory=dict)
+    """New contents; None for no file."""
+    bases: dict[str, FileRecord] = msgspec.field(default_factory=dict)
+    texts: dict[str, str] = msgspec.field(default_factory=dict)
+    """Texts of bases that were put aside, by hash."""
+    before: dict[str, Former] = msgspec.field(default_factory=dict)
+    """What was there before the choice."""
+    before_move: dict[str, Former] = msgspec.field(default_factory=dict)
+    """The same of a file that moves, as it would have moved without the choice."""
+    keys: set[str] = msgspec.field(default_factory=set)
+    """The keys under which the choices were made that came about."""
+
+
+def settle(generation: Generation, decision: Decision) -> Settled:
+    """Return what the choices of the options make of their files.
+
+    A choice is passed over if one of its two texts is another one now, and if it does not settle its file.
+    """
+    settled = Settled()
+    choices, folder = generation.inputs.options.choices, generation.inputs.folder
+    by_path = {action.path: action for action in decision.actions}
+    for key, chosen in choices.items():
+        role = role_of(folder.path(key))
+        action = by_path.get(key, Action(key, Reason.FORGET, role))  # such as a file that is deleted
+        if chosen.sides == action.sides and _settle(generation, decision, action, chosen, settled):
+            settled.keys.add(key)
+    return settled
+
+
+def _settle(generation: Generation, decision: Decision, action: Action, chosen: UsersChoice, settled: Settled) -> bool:
+    """Add what one choice makes of its file; return whether it settles it."""
+    inputs, choice, key = generation.inputs, chosen.choice, action.origin or action.path
+    reason, record = Reason.KEEP, FileRecord((action.generated,) if action.generated else ())
+    content = mine = inputs.files.read(key) if action.mine is not None else None
+    conflict = decision.disputed.get(action.path)
+    if choice is Choice.UNDO:
+        aside = inputs.last.aside.get(inputs.folder.path(key))
+        if aside is None or action.role is Role.IMPORT or inputs.files.hash(key, action.role) != aside.after:
+            return False
+        content, reason = inputs.last.aside_text(inputs.folder.path(key)), Reason.UNDO
+        if content is None:
+            return False
+        record = FileRecord(aside.bases)
+        settled.texts.update(aside.texts)
+    elif action.reason is Reason.ORPHAN and choice in (Choice.KEEP, Choice.TAKE):
+        if choice is Choice.TAKE:
+            content, reason, record = None, Reason.DELETE, inputs.last.files.get(key, FileRecord())
+    elif choice is Choice.TAKE and action.mine is not None and (action.is_conflict or action.reason in _EDITED):
+        content, reason = _generated(generation, action, mine or b""), Reason.UPDATE
+    elif not (action.is_conflict or conflict):
+        return False
+    elif choice is Choice.KEEP:
+        content = encode(conflict.kept) if conflict and action.origin else mine
+    elif choice is not Choice.TAKE and conflict:
+        text = chosen.text if choice is Choice.EDIT else conflict.merged(choice)
+        if text is None:
+            return False
+        content, reason = encode(text), Reason.KEEP if text == conflict.mine else Reason.MERGE
+    else:
+        return False
+    former = inputs.last.files.get(key, FileRecord())
+    if mine is not None:
+        settled.before[key] = mine, former, inputs.last.bases(former)
+    if conflict and action.origin:
+        settled.before_move[key] = encode(conflict.kept), *known_bases(conflict.kept_base)
+    settled.contents[key], settled.bases[key] = content, record
+    changes = {"path": key, "origin": None, "reason": reason, "choice": choice, "is_waiting": False}
+    settled.actions[key] = msgspec.structs.replace(action, **changes)
+    return True
+
+
+def _generated(generation: Generation, action: Action, mine: bytes) -> bytes:
+    path = generation.inputs.folder.path(action.path)
+    if action.role is Role.IMPORT:
+        return generation.imported.contents[path]
+    return with_line_ends(generation.package.content(path), mine)
+
+
+def known_bases(base: str | None) -> tuple[FileRecord, Mapping[str, str]]:
+    """Return the record of a file with this base, and the base by its hash."""
+    texts = {} if base is None else {text_hash(base): base}
+    return FileRecord(tuple(texts)), texts
+
+
+def with_choices(generation: Generation, settled: Settled) -> Generation:
+    """Return the same robot with its files and bases as choices have made them."""
+    inputs = generation.inputs
+    replaced = {key: text for key, (text, _, _) in settled.before.items() if key.endswith(".mo")}
+    files = PackageFiles(inputs.config, inputs.robot, settled.contents, replaced)
+    recorded = {**inputs.last.record.files, **settled.bases}
+    record = msgspec.structs.replace(
+        inputs.last.record, files={key: file for key, file in recorded.items() if file.hashes}
+    )
+    last = msgspec.structs.replace(inputs.last, record=record, _files=files)
+    return msgspec.structs.replace(generation, inputs=msgspec.structs.replace(inputs, files=files, last=last))
+
+
+def actions_after(actions: Actions, settled: Settled) -> Actions:
+    """Return all that happens to the files: what choices do, and then the build."""
+    after = {action.path: action for action in actions}
+    for key, chosen in settled.actions.items():
+        decided = after.get(key)
+        if decided and (decided.is_conflict or decided.writes):
+            after[key] = msgspec.structs.replace(decided, choice=chosen.choice)
+        else:
+            after[key] = chosen
+    return Actions(after.values())

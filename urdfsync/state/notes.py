@@ -1,0 +1,71 @@
+"""What this machine knows of its own work on one robot: `.urdfsync/notes/<robot>.json`.
+
+Not committed, and safe to lose. Work is skipped by these notes alone, never because of what is committed. They count
+only in the very file that this machine wrote: a copy, such as a committed one, says nothing.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+from collections.abc import Mapping
+from pathlib import Path
+
+import msgspec
+
+from urdfsync.dependencies import MAX_FILE, is_folder
+from urdfsync.files import TEMPORARY
+from urdfsync.state import file_operations
+
+
+class Notes(file_operations.Bound, frozen=True, kw_only=True, omit_defaults=True):
+    """What this machine has made of one robot."""
+
+    program: str = ""
+    """Hash of the program and the templates that made the texts and imports; those of another program are made anew."""
+    texts: Mapping[str, tuple[str, str]] = {}
+    """By path below the package: hash of a template and its data, and hash of the text that they give."""
+    imports: frozenset[str] = frozenset()
+    """Hashes of the imports that were converted here."""
+    expansion: str = ""
+    """Hash of the source as it was expanded here."""
+    written: frozenset[str] = frozenset()
+    """Hashes of texts and imported files that were generated here, as long as they are recorded."""
+    renamed: Mapping[str, str] = {}
+    """New identifiers by the old ones, of the last build that wrote anything."""
+    proposals: Mapping[str, tuple[str, str]] = {}
+    """Hash of each proposed merge and of its two sides, by path; other files of conflicts are a person's."""
+    said: frozenset[str] = frozenset()
+    """Hashes of the findings that the last build told."""
+
+
+def load(state_folder: Path, robot: str) -> Notes:
+    """Return the notes on a robot; empty ones if there are none that this machine wrote."""
+    file = place(state_folder, robot)
+    flags = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOFOLLOW", 0)  # a pipe must not hold it up
+    try:
+        with os.fdopen(os.open(file, flags), "rb") as opened:
+            status = os.fstat(opened.fileno())
+            content = opened.read() if status.st_size <= MAX_FILE else b""
+        notes = msgspec.json.decode(content, type=Notes)
+    except (OSError, ValueError, RecursionError):
+        return Notes()
+    return notes if (notes.inode, notes.written_at) == (status.st_ino, status.st_mtime_ns) else Notes()
+
+
+def save(state_folder: Path, robot: str, notes: Notes) -> None:
+    """Write the notes on a robot, if there is a state folder. What can't be written is made again by the next build."""
+    file = place(state_folder, robot)
+    temporary = file.with_name(f".{file.name}{TEMPORARY}")
+    with contextlib.suppress(OSError):
+        if not is_folder(state_folder) or state_folder.is_symlink() or file.parent.is_symlink():
+            return  # a repository may have committed a link that leads elsewhere
+        file_operations.make_folder(file.parent)
+        file_operations.remove(temporary)  # left by a process that was killed
+        file_operations.write_bound(temporary, notes)
+        file_operations.replace(temporary, file)
+
+
+def place(state_folder: Path, robot: str) -> Path:
+    """Return the file of the notes on a robot."""
+    return state_folder / "notes" / f"{robot}.json"
