@@ -6,7 +6,7 @@ import msgspec
 import pytest
 
 from urdfsync.domain import Role
-from urdfsync.engine.actions import CONFLICTS, ORPHANS, Action, Actions, Choice, Kind, Reason
+from urdfsync.engine.actions import CONFLICTS, ORPHANS, Action, Actions, Kind, Reason, sides_hash
 
 
 def act(reason: Reason, path: str = "a.mo") -> Action:
@@ -25,7 +25,7 @@ def test_what_waits_writes_nothing_and_keeps_its_text(reason: Reason) -> None:
 
 def test_the_users_text_stays_in_what_is_theirs_or_disputed() -> None:
     kept = {reason for reason in Reason if act(reason).keeps_text}
-    assert kept == {Reason.KEEP, Reason.INCLUDED, *ORPHANS, *CONFLICTS, Reason.FORGET}
+    assert kept == {Reason.KEEP, Reason.INCLUDED, *ORPHANS, *CONFLICTS, Reason.FORGET, Reason.UNKNOWN}
     assert {Reason.ORPHAN, Reason.NEEDED} == ORPHANS
     assert {Reason.CONFLICT, Reason.UNOWNED} == CONFLICTS
 
@@ -35,26 +35,14 @@ def test_what_waits_says_for_what() -> None:
     assert update.text == "its generated text changed"
     waiting = msgspec.structs.replace(update, is_waiting=True)
     assert waiting.text == "its generated text changed; waits until the conflicts are resolved"
-    resolved = msgspec.structs.replace(waiting, choice=Choice.TAKE)
-    assert resolved.waits_for == "resolved, waits until the other conflicts are resolved"
-
-
-@pytest.mark.parametrize(
-    ("reason", "choice", "is_users"),
-    [
-        (Reason.FORGET, Choice.KEEP, True),
-        (Reason.FORGET, Choice.TAKE, False),
-        (Reason.FORGET, None, False),
-        (Reason.KEEP, Choice.KEEP, False),
-    ],
-)
-def test_a_file_is_the_users_once_they_keep_what_is_no_longer_generated(
-    reason: Reason, choice: Choice | None, is_users: bool
-) -> None:
-    assert msgspec.structs.replace(act(reason), choice=choice).handed_to_user == is_users
 
 
 def test_actions_have_the_order_of_their_paths() -> None:
     actions = Actions([act(Reason.UPDATE, "b"), act(Reason.UNCHANGED, "c"), act(Reason.KEEP, "a")])
     assert [action.path for action in actions] == ["a", "b", "c"]
     assert [action.path for action in actions.decided] == ["a", "b"]
+
+
+def test_sides_differ_if_one_of_both_texts_does() -> None:
+    sides = [(mine, generated) for mine in ("a", "b", None) for generated in ("a", "b", None)]
+    assert len({sides_hash(*pair) for pair in sides}) == len(sides)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import msgspec
 import pytest
 from support import urdfs
 from support.commands import Execute
@@ -12,7 +11,7 @@ from support.files import fresh_models, models
 from support.networks import edit
 
 from urdfsync.domain import Role
-from urdfsync.engine.actions import Action, Choice, Reason, UsersChoice
+from urdfsync.engine.actions import Action, Choice, Reason
 from urdfsync.engine.conflicts import find_conflict, resolve
 
 FORE, HAND, WRIST = (
@@ -79,56 +78,35 @@ FITTING, DISPUTED, SAME = (("1\n\na\n", MINE, GENERATED), ("1\n", "2\n", "3\n"),
 
 
 @pytest.mark.parametrize(
-    ("before", "texts", "choice", "after", "text"),
+    ("before", "texts", "merging", "after", "text"),
     [
-        (Reason.CONFLICT, FITTING, None, Reason.CONFLICT, None),
-        (Reason.CONFLICT, FITTING, Choice.MERGE, Reason.MERGE, BOTH),
-        (Reason.CONFLICT, FITTING, Choice.KEEP, Reason.KEEP, None),
-        (Reason.CONFLICT, FITTING, Choice.TAKE, Reason.UPDATE, None),
-        (Reason.CONFLICT, FITTING, Choice.EDIT, Reason.MERGE, "edited"),
-        (Reason.CONFLICT, DISPUTED, Choice.MERGE, Reason.CONFLICT, None),
-        (Reason.CONFLICT, DISPUTED, Choice.MERGE_GENERATED, Reason.MERGE, "3\n"),
-        (Reason.CONFLICT, DISPUTED, Choice.MERGE_MINE, Reason.KEEP, None),
-        (Reason.CONFLICT, SAME, Choice.MERGE, Reason.INCLUDED, None),
-        (Reason.UNOWNED, FITTING, Choice.TAKE, Reason.UPDATE, None),
-        (Reason.MOVE, FITTING, None, Reason.MOVE, BOTH),
-        (Reason.MOVE, FITTING, Choice.KEEP, Reason.MOVE, MINE),
-        (Reason.MOVE, FITTING, Choice.TAKE, Reason.MOVE, None),
-        (Reason.MOVE, DISPUTED, None, Reason.CONFLICT, None),
-        (Reason.MOVE, DISPUTED, Choice.TAKE, Reason.MOVE, None),
-        (Reason.ORPHAN, None, None, Reason.ORPHAN, None),
-        (Reason.ORPHAN, None, Choice.KEEP, Reason.FORGET, None),
-        (Reason.ORPHAN, None, Choice.TAKE, Reason.DELETE, None),
-        (Reason.KEEP, None, Choice.TAKE, Reason.UPDATE, None),
-        (Reason.KEEP, None, Choice.KEEP, Reason.KEEP, None),
-        (Reason.UPDATE, None, Choice.KEEP, Reason.UPDATE, None),
+        (Reason.CONFLICT, FITTING, False, Reason.CONFLICT, None),
+        (Reason.CONFLICT, FITTING, True, Reason.MERGE, BOTH),
+        (Reason.CONFLICT, DISPUTED, True, Reason.CONFLICT, None),
+        (Reason.CONFLICT, SAME, False, Reason.INCLUDED, None),
+        (Reason.CONFLICT, SAME, True, Reason.INCLUDED, None),
+        (Reason.MOVE, FITTING, False, Reason.MOVE, BOTH),
+        (Reason.MOVE, DISPUTED, True, Reason.CONFLICT, None),
+        (Reason.ORPHAN, None, True, Reason.ORPHAN, None),
+        (Reason.UPDATE, None, True, Reason.UPDATE, None),
     ],
 )
-def test_what_the_user_chose_becomes_of_a_file(
-    before: Reason, texts: tuple[str, str, str] | None, choice: Choice | None, after: Reason, text: str | None
+def test_merges_are_taken_if_the_configuration_allows_them_or_a_file_moves(
+    before: Reason, texts: tuple[str, str, str] | None, merging: bool, after: Reason, text: str | None
 ) -> None:
     action = Action("a.txt", before, Role.MODEL, "", "base", "new", mine="mine")
     conflicts = {"a.txt": find_conflict(action, [texts[0]], *texts[1:])} if texts else {}
-    choices = {"a.txt": UsersChoice(choice, action.sides, "edited")} if choice else {}
-    (resolved,), merged = resolve([action], conflicts, choices, merging=False)
+    (resolved,), merged = resolve([action], conflicts, merging=merging)
     assert (resolved.reason, merged.get("a.txt")) == (after, text)
-    is_answered = after is Reason.KEEP and before is Reason.CONFLICT
-    assert resolved.base == ("new" if is_answered else "base"), "who keeps the text has answered the export"
-    gone = msgspec.structs.replace(action, mine=None)
-    if choice is Choice.TAKE and before is not Reason.MOVE:
-        (resolved,), _ = resolve([gone], conflicts, choices, merging=False)
-        assert resolved.reason is before, "there is no file that the generated text can replace"
 
 
-def test_clean_merges_need_no_word_of_the_user_if_the_configuration_allows_them() -> None:
+def test_an_edit_is_in_step_if_it_has_all_that_is_new_since_each_base() -> None:
     action = Action("a.txt", Reason.CONFLICT, Role.MODEL, mine="mine")
-    for texts, reason in ((FITTING, Reason.MERGE), (DISPUTED, Reason.CONFLICT), (SAME, Reason.INCLUDED)):
-        (resolved,), _ = resolve([action], {"a.txt": find_conflict(action, texts[:1], *texts[1:])}, {}, merging=True)
-        assert (resolved.reason, resolved.choice) == (reason, None)
-    found = find_conflict(action, FITTING[:1], *FITTING[1:])
-    choices = {"a.txt": UsersChoice(Choice.EDIT, action.sides, MINE)}
-    (resolved,), _ = resolve([action], {"a.txt": found}, choices, merging=True)
-    assert (resolved.reason, resolved.choice) == (Reason.KEEP, Choice.KEEP), "edited, and left as it was"
+    ours, theirs, generated = "1\n\na\n\nx\n", "y\n\na\n\n2\n", "1\n\na\n\n2\n"
+    for mine, reason in (("1\n\nb\n\n2\n", Reason.INCLUDED), ("1\n\nb\n\nx\n", Reason.CONFLICT)):
+        found = find_conflict(action, [ours, theirs], mine, generated)
+        (resolved,), _ = resolve([action], {"a.txt": found}, merging=False)
+        assert resolved.reason is reason
 
 
 def test_edits_of_a_file_that_git_united_are_those_that_no_branch_recorded() -> None:

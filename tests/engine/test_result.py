@@ -34,13 +34,12 @@ def result(*reasons: Reason, **fields: Any) -> Result:
         (result(Reason.UNCHANGED, Reason.INCLUDED), "in step, 2 files, 1 that you edited already has what is new"),
         (result(Reason.NEEDED), "in step, 0 files, 1 no longer generated but kept because your files need it"),
         (result(Reason.UNCHANGED), "in step, 1 file"),
-        (result(Reason.ADOPT), "1 already equal to the generated text"),
         (result(Reason.UPDATE, Reason.CREATE, writes=True), "2 files written"),
         (result(Reason.UPDATE, writes=True), "1 file written"),
         (result(Reason.UPDATE, Reason.CREATE, writes=True, dry=True), "2 files to write"),
         (result(Reason.KEEP, Reason.KEEP), "in step, 2 files, 2 kept because you edited them"),
-        (result(Reason.UNCHANGED, writes=True, dry=True), "recorded state to write"),
-        (result(Reason.ADOPT, writes=True, dry=True), "1 already equal to the generated text"),
+        (result(Reason.UNCHANGED, renews=True, dry=True), "in step, 1 file"),
+        (result(Reason.UNCHANGED, renews=True), "in step, 1 file, recorded state renewed: commit .urdfsync"),
         (result(Reason.UPDATE, Reason.KEEP, writes=True, dry=True), "1 file to write, 1 kept because you edited it"),
         (result(Reason.CONFLICT, Reason.UNOWNED), "2 conflicts"),
         (result(Reason.CONFLICT, waiting=[Reason.UPDATE]), "1 conflict, 1 file waits until the conflict is resolved"),
@@ -68,6 +67,7 @@ def test_what_happened_is_said_in_a_line(build: Result, summary: str) -> None:
     ("build", "code", "code_of_a_check"),
     [
         (result(Reason.UNCHANGED), Exit.IN_STEP, Exit.IN_STEP),
+        (result(Reason.UNCHANGED, renews=True, dry=True), Exit.IN_STEP, Exit.IN_STEP),
         (result(Reason.UPDATE, writes=True), Exit.IN_STEP, Exit.IN_STEP),
         (result(Reason.UPDATE, writes=True, dry=True), Exit.IN_STEP, Exit.OUT_OF_STEP),
         (result(Reason.UNCHANGED, stale=("a",)), Exit.IN_STEP, Exit.OUT_OF_STEP),
@@ -92,7 +92,7 @@ def test_a_package_is_built_once_a_file_of_it_was_written() -> None:
     assert result(Reason.UPDATE).is_built
     new = Result("arm", "Arm", Path("Arm"), Path(), Actions([Action("a.mo", Reason.CREATE, Role.MODEL)]))
     assert (new.is_built, new.is_first) == (False, True)
-    found = Result("arm", "Arm", Path("Arm"), Path(), Actions([Action("a.mo", Reason.ADOPT, Role.MODEL)]))
+    found = Result("arm", "Arm", Path("Arm"), Path(), Actions([Action("a.mo", Reason.UNCHANGED, Role.MODEL)]))
     assert (found.is_built, found.is_first) == (True, False)
     assert not result().is_first
 

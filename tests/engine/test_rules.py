@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from urdfsync.domain import Role
-from urdfsync.engine.actions import Action, Choice, Reason, UsersChoice, sides_hash
+from urdfsync.engine.actions import Action, Reason
 from urdfsync.engine.conflicts import find_conflict, resolve
 from urdfsync.engine.rules import (
     CLASS_FOLDER,
@@ -19,9 +19,7 @@ from urdfsync.engine.rules import (
     decide,
     decide_file,
     files_after,
-    pending_choices,
     put_off,
-    valid_choices,
 )
 from urdfsync.state.record import FileRecord
 
@@ -38,8 +36,8 @@ from urdfsync.state.record import FileRecord
         pytest.param(None, CLASS_FOLDER, "new", Reason.UNOWNED, id="a package of the user in the way"),
         pytest.param("old", CLASS_FOLDER, None, Reason.ORPHAN, id="made a package by the user, no longer generated"),
         pytest.param("same", "same", "same", Reason.UNCHANGED, id="nothing to do"),
-        pytest.param("old", "new", "new", Reason.ADOPT, id="already right"),
-        pytest.param(None, "new", "new", Reason.ADOPT, id="already right, state lost"),
+        pytest.param("old", "new", "new", Reason.UNCHANGED, id="already right"),
+        pytest.param(None, "new", "new", Reason.UNCHANGED, id="already right, state lost"),
         pytest.param("old", "old", "new", Reason.UPDATE, id="source changed"),
         pytest.param("old", "edited", "old", Reason.KEEP, id="edited"),
         pytest.param("old", "edited", "new", Reason.CONFLICT, id="edited, source changed"),
@@ -128,7 +126,7 @@ def test_places_that_are_handed_on() -> None:
         pytest.param("edited", "ours", Reason.CONFLICT, id="edited, and nothing may be new"),
         pytest.param("ours", None, Reason.DELETE, id="no longer generated"),
         pytest.param("edited", None, Reason.ORPHAN, id="edited, and no longer generated"),
-        pytest.param("new", "new", Reason.ADOPT, id="already right"),
+        pytest.param("new", "new", Reason.UNCHANGED, id="already right"),
     ],
 )
 def test_a_base_that_two_branches_recorded_otherwise(mine: str, generated: str | None, kind: Reason) -> None:
@@ -149,35 +147,21 @@ LINES = st.lists(st.sampled_from(["a\n", "b\n", "c = 1\n", "c = 2\n"]), max_size
     mine=LINES,
     generated=LINES,
     kind=st.sampled_from([Reason.CONFLICT, Reason.UNOWNED, Reason.MOVE]),
-    choice=st.none() | st.sampled_from(Choice),
     merging=st.booleans(),
 )
-def test_no_text_of_the_users_gives_way_unless_he_says_so(
-    base: str | None, mine: str, generated: str, kind: Reason, choice: Choice | None, merging: bool
+def test_no_text_of_the_users_gives_way_but_to_a_merge(
+    base: str | None, mine: str, generated: str, kind: Reason, merging: bool
 ) -> None:
     origin = "old.txt" if kind is Reason.MOVE else None
     action = Action("a.txt", kind, Role.MODEL, "robot", base, generated, origin, mine=mine)
     conflict = find_conflict(action, [] if base is None else [base], mine, generated)
-    choices = {action.path: UsersChoice(choice, action.sides)} if choice else {}
-    (result,), texts = resolve([action], {action.path: conflict}, choices, merging)
+    (result,), texts = resolve([action], {action.path: conflict}, merging=merging)
     text = texts.get(action.path)
-    merged = conflict.merged(choice)
-    if result.reason is Reason.UPDATE or (result.reason is Reason.MOVE and text is None):
-        assert choice is Choice.TAKE
-    elif result.reason in (Reason.MERGE, Reason.MOVE):
-        assert text == (mine if choice is Choice.KEEP else merged)
+    if result.reason in (Reason.MERGE, Reason.MOVE):
+        assert text == conflict.merged(None)
     else:
         assert text is None
         assert not result.writes
-
-
-def test_a_choice_that_nothing_waits_for_is_not_believed() -> None:
-    """A stranger's state could have a file replaced by that."""
-    pending = {"a.mo": UsersChoice(Choice.TAKE, sides_hash("mine", "new"))}
-    actions = [
-        Action("a.mo", kind, Role.MODEL, "", "old", "new", mine="mine") for kind in (Reason.KEEP, Reason.CONFLICT)
-    ]
-    assert [valid_choices(pending, [action], is_pending=True) for action in actions] == [{}, pending]
 
 
 WAITING = {
@@ -192,12 +176,7 @@ WAITING = {
     "package.order": (Action("package.order", Reason.RESTORE, Role.ORDER), True),
     "new.stl": (Action("new.stl", Reason.CREATE, Role.IMPORT), False),
     "old.stl": (Action("old.stl", Reason.DELETE, Role.IMPORT), True),
-    "Taken.mo": (
-        Action("Taken.mo", Reason.UPDATE, Role.MODEL, base="a", generated="a", choice=Choice.TAKE),
-        False,
-    ),
-    "Undone.mo": (Action("Undone.mo", Reason.UNDO, Role.MODEL, choice=Choice.UNDO), False),
-    "Kept.mo": (Action("Kept.mo", Reason.KEEP, Role.MODEL, choice=Choice.KEEP), True),
+    "Kept.mo": (Action("Kept.mo", Reason.KEEP, Role.MODEL), False),
 }
 """Actions beside a conflict, and whether they wait for it: what the package compiles with does not."""
 
@@ -207,17 +186,9 @@ def test_what_waits_for_a_conflict(moves: bool) -> None:
     actions = [action for action, _ in WAITING.values()]
     decided = put_off(actions, {"Number.mo", "Renamed.mo", "Follows.mo"}, {"Renamed.mo"}, moves)
     waiting = {action.path for action in decided if action.is_waiting}
-    assert waiting == {path for path, (_, waits) in WAITING.items() if waits or (moves and path != "Conflict.mo")}
-
-
-def test_choices_wait_with_their_actions_but_not_those_to_undo() -> None:
-    actions = [
-        Action(choice, Reason.CONFLICT, Role.MODEL, choice=choice, is_waiting=waits)
-        for choice, waits in ((Choice.TAKE, True), (Choice.KEEP, False), (Choice.UNDO, True), (Choice.EDIT, True))
-    ]
-    texts: dict[str, str] = {Choice.TAKE: "generated", Choice.EDIT: "both"}
-    pending = {path: choice.text for path, choice in pending_choices(actions, texts).items()}
-    assert pending == {Choice.TAKE: None, Choice.EDIT: "both"}
+    assert waiting == {
+        path for path, (_, waits) in WAITING.items() if waits or (moves and path not in ("Conflict.mo", "Kept.mo"))
+    }
 
 
 def test_an_edited_file_that_cant_move_blocks_all_that_would_follow_it() -> None:
@@ -250,7 +221,7 @@ def test_an_untouched_file_that_moves_takes_no_place_of_the_users() -> None:
 
 
 def test_while_something_is_open_files_count_that_are_as_generated() -> None:
-    files = {reason.name: reason for reason in (Reason.ADOPT, Reason.UNCHANGED, Reason.UPDATE, Reason.KEEP)}
+    files = {reason.name: reason for reason in (Reason.UNCHANGED, Reason.UPDATE, Reason.KEEP)}
     actions = [Action(path, reason, Role.MODEL, base="old", generated="new") for path, reason in files.items()]
     records = files_after(actions, dict.fromkeys(files, FileRecord(("old",))), is_complete=False)
-    assert [path for path, record in records.items() if record.hashes == ("new",)] == ["ADOPT", "UNCHANGED", "UPDATE"]
+    assert [path for path, record in records.items() if record.hashes == ("new",)] == ["UNCHANGED", "UPDATE"]

@@ -181,7 +181,9 @@ def test_a_lost_file_of_bases_is_written_anew(project: Path) -> None:
 
 
 @pytest.mark.parametrize("damage", [lambda _: b"", lambda text: text.replace(b"record", b"records")])
-def test_damaged_lines_are_mended_and_say_nothing_of_the_package(project: Path, damage: Callable[[bytes], bytes]) -> None:
+def test_damaged_lines_are_mended_and_say_nothing_of_the_package(
+    project: Path, damage: Callable[[bytes], bytes]
+) -> None:
     run()
     before = {file.name: file.read_bytes() for file in BASES.iterdir()}
     for file in BASES.iterdir():

@@ -173,9 +173,10 @@ def test_killed_builds_on_lesser_file_systems(
 def crashed(changed: Path, tmp_path: Path) -> Path:
     """The changed network after a build that was killed when half of its files were in place."""
     swaps = operations(crashes.copy(changed, tmp_path / "work"), ["exchange"])
-    kill(changed, swaps[len(swaps) // 2].number)
-    assert is_interrupted(changed / ".urdfsync")
-    return changed
+    crashed = crashes.copy(changed, tmp_path / "crashed")  # whose build has the same operations
+    kill(crashed, swaps[len(swaps) // 2].number)
+    assert is_interrupted(crashed / ".urdfsync")
+    return crashed
 
 
 def test_a_recovery_may_be_killed_too(crashed: Path, tmp_path: Path) -> None:
@@ -234,6 +235,10 @@ def test_a_system_that_refuses_leaves_all_as_it_was(
 
         with before_each(refuse):
             result = run(project)
+        if any("notes" in path.parts for path in operation.paths):  # what can't be noted is made again
+            assert not result.failed, operation
+            assert contents(project) == wanted[1], operation
+            continue
         assert result.failed, operation
         assert any(os.strerror(number) in found.message for found in result.diagnostics)
         assert result.unfinished or contents(project) == before, operation

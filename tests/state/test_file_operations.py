@@ -68,7 +68,7 @@ def test_a_file_is_bound_to_its_place(tmp_path: Path) -> None:
     content = msgspec.json.decode(path.read_bytes(), type=file_operations.Bound)
     assert file_operations.is_bound(path, content)
     copy.write_bytes(path.read_bytes())
-    os.utime(copy, ns=(content.written, content.written))
+    os.utime(copy, ns=(content.written_at, content.written_at))
     assert not file_operations.is_bound(copy, content)
     path.rename(tmp_path / "moved")
     assert file_operations.is_bound(tmp_path / "moved", content)

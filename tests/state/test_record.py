@@ -1,11 +1,10 @@
-"""The base of a file follows from its hashes; a choice holds for the two texts that it was made on."""
+"""The base of a file follows from its hashes."""
 
 from __future__ import annotations
 
 import pytest
 
 from urdfsync.domain import Role
-from urdfsync.engine.actions import sides_hash
 from urdfsync.state.record import FileRecord, role_of
 
 
@@ -28,15 +27,9 @@ def test_the_base_of_an_edited_file_is_ambiguous_where_git_united_two(
     record = FileRecord(hashes)
     assert record.base(mine, generated) == base
     assert record.is_ambiguous == (len(hashes) > 1)
-    assert record.generated == (hashes or ("",))[0]
 
 
 def test_a_file_that_nothing_generates_has_its_role_by_its_path() -> None:
     roles = {"Resources/tip.stl": Role.IMPORT, "Links/package.mo": Role.PACKAGE, "package.mo": Role.PACKAGE}
     roles |= {"Links/Tip.mo": Role.RECORD, "Links/Resources/Tip.mo": Role.RECORD}
     assert {path: role_of(path) for path in roles} == roles
-
-
-def test_sides_differ_if_one_of_both_texts_does() -> None:
-    sides = [(mine, generated) for mine in ("a", "b", None) for generated in ("a", "b", None)]
-    assert len({sides_hash(*pair) for pair in sides}) == len(sides)

@@ -7,10 +7,10 @@ from pathlib import Path
 import pytest
 from support.commands import Execute
 from support.files import unchanged
-from support.networks import BASES, MANIFEST, edit, failure, resistor, run, stored
+from support.networks import BASES, MANIFEST, edit, resistor, run, stored
 
 from urdfsync.state.expansion import Expansion, dumps
-from urdfsync.state.store import PutAside, Replaced, Store
+from urdfsync.state.store import Aside, Store
 
 
 def test_bases_follow_the_name_of_their_robot_and_go_with_it(project: Path, execute: Execute) -> None:
@@ -44,7 +44,9 @@ def test_line_ends_of_the_state_do_not_matter_but_it_has_to_be_text(project: Pat
     with unchanged(project):
         assert run().in_step
     path.write_bytes(b"\xff")
-    assert "not UTF-8" in failure()
+    (told,) = run(dry=True).diagnostics
+    assert (told.code, told.line) == ("broken-state", 1)
+    assert run(dry=True).in_step
 
 
 @pytest.mark.parametrize("after", [b"new", None], ids=["saved", "deleted"])
@@ -92,24 +94,26 @@ def test_robots_are_known_by_states_with_names_that_they_can_have(tmp_path: Path
 
 def test_what_was_never_written_is_none(tmp_path: Path) -> None:
     store = Store(tmp_path)
-    found = store.load("arm"), store.load_expansion("arm"), store.bases("arm", "a"), store.base("arm", "ab")
+    found = store.load_expansion("arm"), store.bases("arm", "a"), store.base("arm", "ab"), store.aside_text("arm", "a")
     assert found == (None,) * 4
-    assert store.put_aside("arm") == PutAside()
+    assert store.load("arm") == (None, None)
+    assert store.aside("arm") == {}
 
 
 def test_what_was_put_aside_and_expanded_is_read_again(tmp_path: Path) -> None:
-    aside = PutAside({"a.mo": Replaced("mine", "base", None, {"elbow": "wrist"})})
+    aside = {"Links/a.mo": Aside("0" * 64, ("1" * 64,), {"1" * 64: "base"})}
     expanded = Expansion(source="arm.xacro", text="<robot/>")
     for change in (
-        *Store(tmp_path).save_aside("arm", aside),
+        *Store(tmp_path).save_aside("arm", aside, {"Links/a.mo": b"mine"}),
         *Store(tmp_path).save(Store(tmp_path).expansion("arm"), dumps(expanded)),
     ):
         change.path.parent.mkdir(parents=True, exist_ok=True)
         change.path.write_bytes(change.content or b"")
     store = Store(tmp_path)
-    assert store.put_aside("arm") == aside
+    assert store.aside("arm") == aside
+    assert store.aside_text("arm", "Links/a.mo") == b"mine"
     loaded = store.load_expansion("arm")
     assert loaded is not None
     assert (loaded.source, loaded.text) == ("arm.xacro", "<robot/>")
-    assert store.save_aside("arm", aside) == []
-    assert [change.content for change in store.save_aside("arm", PutAside())] == [None]
+    assert store.save_aside("arm", aside, {}) == []
+    assert [change.content for change in store.save_aside("arm", {}, {})] == [None, None]

@@ -177,7 +177,7 @@ def bind(file: Path) -> None:
     """Let a copy of planned hashes be one that was written in its place."""
     with contextlib.suppress(TypeError, ValueError):  # cut short, or damaged to something else
         status, text = file.stat(), json.loads(file.read_bytes())
-        file.write_text(json.dumps({**text, "inode": status.st_ino, "written": status.st_mtime_ns}))
+        file.write_text(json.dumps({**text, "inode": status.st_ino, "written_at": status.st_mtime_ns}))
         os.utime(file, ns=(status.st_mtime_ns, status.st_mtime_ns))
 
 
@@ -188,7 +188,7 @@ def contents(project: Path) -> Mapping[str, bytes | None]:
     files were replaced.
     """
     found = {path.relative_to(project).as_posix(): path for path in project.rglob("*")}
-    left_out = {".urdfsync/lock", ".urdfsync/bases", ".urdfsync/replaced"}
+    left_out = {".urdfsync/lock", ".urdfsync/bases", ".urdfsync/aside", ".urdfsync/notes"}
     names = [name for name in found if left_out.isdisjoint((name, *map(str, PurePosixPath(name).parents)))]
     contents = {name: found[name].read_bytes() if found[name].is_file() else None for name in sorted(names)}
     return contents | {f".urdfsync/bases/{robot}": _needed(project, robot) for robot in Store(project).names()}

@@ -63,6 +63,8 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
             differences = changes.compare(last.version, self.now, self.inputs.domain, robot.options, self.renames)
         except NO_MODEL:
             return None
+        if differences.change_class.rank >= ChangeClass.STRUCTURAL.rank and last.package is None:
+            return None  # git may have made a model of two that is none
         is_same = last.record.generator == self.inputs.generator and last.target == robot.target
         if is_same and last.record.options == option_values(robot.options):
             return differences

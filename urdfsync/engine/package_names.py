@@ -14,7 +14,7 @@ from urdfsync.modelica.syntax import declared
 def renamed_identifiers(generation: Generation) -> dict[str, str]:
     """Return old and new identifiers of elements since the last complete build, the longest old ones first."""
     inputs = generation.inputs
-    if inputs.last.version is None:
+    if inputs.last.version is None or generation.changes is None:
         return {}
     old = inputs.domain.names(inputs.last.version.snapshot, inputs.last.target)
     new = inputs.domain.names(generation.now.snapshot, inputs.robot.target)

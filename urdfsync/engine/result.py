@@ -206,7 +206,7 @@ class Result(msgspec.Struct, frozen=True):
             phrases.insert(
                 0, f"{counted(given_back, 'file')} given back as you had {'it' if given_back == 1 else 'them'}"
             )
-        if self.renews and not (self.writes or self.dry):
+        if self.renews and self.in_step and not (self.writes or self.dry):
             phrases.append("recorded state renewed: commit .urdfsync")
         if waiting := sum(action.is_waiting for action in self.actions.decided):
             what = "the conflict is" if reasons[Reason.CONFLICT] == 1 else "all conflicts are"
