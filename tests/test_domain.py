@@ -126,11 +126,11 @@ def test_a_snapshot_is_plain_data(case: Case) -> None:
         package="Sample",
         class_="Sample",
         folder="Sample",
-        generator=Generator("sample", 1, ""),
+        generator=Generator("sample", "0.1.0", ""),
         snapshot=case.snapshot,
         imports={key: (one,) for key, one in case.imports.items()},
     )
-    assert statefile.loads(statefile.dumps(record), "sample.state") == record
+    assert statefile.loads(statefile.dumps(record), "sample.state") == (record, None)
 
 
 def test_nobody_changes_a_snapshot(case: Case) -> None:

@@ -77,6 +77,8 @@ def verdict(repository: Repository, capsys: pytest.CaptureFixture[str]) -> Calla
 
 GREEN = Verdict(0, 0, 0, 0, in_step=True, wrote=False)
 """In step: nothing to write."""
+RENEWED = Verdict(0, 0, 0, 0, in_step=True, wrote=True)
+"""In step: a build renews the recorded state alone."""
 LATE = Verdict(1, 1, 1, 0, in_step=False, wrote=True)
 """Out of step: a build brings it in step."""
 
@@ -113,12 +115,12 @@ def comment() -> None:
 PLAIN: dict[str, tuple[Callable[[], object], Verdict]] = {
     "an extension that is not modelled": (extend, GREEN),
     "an option without effect": (set_option_without_effect, GREEN),
-    "new files with an old state": (export_then_old_state, LATE),
-    "the user typed what the export brings": (type_what_the_export_brings, LATE),
+    "new files with an old state": (export_then_old_state, RENEWED),
+    "the user typed what the export brings": (type_what_the_export_brings, RENEWED),
     "a comment in the source": (comment, GREEN),
     "a deleted file": (lambda: Path(RECORD).unlink(), LATE),
-    "a lost state": (lambda: Path(STATE).unlink(), LATE),
-    "how git unites states": (lambda: Path(".urdfsync/.gitattributes").unlink(), LATE),
+    "a lost state": (lambda: Path(STATE).unlink(), RENEWED),
+    "how git unites states": (lambda: Path(".urdfsync/.gitattributes").unlink(), RENEWED),
 }
 
 
@@ -160,7 +162,8 @@ def test_options_that_are_known_no_more_may_have_had_an_effect(verdict: Callable
     edit("urdfsync.toml", CONFIGURATION, f'{CONFIGURATION}base = "floating"\n')
     assert verdict() == LATE
     edit("urdfsync.toml", 'base = "floating"\n', "")
-    record = statefile.loads(Path(STATE).read_text(), STATE)
+    record, _ = statefile.loads(Path(STATE).read_text(), STATE)
+    assert record is not None
     Path(STATE).write_text(statefile.dumps(msgspec.structs.replace(record, options={"bases": "floating"})))
     assert verdict() == LATE
     assert contents(Path(PACKAGE)) == before

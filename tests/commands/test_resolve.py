@@ -209,7 +209,8 @@ def test_of_several_files_those_are_settled_that_can_be(several: Path, execute: 
 def test_all_that_can_be_merged_is_merged(several: Path, execute: Execute) -> None:
     assert (
         execute("resolve", "--all", "--merge", code=3).lines[0]
-        == "ladder: 2 conflicts, 4 files wait until all conflicts are resolved"
+        == "ladder: broken: a file that you edited does not fit, 1 merged with your edits, 2 conflicts, "
+        "3 files wait until all conflicts are resolved"
     )
     assert conflicts(execute) == ["Elements/R1Parameters.mo", "Resources/step.txt"]
     execute("resolve", "--all", "--keep")

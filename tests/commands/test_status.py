@@ -92,14 +92,12 @@ def test_a_broken_source_does_not_hide_the_others(built: Path, execute: Execute)
     assert execute("status", "ladder").lines == ["ladder: in step, 14 files"]
 
 
-def test_without_its_state_a_package_is_out_of_step(built: Path, execute: Execute) -> None:
+def test_without_its_state_a_package_is_in_step(built: Path, execute: Execute) -> None:
     for file in (built / ".urdfsync/robots").iterdir():
         file.unlink()
-    (robot,) = execute("status", "--json", code=1).json["results"]
-    assert (robot["is_built"], robot["in_step"]) == (True, False)
-    assert execute("status", code=1).lines == [
-        "ladder: out of step: 12 already equal to the generated text",
-    ]
+    (robot,) = execute("status", "--json").json["results"]
+    assert (robot["is_built"], robot["in_step"]) == (True, True)
+    assert execute("status").lines == ["ladder: in step, 14 files"]
 
 
 def test_a_build_that_is_writing_is_waited_for(built: Path, execute: Execute) -> None:

@@ -7,12 +7,11 @@ from pathlib import Path
 import pytest
 import support.urdfs as urdfs
 from support.commands import Execute
-from support.networks import LADDER, MANIFEST, ROBOT, edit, resistor, run, run_all, said, source
+from support.networks import LADDER, MANIFEST, ROBOT, edit, run, run_all, said, source
 from support.networks import inner_kinds as kinds
 
-from urdfsync import cli, registry
-from urdfsync.diagnostics import Severity
-from urdfsync.engine.actions import Choice, Reason
+from urdfsync import cli
+from urdfsync.engine.actions import Reason
 
 LINKS = tuple(urdfs.link(name, 1.0) for name in ("base", "arm", "hand"))
 SWING = urdfs.joint("swing", "continuous", "base", "arm")
@@ -112,23 +111,6 @@ def test_recorded_options_that_this_program_does_not_have_are_no_obstacle(
     configure(arm, "driven = []\n")
     assert "connector-changed" not in execute("build").words
     assert 'option ["frames","leaves"]\n' in recorded.read_text()
-
-
-def test_a_package_for_an_older_library_is_told_while_it_waits(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    run()
-    domain = type(registry.domain("rcnetwork"))
-    monkeypatch.setattr(domain, "revision", 2)
-    monkeypatch.setattr(domain, "fits_since", 2)
-    edit(f"{LADDER}/Elements/R1Parameters.mo", "100", "101")
-    resistor(120)
-    alone = run()
-    assert kinds(alone) == {"Elements/R1Parameters.mo": Reason.CONFLICT}
-    assert alone.diagnostics == (), "nothing waits for it"
-    source('"R2"', '"R3"')
-    (found,) = run().diagnostics
-    assert (found.code, found.severity) == ("outdated-package", Severity.WARNING)
-    assert f"{LADDER}/Elements/R1Parameters.mo is resolved" in found.hint
-    assert run(choices={f"{LADDER}/Elements/R1Parameters.mo": Choice.KEEP}).diagnostics == ()
 
 
 def test_a_robot_with_another_name_takes_its_state_along(project: Path) -> None:

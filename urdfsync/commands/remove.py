@@ -75,7 +75,7 @@ def _show(console: Console, result: Result, words: str) -> None:
 def _reason(action: Action) -> str:
     """Return why a file stays; empty if it does not."""
     if action.reason is Reason.ORPHAN and action.mine == action.base:
-        return "its text is not stored, and could not be given back"
+        return "it is recorded, but this machine did not generate it"
     return action.reason.text if action.reason in ORPHANS else ""
 
 

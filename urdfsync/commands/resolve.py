@@ -175,6 +175,9 @@ def _compare(
             message = "the file or its generated text changed after they were read, so your choice was not applied"
             hint = "look at it, then choose again"
             problems.append(Diagnostic(Severity.WARNING, "changed-meanwhile", message, place, hint=hint))
+        elif reason := next((one.refused.get(choice) for one in result.conflict_texts if one.path == path), None):
+            hint = "prefer the other side, or use --edit"
+            problems.append(Diagnostic(Severity.WARNING, "no-merge", reason, place, hint=hint))
         elif not before.is_conflict:
             problems.append(_without_effect(choice, before, place))
     return accepted, problems

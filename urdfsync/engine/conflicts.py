@@ -41,8 +41,8 @@ class Conflict(msgspec.Struct, frozen=True):
     """The proposed merge as a person has changed it."""
     rejected: str = ""
     """Why there is no merge although the sides do not contradict each other, as a clause; empty if there is one."""
-    refused: frozenset[Choice] = frozenset()
-    """Preferences of a side that would bring in a name that means nothing."""
+    refused: Mapping[Choice, str] = {}
+    """Preferences of a side that would bring in a name that means nothing, with the reason as a clause."""
 
     def merged(self, choice: Choice | None) -> str | None:
         """Return the merged text that a choice asks for; None if there is none."""

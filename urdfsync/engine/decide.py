@@ -186,9 +186,9 @@ def _without_misfits(
         sound[key] = msgspec.structs.replace(sound[key], merge=merge and merge.rejected, rejected=reason)
     for side in PREFERENCES:
         tried = {key for key, one in sound.items() if one.merged(None) is None and one.merged(side) is not None}
-        for key in _bad_merges(generation, actions, sound, dict.fromkeys(tried, side)) if tried else ():
-            if key in tried:
-                sound[key] = msgspec.structs.replace(sound[key], refused=sound[key].refused | {side})
+        bad = _bad_merges(generation, actions, sound, dict.fromkeys(tried, side)) if tried else {}
+        for key in tried & bad.keys():
+            sound[key] = msgspec.structs.replace(sound[key], refused={**sound[key].refused, side: bad[key]})
     return sound
 
 
