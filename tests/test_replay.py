@@ -68,8 +68,8 @@ def lacks_unmodelled(path: str, result: Result, found: bytes | None, wanted: byt
         return False
     if not path.endswith(".state") or found is None or wanted is None:
         return False
-    old, new = (statefile.loads(text.decode(), path, strict=True) for text in (found, wanted))
-    return old == msgspec.structs.replace(new, snapshot=old.snapshot)
+    old, new = (statefile.loads(text.decode(), path)[0] for text in (found, wanted))
+    return old is not None and new is not None and old == msgspec.structs.replace(new, snapshot=old.snapshot)
 
 
 def faults(project: Project, before: Stamps, result: Result, old: Files, package: Files, state: Files) -> Iterator[str]:

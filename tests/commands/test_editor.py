@@ -92,9 +92,7 @@ def test_an_edited_text_in_latin_1_is_no_bug_while_another_file_waits(
     execute("build", code=3)
 
 
-def test_an_edited_text_is_written_whatever_conflicts(
-    contradictory: Path, execute: Execute, editor: Editor
-) -> None:
+def test_an_edited_text_is_written_whatever_conflicts(contradictory: Path, execute: Execute, editor: Editor) -> None:
     element = f"{LADDER}/Elements/R1.mo"
     edit(element, '"Resistor R1"', '"My resistor R1"')
     edit("ladder.json", '"R1"', '"R8"')

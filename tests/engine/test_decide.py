@@ -258,10 +258,10 @@ def test_a_clone_reaches_the_same_result(
     monkeypatch.chdir(other)
     assert run().conflict_texts == first.conflict_texts
     run(choices={RECORD: Choice.MERGE})
-    first, second = (
+    here, there = (
         {path: text for path, text in contents(folder).items() if "/aside/" not in path} for folder in (other, project)
     )
-    assert first == second
+    assert here == there
     assert "150" in (other / RECORD).read_text()
 
 

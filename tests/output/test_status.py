@@ -18,7 +18,7 @@ def action(reason: Reason, waits: bool = False, path: str = "") -> Action:
 
 
 def result_of(*actions: Action, changes: Changes | None = None) -> Result:
-    writes = any(one.writes or one.reason is Reason.ADOPT for one in actions)
+    writes = any(one.writes for one in actions)
     place = Path("/project/Arm"), Path("/project")
     return Result("arm", "Arm", *place, Actions(actions), changes=changes, dry=True, writes=writes)
 
@@ -58,7 +58,6 @@ def test_a_conflict_of_a_renamed_element_is_where_the_file_is() -> None:
             [Reason.UNCHANGED, Reason.KEEP, Reason.ORPHAN, Reason.FORGET],
             "in step, 2 files, 1 kept because you edited it, 1 no longer generated but kept because you edited it",
         ),
-        ([Reason.UNCHANGED, Reason.ADOPT], "out of step: 1 already equal to the generated text"),
         (
             [Reason.UPDATE, Reason.RESTORE, Reason.KEEP, Reason.CREATE],
             "out of step: 2 files to write, 1 to restore, 1 kept because you edited it",

@@ -156,7 +156,8 @@ class Package(Mapping[str, bytes]):
                 is_forgotten = action.reason is Reason.FORGET
                 if (sha256 := files.hash(key, action.role)) and not is_forgotten:
                     record = inputs.last.files.get(key)
-                    is_edited = sha256 not in (action.generated, *(record.hashes if record else ()))
+                    known = (action.generated, *(record.hashes if record else ()))
+                    is_edited = action.reason is Reason.ORPHAN or sha256 not in known
                     found[inputs.folder.path(key)] = file._replace(is_edited=is_edited)
             elif not action.is_deletion:
                 found[inputs.folder.path(key)] = file._replace(is_generated=True)

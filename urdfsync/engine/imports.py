@@ -26,6 +26,8 @@ _POINTER = b"version https://git-lfs"
 """How a file begins that Git LFS has not replaced by its content yet."""
 _MOST_OTHERS = 100
 """Files that a conversion may need besides."""
+MOST_PARTS = 100
+"""Files that a dependency becomes at the most."""
 _IN_LIBRARY = r"\s*modelica:/*([^/.]+)"
 _HINTS = {
     r"(?:https?|ftp):": "urdfsync does not look on the network: download it, and let the source refer to it",
@@ -78,7 +80,7 @@ class Imported(msgspec.Struct):
             self.contents[entry.target] = content
 
 
-def _places(dependency: Dependency) -> Iterator[tuple[str, str]]:
+def places_of(dependency: Dependency) -> Iterator[tuple[str, str]]:
     """Yield key and target of each file that a dependency may become, its own first."""
     yield dependency.key, dependency.target
     path = PurePosixPath(dependency.target)
@@ -88,7 +90,7 @@ def _places(dependency: Dependency) -> Iterator[tuple[str, str]]:
 
 def _find_recorded(dependency: Dependency, recorded: Mapping[str, RecordedFile]) -> list[tuple[str, str, RecordedFile]]:
     """Return the files that a dependency became, its own first, with their keys and targets now; none if it did not."""
-    places = itertools.takewhile(lambda place: place[0] in recorded, _places(dependency))
+    places = itertools.takewhile(lambda place: place[0] in recorded, places_of(dependency))
     return [(key, target, recorded[key]) for key, target in places]
 
 
@@ -182,7 +184,7 @@ def _import(
     except SourceError as error:
         result.refused.append((dependency, path))
         return unreadable(error.diagnostics[0].message, error.diagnostics[0].hint)
-    for (key, target), part in zip(_places(dependency), (conversion, *conversion.more), strict=False):
+    for (key, target), part in zip(places_of(dependency), (conversion, *conversion.more), strict=False):
         names = (*others,) if part is conversion else ()
         entry = Import(target, sha256, digest(part.content), part.facts, names)
         result.add(key, entry, part.content)

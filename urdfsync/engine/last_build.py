@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Mapping, Sequence
 from functools import cached_property
 from typing import Any
@@ -10,9 +11,9 @@ import msgspec
 
 from urdfsync.config import RobotConfig
 from urdfsync.diagnostics import UrdfsyncError
-from urdfsync.domain import Domain, Import, Role, Target, Templates, Version
+from urdfsync.domain import Domain, Import, Lookup, Role, Target, Templates, Version
 from urdfsync.engine.generate import Package, generate
-from urdfsync.engine.imports import RecordedFile
+from urdfsync.engine.imports import MOST_PARTS, RecordedFile, places_of
 from urdfsync.engine.package_files import Folder, PackageFiles
 from urdfsync.engine.rules import NEVER_WRITTEN, OnDisk
 from urdfsync.files import digest
@@ -123,9 +124,9 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
         path = self.folder.path(key)
         if sha256 in self.notes.written:
             return True
-        if role is Role.IMPORT:
-            return any(file.entry.target == path and file.hash == sha256 for file in self.imports.values())
         try:
+            if role is Role.IMPORT:
+                return any(file.hash == sha256 for key, file in self.imports.items() if self._target(key) == path)
             return self.package is not None and path in self.package.artifacts and self.package.hash(path) == sha256
         except NO_MODEL:
             return False
@@ -137,6 +138,13 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
     def bases(self, record: FileRecord) -> dict[str, str]:
         """Return the texts of a file's bases that are stored, by hash."""
         return {sha256: text for sha256 in record.hashes if (text := self.base(sha256)) is not None}
+
+    def _target(self, key: str) -> str | None:
+        """Return where the recorded model has an imported file; None if it refers to none of this key."""
+        snapshot, lookup = self.record.snapshot or {}, Lookup(self._robot.source, ())
+        dependencies = self._domain.dependencies(snapshot, lookup, self.options or self._robot.options, {})
+        places = (place for dependency in dependencies for place in itertools.islice(places_of(dependency), MOST_PARTS))
+        return dict(places).get(key)
 
     @cached_property
     def aside(self) -> Mapping[str, Aside]:
