@@ -116,7 +116,8 @@ def test_the_action_fails_if_there_is_nothing_to_compare_with_and_runs_no_input(
 def test_the_pipeline_comments_and_fails_if_the_package_is_out_of_step(arm: Repository) -> None:
     tools = Path("tools")
     tools.mkdir()
-    for name, script in (("pip", "exit 0"), ("curl", 'printf "%s\\n" "$@" > posted'), ("urdfsync", f'{URDFSYNC} "$@"')):
+    scripts = {"pip": "exit 0", "mktemp": "echo comment", "curl": 'printf "%s\\n" "$@" > posted'}
+    for name, script in {**scripts, "urdfsync": f'{URDFSYNC} "$@"'}.items():
         (tools / name).write_text(f"#!/bin/sh\n{script}\n")
         (tools / name).chmod(0o755)
     variables = {"CI_API_V4_URL": "https://host/api", "CI_PROJECT_ID": "7", "CI_MERGE_REQUEST_IID": "3"}
@@ -124,7 +125,8 @@ def test_the_pipeline_comments_and_fails_if_the_package_is_out_of_step(arm: Repo
     script = "\n".join(PIPELINE["models"]["script"])
     assert run(script, PATH=f"{tools.resolve()}:{os.environ['PATH']}", **variables) == Exit.OUT_OF_STEP
     assert "https://host/api/projects/7/merge_requests/3/notes" in Path("posted").read_text().splitlines()
-    comment = Path("comment.md").read_text(encoding="utf-8")
+    assert "body@comment" in Path("posted").read_text().splitlines()
+    comment = Path("comment").read_text(encoding="utf-8")
     assert comment.index("since HEAD") < comment.index("⚠️ arm")
 
 
