@@ -6,7 +6,6 @@ import os
 import subprocess
 from collections.abc import Collection
 from functools import cached_property
-from pathlib import Path
 
 _SETTINGS = ("-c", "safe.bareRepository=explicit", "-c", "core.fsmonitor=false", "-c", "diff.relative=false")
 """The settings of a repository name programs for git to run, so does fsmonitor."""
@@ -61,21 +60,21 @@ class Index:
         return {entry.partition("\t")[2] for entry in entries if entry.startswith("160000 ")}
 
 
-def find_top(folder: Path) -> Path | None:
+def find_top(folder: str | os.PathLike[str]) -> str | None:
     """Return the nearest folder around another, itself included, that has a `.git`; None if there is none.
 
     A folder that is a repository without a `.git` is passed over. It may be made of files that a stranger committed,
     whereas git commits and checks out no `.git`, in whatever case.
     """
-    place = Path(os.path.realpath(folder))
     ceilings = os.environ.get("GIT_CEILING_DIRECTORIES", "").split(os.pathsep)
     limits = {os.path.realpath(ceiling) for ceiling in ceilings if ceiling}
-    for top in (place, *place.parents):
-        if (top / ".git").exists():
-            return top
-        if str(top.parent) in limits:
-            break
-    return None
+    top = os.path.realpath(folder)
+    while not os.path.exists(os.path.join(top, ".git")):
+        parent = os.path.dirname(top)
+        if parent == top or parent in limits:
+            return None
+        top = parent
+    return top
 
 
 def _list(command: str, *arguments: str) -> list[str]:
@@ -89,8 +88,8 @@ def run(*arguments: str) -> str:
     The variables of git's own caller count: GIT_DIR and GIT_INDEX_FILE name what is being committed.
     """
     # git before 2.38 ignores safe.bareRepository, and later ones end instead of passing over such a folder
-    top = None if "GIT_DIR" in os.environ else find_top(Path.cwd())
-    if top is None and "GIT_DIR" not in os.environ:
+    top = None
+    if "GIT_DIR" not in os.environ and (top := find_top(os.curdir)) is None:
         raise GitError("git failed: not a git repository")
     variables = {name: value for name, value in os.environ.items() if name not in _PATHSPECS}  # they redefine `:/`
     variables |= {"LC_ALL": "C", "GIT_OPTIONAL_LOCKS": "0"}  # English messages; git must not refresh the index

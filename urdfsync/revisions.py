@@ -41,10 +41,10 @@ def open_repository(folder: Path) -> pygit2.Repository | None:
     try:
         # discover_repository of libgit2 would take a folder of a stranger's files for a repository
         flags = pygit2.enums.RepositoryOpenFlag.NO_SEARCH | pygit2.enums.RepositoryOpenFlag.NO_DOTGIT
-        repository = pygit2.Repository(top / ".git", flags)
+        repository = pygit2.Repository(Path(top, ".git"), flags)
     except pygit2.GitError as problem:  # such as that of another user
         message, hint = f"the repository can't be read: {problem}", "repair it, or use --against ./FILE"
-        raise SourceError.of("git", message, shown(top), hint=hint) from None
+        raise SourceError.of("git", message, shown(Path(top)), hint=hint) from None
     return repository if repository.workdir else None
 
 

@@ -211,6 +211,8 @@ def test_a_revision_comes_before_a_file_of_its_name(
         shutil.copy("arm.urdf", name)
     for name, code in (("HEAD", 1), ("origin/main", 1), ("./HEAD", 0), (str(arm / "origin/main"), 0), ("old.urdf", 0)):
         assert said(execute, "arm.urdf", "--against", name)[0] == code, name
+    (arm / "urdfsync.toml").write_text('[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\n')
+    assert execute("report", "--against", "HEAD").lines[0] == "arm: 1 parameter change since HEAD"
     assert "'./main' is neither a file nor" in refused(execute, "arm.urdf", "--against", "./main")
     (arm / ".git/HEAD").unlink()
     assert "the repository can't be read" in refused(execute, "arm.urdf", "--against", "old.urdf")

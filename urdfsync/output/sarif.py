@@ -32,7 +32,7 @@ def log(sections: Iterable[Section], findings: Sequence[Diagnostic], code: int) 
     of_robots = ((*section.findings, *filter(None, [section.verdict])) for section in sections)
     told = dict.fromkeys([*findings, *(finding for group in of_robots for finding in group)])
     folder, meanings = config.working_folder(), read_meanings()
-    top = git.find_top(folder) or folder
+    top = Path(git.find_top(folder) or folder)
     results, notifications = [], []
     for finding in told:
         values = {"level": str(finding.severity), "message": {"text": finding.sentence.translate(_ESCAPES)}}
