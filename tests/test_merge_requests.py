@@ -102,6 +102,7 @@ def test_the_action_reports_what_changed_and_that_the_package_is_out_of_step(arm
 def test_the_action_passes_if_all_is_in_step_though_the_sources_differ(arm: Repository, execute: Execute) -> None:
     execute("build", "-q")
     assert report(AGAINST="HEAD~1", ROBOTS="arm arm", CONFIG="urdfsync.toml")[0] == Exit.IN_STEP
+    assert report(ROBOTS="arm\nother")[0] == Exit.ERROR
 
 
 @posix
