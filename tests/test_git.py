@@ -6,8 +6,9 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from support.git import NEEDS_GIT, Repository
+from support.git import NEEDS_GIT, Repository, make_repository_of_files
 
+from urdfsync import git
 from urdfsync.git import GitError, Index
 
 pytestmark = NEEDS_GIT
@@ -76,6 +77,22 @@ def test_without_a_working_tree_and_without_git(folder: Path, monkeypatch: pytes
         patch.setenv("GIT_DIR", "bare")
         with pytest.raises(GitError, match="git failed: this operation must be run in a work tree"):
             Index()
+    with pytest.raises(GitError, match="git failed: not a git repository"):
+        Index()
+    Path(".git").mkdir()
     monkeypatch.setenv("PATH", str(folder))
     with pytest.raises(GitError, match="git can't be started: "):
         Index()
+
+
+@pytest.mark.parametrize("version", ["this one", "one that ignores safe.bareRepository"])
+def test_a_repository_of_committed_files_is_passed_over(
+    repository: Repository, monkeypatch: pytest.MonkeyPatch, version: str
+) -> None:
+    make_repository_of_files(Path.cwd())
+    if version != "this one":
+        monkeypatch.setattr(git, "_SETTINGS", ())
+    index = Index()
+    assert index.top == str(repository.folder)
+    assert "in/HEAD" in index.untracked
+    assert not Path("fsmonitor").exists()

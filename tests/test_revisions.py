@@ -12,7 +12,7 @@ import pytest
 from support.git import NEEDS_GIT, Repository
 
 from urdfsync.diagnostics import SourceError
-from urdfsync.revisions import Revision
+from urdfsync.revisions import Revision, open_repository
 
 pytestmark = NEEDS_GIT
 
@@ -69,6 +69,29 @@ def test_what_belongs_to_another_repository_is_not_asked_for(repository: Path) -
     assert not revision.holds(repository.parent / "arm.urdf")
 
 
+def test_a_repository_of_committed_files_is_passed_over(repository: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Else a stranger's commit would say what the source was before."""
+    arm, forged = repository / "cad/arm.urdf", Repository(repository.parent / "forged", monkeypatch)
+    (forged.folder / "arm.urdf").write_bytes(b"forged")
+    forged.commit()
+    shutil.copytree(forged.folder / ".git", arm.parent, dirs_exist_ok=True)
+    pygit2.Repository(arm.parent).config["core.worktree"] = str(arm.parent)
+    assert Revision(arm.parent, "HEAD").read(arm) == b"two\n"
+    assert Revision(arm.parent, "HEAD").holds(arm)
+    shutil.rmtree(repository / ".git")
+    assert open_repository(arm.parent) is None
+
+
+def test_a_worktree_and_a_submodule_have_their_revisions(repository: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Their `.git` is a file."""
+    outer = Repository(repository.parent / "outer", monkeypatch)
+    outer.git("-c", "protocol.file.allow=always", "submodule", "add", "-q", str(repository), "arm")
+    outer.git("-C", "arm", "worktree", "add", "-q", str(outer.folder / "tree"), "HEAD~1")
+    for folder, content in (("arm", b"two\n"), ("tree", b"one\r\n")):
+        arm = outer.folder / folder / "cad/arm.urdf"
+        assert Revision(arm.parent, "HEAD").read(arm) == content
+
+
 def test_a_path_that_the_revision_does_not_have(repository: Path) -> None:
     with pytest.raises(SourceError, match=r"tip\.urdf does not exist in revision 'HEAD'; .*git show") as caught:
         Revision(repository, "HEAD").read(repository / "cad/tip.urdf")
@@ -88,7 +111,7 @@ def test_a_content_that_the_clone_lacks(repository: Path) -> None:
     for place in (repository / ".git/objects").glob("??/*"):
         if b"two\n" in zlib.decompress(place.read_bytes()):
             place.unlink()
-    with pytest.raises(SourceError, match=r"git does not have its content: .*; fetch it, or use --against FILE"):
+    with pytest.raises(SourceError, match=r"git does not have its content: .*; fetch it, or use --against ./FILE"):
         Revision(repository, "HEAD").read(repository / "cad/arm.urdf")
 
 

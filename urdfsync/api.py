@@ -151,7 +151,7 @@ def diff(
     on_result: Callable[[Comparison], object] = ignore,
     **given: Any,
 ) -> Results[Comparison]:
-    """Show what changed in sources since the last build, or since the version `against`: a file, or a git revision.
+    """Show what changed in sources since the last build, or since the version `against`: a git revision, else a file.
 
     `sources` are files or robots, `robots` names of robots alone; without both, all sources are compared. No
     configuration is needed for files and `against`. Raises UrdfsyncError for what can't be compared at all; where the

@@ -8,7 +8,7 @@ from collections.abc import Collection
 from functools import cached_property
 
 _SETTINGS = ("-c", "safe.bareRepository=explicit", "-c", "core.fsmonitor=false", "-c", "diff.relative=false")
-"""A stranger's files may form a repository, whose settings name programs for git to run; so does fsmonitor."""
+"""The settings of a repository name programs for git to run, so does fsmonitor."""
 _PATHSPECS = {f"GIT_{kind}_PATHSPECS" for kind in ("LITERAL", "GLOB", "NOGLOB", "ICASE")}
 
 
@@ -60,21 +60,42 @@ class Index:
         return {entry.partition("\t")[2] for entry in entries if entry.startswith("160000 ")}
 
 
+def find_top(folder: str | os.PathLike[str]) -> str | None:
+    """Return the nearest folder around another, itself included, that has a `.git`; None if there is none.
+
+    A folder that is a repository without a `.git` is passed over. It may be made of files that a stranger committed,
+    whereas git commits and checks out no `.git`, in whatever case.
+    """
+    ceilings = os.environ.get("GIT_CEILING_DIRECTORIES", "").split(os.pathsep)
+    limits = {os.path.realpath(ceiling) for ceiling in ceilings if ceiling}
+    top = os.path.realpath(folder)
+    while not os.path.exists(os.path.join(top, ".git")):
+        parent = os.path.dirname(top)
+        if parent == top or parent in limits:
+            return None
+        top = parent
+    return top
+
+
 def _list(command: str, *arguments: str) -> list[str]:
     """Run a command of git that lists paths. Raises GitError."""
     return run(command, "-z", *arguments).split("\0")[:-1]
 
 
 def run(*arguments: str) -> str:
-    """Run git; return its output. Raises GitError.
+    """Run git at the top of the repository around the working folder; return its output. Raises GitError.
 
     The variables of git's own caller count: GIT_DIR and GIT_INDEX_FILE name what is being committed.
     """
+    # git before 2.38 ignores safe.bareRepository, and later ones end instead of passing over such a folder
+    top = None
+    if "GIT_DIR" not in os.environ and (top := find_top(os.curdir)) is None:
+        raise GitError("git failed: not a git repository")
     variables = {name: value for name, value in os.environ.items() if name not in _PATHSPECS}  # they redefine `:/`
     variables |= {"LC_ALL": "C", "GIT_OPTIONAL_LOCKS": "0"}  # English messages; git must not refresh the index
     command = ["git", *_SETTINGS, *arguments]
     try:
-        done = subprocess.run(command, capture_output=True, env=variables, check=False)  # noqa: S603
+        done = subprocess.run(command, cwd=top, capture_output=True, env=variables, check=False)  # noqa: S603
     except OSError as error:
         raise GitError(f"git can't be started: {error.strerror}") from None
     if done.returncode:

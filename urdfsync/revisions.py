@@ -10,6 +10,7 @@ import os
 import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import msgspec
 
@@ -18,9 +19,33 @@ from urdfsync.diagnostics import SourceError
 from urdfsync.domain import Dependency
 from urdfsync.files import digest, shown
 
+if TYPE_CHECKING:
+    import pygit2
+
 _HINT = "name an existing file, or a branch, tag or commit such as HEAD~1"
 _LFS_POINTER = re.compile(rb"version https://git-lfs.*^oid sha256:([0-9a-f]{64})$", re.DOTALL | re.MULTILINE)
 """Content that git holds in the place of a file that is in Git LFS."""
+
+
+def open_repository(folder: Path) -> pygit2.Repository | None:
+    """Return the repository whose working tree a folder lies in; None if there is none.
+
+    Raises SourceError if it can't be read.
+    """
+    import pygit2  # 55 ms, which a comparison with the last build does without
+
+    from urdfsync import git  # likewise
+
+    if (top := git.find_top(folder)) is None:
+        return None
+    try:
+        # discover_repository of libgit2 would take a folder of a stranger's files for a repository
+        flags = pygit2.enums.RepositoryOpenFlag.NO_SEARCH | pygit2.enums.RepositoryOpenFlag.NO_DOTGIT
+        repository = pygit2.Repository(Path(top, ".git"), flags)
+    except pygit2.GitError as problem:  # such as that of another user
+        message, hint = f"the repository can't be read: {problem}", "repair it, or use --against ./FILE"
+        raise SourceError.of("git", message, shown(Path(top)), hint=hint) from None
+    return repository if repository.workdir else None
 
 
 class Revision:
@@ -28,19 +53,12 @@ class Revision:
 
     def __init__(self, folder: Path, name: str) -> None:
         """Raises SourceError if the repository or the revision is missing."""
-        import pygit2  # 55 ms, which a comparison with the last build does without
+        import pygit2
 
         self.name = name
         if name.startswith("-") or not name.strip() or not name.isprintable():
             raise SourceError.of("bad-revision", f"{name!r} is neither a file nor a git revision", hint=_HINT)
-        try:
-            ceilings = os.environ.get("GIT_CEILING_DIRECTORIES", "")
-            place = pygit2.discover_repository(str(folder), False, ceilings)  # noqa: FBT003 - it has no keywords
-            repository = pygit2.Repository(place) if place else None
-        except (pygit2.GitError, KeyError) as problem:  # such as that of another user
-            hint = "repair it, or use --against FILE"
-            raise SourceError.of("git", f"the repository can't be read: {problem}", hint=hint) from None
-        if repository is None or repository.workdir is None:
+        if (repository := open_repository(folder)) is None:
             message = f"there is no file {name!r}, and no git repository around {folder} that has it as a revision"
             raise SourceError.of("no-repository", message, hint=_HINT)
         self._top = Path(os.path.realpath(repository.workdir))
@@ -59,7 +77,7 @@ class Revision:
         content = self.contents([file]).get(file)
         if content is None:
             message = f"{shown(file)} does not exist in revision {self.name!r}"
-            hint = "if it had another path then, save it with `git show REVISION:PATH > FILE`, and use --against FILE"
+            hint = "if it had another path then, save it with `git show REVISION:PATH > FILE`, and use --against ./FILE"
             raise SourceError.of("not-in-revision", message, self.label(file), hint=hint)
         return content
 
@@ -86,7 +104,7 @@ class Revision:
                 if isinstance(entry, pygit2.Blob):
                     contents[file] = entry.data
             except (pygit2.GitError, KeyError) as problem:
-                message, hint = f"git does not have its content: {problem}", "fetch it, or use --against FILE"
+                message, hint = f"git does not have its content: {problem}", "fetch it, or use --against ./FILE"
                 raise SourceError.of("git", message, self.label(file), hint=hint) from None
         return contents
 

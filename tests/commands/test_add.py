@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 from pathlib import Path
 
 import pytest
@@ -45,6 +46,20 @@ def test_what_does_not_fit_changes_nothing(project: Path, execute: Execute) -> N
     file.write_text('robots = { ladder = { domain = "rcnetwork", source = "ladder.json", package = "Ladder" } }\n')
     with unchanged(project):
         assert "[toml-syntax]" in execute(*ADD, "other.json", code=2).err
+
+
+@pytest.mark.parametrize("fault", ["no schema", "write", "sync", "exchange"])
+def test_a_failure_leaves_the_configuration_as_it_was(project: Path, execute: Execute, fault: str) -> None:
+    (project / "other.json").write_text((project / "ladder.json").read_text())
+    if fault == "no schema":
+        (project / ".urdfsync/schema.json").mkdir(parents=True)
+
+    def fail(operation: Operation) -> None:
+        if operation.name == fault:
+            raise OSError(errno.ENOSPC, "no space")
+
+    with unchanged(project, but=".urdfsync/schema.json"), before_each(fail):
+        assert "the configuration can't be written: " in execute(*ADD, "other.json", code=2).err
 
 
 def test_a_link_stays_a_link(project: Path, execute: Execute) -> None:

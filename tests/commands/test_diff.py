@@ -192,8 +192,28 @@ def test_a_revision_with_the_mesh_as_it_was(arm: Path, execute: Execute, monkeyp
     assert [line.partition(":")[0] for line in lines[1:3]] == ["  joint elbow", "  mesh tip.stl"]
     repository.commit()
     assert said(execute, "arm.urdf", "--against", "HEAD")[0] == 0
-    (arm / "main~1").write_text(ARM)
-    assert "tip" not in said(execute, "arm.urdf", "--against", "main~1")[1][1], "a file of that name wins"
+
+
+@NEEDS_GIT
+def test_a_revision_comes_before_a_file_of_its_name(
+    arm: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A pull request may bring such a file, as it is itself: then nothing would seem to have changed."""
+    repository = Repository(arm, monkeypatch)
+    repository.commit()
+    repository.git("update-ref", "refs/remotes/origin/main", "main")
+    edit("arm.urdf", 'effort="54"', 'effort="60"')
+    (arm / "origin").mkdir()
+    for name in ("HEAD", "origin/main", "old.urdf"):
+        shutil.copy("arm.urdf", name)
+    for name, code in (("HEAD", 1), ("origin/main", 1), ("./HEAD", 0), (str(arm / "origin/main"), 0), ("old.urdf", 0)):
+        assert said(execute, "arm.urdf", "--against", name)[0] == code, name
+    (arm / "urdfsync.toml").write_text('[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\n')
+    assert execute("report", "--against", "HEAD").lines[0] == "arm: 1 parameter change since HEAD"
+    assert "'./main' is neither a file nor" in refused(execute, "arm.urdf", "--against", "./main")
+    (arm / ".git/HEAD").unlink()
+    assert "the repository can't be read" in refused(execute, "arm.urdf", "--against", "old.urdf")
+    assert said(execute, "arm.urdf", "--against", "./old.urdf")[0] == 0
 
 
 @NEEDS_GIT

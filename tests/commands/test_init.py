@@ -95,6 +95,13 @@ def test_without_sources_all_below_are_taken(bare: Path, execute: Execute) -> No
     ]
 
 
+def test_after_a_failure_it_can_be_run_again(bare: Path, execute: Execute) -> None:
+    (bare / ".urdfsync/schema.json").mkdir(parents=True)
+    assert "can't be written" in execute("init", "ladder.json", "--domain", "rcnetwork", code=2).err
+    (bare / ".urdfsync/schema.json").rmdir()
+    execute("init", "ladder.json", "--domain", "rcnetwork")
+
+
 def test_a_broken_source_is_passed_over_if_nobody_named_it(execute: Execute, bare: Path) -> None:
     (bare / "bad.rcnetwork").write_text("{")
     (bare / ".hidden.rcnetwork").write_text("{")

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 from support.commands import Execute
-from support.git import NEEDS_GIT, Repository
+from support.git import NEEDS_GIT, Repository, make_repository_of_files
 
 BASE = """\
 model Arm "An arm"
@@ -153,11 +153,8 @@ def test_without_a_clone_nothing_is_installed(folder: Path, execute: Execute, mo
     """A folder that poses as a bare repository is none."""
     monkeypatch.setenv("GIT_CONFIG_GLOBAL", os.devnull)
     monkeypatch.setenv("GIT_CEILING_DIRECTORIES", str(folder.parent))
-    for name in ("objects", "refs"):
-        (folder / name).mkdir()
-    (folder / "HEAD").write_text("ref: refs/heads/main\n")
-    settings = f"[core]\nrepositoryformatversion = 0\nbare = false\nworktree = {folder}\n"
-    (folder / "config").write_text(settings)
+    make_repository_of_files(folder)
+    settings = (folder / "config").read_text()
     assert "; run it in a clone [git]" in execute("merge-driver", "--install", code=2).err
     assert (folder / "config").read_text() == settings
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -53,6 +54,22 @@ def test_a_finding_stands_at_its_line_below_the_top_of_the_repository(
     assert whole_file["region"] == {"startLine": 1}
     assert [result["level"] for result in run["results"]] == ["error", "warning"]
     assert run["results"][0]["message"]["text"] == "link a|b is below itself; correct it"
+
+
+@pytest.mark.parametrize(
+    ("message", "text"),
+    [
+        ("see [here](https://evil) [1](0)", r"see \[here\](https://evil) \[1\](0)"),
+        (r"see \[here](0)", r"see \\\[here\](0)"),
+        ("{0} of {{1}}", "{{0}} of {{{{1}}}}"),
+    ],
+)
+def test_a_message_has_neither_links_nor_placeholders(folder: Path, message: str, text: str) -> None:
+    run = run_of(Diagnostic(Severity.ERROR, "cycle", message, "a"), Diagnostic(Severity.ERROR, "locked", message))
+    (notification,) = run["invocations"][0]["toolExecutionNotifications"]
+    assert run["results"][0]["message"]["text"] == notification["message"]["text"] == text
+    restored = re.sub(r"\\([\[\]\\])", r"\1", text).replace("{{", "{").replace("}}", "}")
+    assert restored == message
 
 
 def test_a_file_outside_of_the_repository_has_a_whole_address(folder: Path) -> None:

@@ -43,3 +43,13 @@ class Repository:
             done = subprocess.run(["git", "checkout", "-q", "HEAD", "--", path], cwd=self.folder, capture_output=True)
             if done.returncode:  # it is deleted here
                 (self.folder / path).unlink(missing_ok=True)
+
+
+def make_repository_of_files(folder: Path) -> None:
+    """Make a folder a repository without a `.git`, as a stranger can commit it; its settings name a program."""
+    for name in ("objects", "refs/heads"):
+        (folder / name).mkdir(parents=True)
+        (folder / name / "keep").touch()
+    (folder / "HEAD").write_text("ref: refs/heads/main\n")
+    settings = f'bare = false\nworktree = "{folder}"\nfsmonitor = "touch {folder}/fsmonitor; false"\n'
+    (folder / "config").write_text(f"[core]\nrepositoryformatversion = 0\n{settings}")

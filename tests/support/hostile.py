@@ -26,7 +26,7 @@ MINE = "modelica/Other/Mine.mo"
 """A file of the user's own beside the package."""
 _MODULES = (
     *sys.stdlib_module_names,
-    *("urdfsync", "jinja2", "msgspec", "lxml", "numpy", "psutil", "rumoca", "rich", "sitecustomize"),
+    *("urdfsync", "jinja2", "msgspec", "lxml", "numpy", "psutil", "rumoca", "rich", "sitecustomize", "pip"),
 )
 
 

@@ -49,7 +49,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     plain = new.removeprefix("\ufeff").replace("\r\n", "\n")
     config.parse(plain, loaded.file, shown(loaded.file))  # which refuses what does not fit together
     with write_errors(loaded.file):
+        write_schema(loaded.root)  # first: if it fails, the configuration stays as it is
         save(loaded.file, content, new.encode())
-        write_schema(loaded.root)
     console.warnings(warnings)
     return show_guesses(console, loaded.file, "extended", guesses)

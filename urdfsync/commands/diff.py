@@ -37,7 +37,7 @@ def add(commands: arguments.Commands) -> None:
         "sources", nargs="*", metavar="SOURCE", help="sources or robots, with --edits also outputs (default: all)"
     )
     other = parser.add_mutually_exclusive_group()
-    other.add_argument("--against", metavar="VERSION", help="the older version: a file or a git revision")
+    other.add_argument("--against", metavar="VERSION", help="the older version: git revision, else file")
     other.add_argument("--edits", action="store_true", help="show what you edited in the packages instead")
 
 

@@ -82,8 +82,8 @@ def run(args: argparse.Namespace, console: Console) -> int:
     guesses, warnings = guess_robots(domain, file.parent, named, given)
     _refuse_existing(file)
     with write_errors(file):
+        write_schema(file.parent)  # first: with a configuration, `init` could not be run again
         put(file, configuration_text(domain, guesses, merges=args.merge).encode())
-        write_schema(file.parent)
     console.warnings(warnings)
     return show_guesses(console, file, "written", guesses)
 

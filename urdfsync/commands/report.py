@@ -40,7 +40,7 @@ def add(commands: arguments.Commands) -> None:
     )
     option = parser.add_argument
     option("robots", nargs="*", metavar="ROBOT", help="the robot, if there is more than one")
-    option("--against", metavar="VERSION", help="the older version: a file or a git revision (default: the last build)")
+    option("--against", metavar="VERSION", help="the older version: git revision, else file (default: the last build)")
     option("--output", type=Path, metavar="FILE.html", help="where to write it (default: the robot's name, here)")
 
 

@@ -13,12 +13,15 @@ from pathlib import Path
 from typing import Any
 from urllib.parse import quote
 
-from urdfsync import __version__, config
+from urdfsync import __version__, config, git
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.engine.result import Exit
 from urdfsync.output.sections import Section
 
 _SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
+
+_ESCAPES = str.maketrans({**{char: f"\\{char}" for char in "[]\\"}, "{": "{{", "}": "}}"})
+"""Signs of embedded links, and of placeholders (3.11.5, 3.11.6): names in a message may be a stranger's."""
 
 
 def log(sections: Iterable[Section], findings: Sequence[Diagnostic], code: int) -> str:
@@ -29,11 +32,10 @@ def log(sections: Iterable[Section], findings: Sequence[Diagnostic], code: int) 
     of_robots = ((*section.findings, *filter(None, [section.verdict])) for section in sections)
     told = dict.fromkeys([*findings, *(finding for group in of_robots for finding in group)])
     folder, meanings = config.working_folder(), read_meanings()
-    # the top of the repository around the working folder, else that folder
-    top = next((place for place in (folder, *folder.parents) if (place / ".git").exists()), folder)
+    top = Path(git.find_top(folder) or folder)
     results, notifications = [], []
     for finding in told:
-        values = {"level": str(finding.severity), "message": {"text": finding.sentence}}
+        values = {"level": str(finding.severity), "message": {"text": finding.sentence.translate(_ESCAPES)}}
         if finding.file:
             location = {"physicalLocation": _location(finding, top)}
             results.append({"ruleId": finding.code, **values, "locations": [location]})
@@ -41,7 +43,7 @@ def log(sections: Iterable[Section], findings: Sequence[Diagnostic], code: int) 
             notifications.append({"descriptor": {"id": finding.code}, **values})
     rules = []
     for rule in sorted({finding.code for finding in told}):
-        text = {"text": meanings.get(rule, "its message says what to do")}
+        text = {"text": meanings.get(rule, "its message says what to do").translate(_ESCAPES)}
         rules.append({"id": rule, "shortDescription": text, "fullDescription": text, "help": text})
     invocation = {
         "executionSuccessful": code not in (Exit.ERROR, Exit.LOCKED, Exit.INTERRUPTED),

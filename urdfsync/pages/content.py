@@ -58,7 +58,7 @@ def gather(
     folder: Path,
     shown_before: Sequence[Contents] = (),
 ) -> Content:
-    """Return all about one robot; `against` is a file, counted from `folder`, or a git revision.
+    """Return all about one robot; `against` is a git revision, else a file, counted from `folder`.
 
     Where nothing changed since the last build, the older version is the first of `shown_before` that differs.
     Raises UrdfsyncError if the source can't be read, or the older version.

@@ -119,7 +119,8 @@ def select_sources(
         raise ConfigError.of("no-robot", message, hint=hint)
     named = [*(text for text in sources if text not in alone), *names]
     robots = config.select(named) if config and (named or not alone) else ()
-    if against and (folder / against).is_file() and len({robot.source for robot in robots}) + len(alone) > 1:
+    compared = {*(robot.source for robot in robots), *alone.values()}
+    if against and len(compared) > 1 and any(_is_file(against, source, folder) for source in compared):
         message = "--against names one file, but several sources are compared"
         raise ConfigError.of("one-file", message, hint="name the source to compare it with")
     yield config, robots
@@ -144,7 +145,7 @@ def robot_of_file(path: Path) -> RobotConfig:
 def compare_sources(
     robots: Sequence[RobotConfig], against: str | None, config: Config | None, options: BuildOptions, folder: Path
 ) -> Iterator[Comparison]:
-    """Compare each source with the last build, or with `against`: a file, counted from `folder`, or a git revision.
+    """Compare each source with the last build, or with `against`: a git revision, or a file, counted from `folder`.
 
     One that fails does not stop the others. Without a configuration there has to be another version.
     """
@@ -182,6 +183,24 @@ def _with_last_build(robot: RobotConfig, config: Config, options: BuildOptions) 
     return Comparison(result, shown(robot.source), None, missing, effects)
 
 
+def _is_file(against: str, source: Path, folder: Path) -> bool:
+    """Return whether `against` names a file: as a path, or because git has no revision of that name.
+
+    Raises SourceError if git can't tell.
+    """
+    if not (folder / against).is_file():
+        return False
+    if against.startswith(("./", "../")) or Path(against).is_absolute():
+        return True
+    try:
+        Revision(source.parent, against)
+    except SourceError as error:
+        if error.diagnostics[0].code == "git":
+            raise
+        return True
+    return False
+
+
 class _VersionedSource(NamedTuple):
     """The content of a source in one version."""
 
@@ -199,9 +218,10 @@ def _with_version(
     """Compare a source with another version of it; the actions are those of a package that nobody edited."""
     domain, result = registry.domain(robot.domain), _result(robot, config)
     with tempfile.TemporaryDirectory(prefix="urdfsync-") as scratch:
-        source, file = robot.source, folder / against
+        source = robot.source
         arguments, folders = robot.arguments or {}, (*robot.package_paths, *options.package_paths)
-        if file.is_file():
+        if _is_file(against, source, folder):
+            file = folder / against
             other = _VersionedSource(source_files.read_file_source(domain, file, arguments, folders), (file, source))
         else:
             revision = Revision(source.parent, against)
