@@ -11,6 +11,7 @@ from pathlib import Path
 import msgspec
 
 from urdfsync.changes import Changes
+from urdfsync.dependencies import Dependencies
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.engine.actions import Action, Actions, Kind, Reason
 from urdfsync.engine.conflicts import Conflict, conflict_files
@@ -134,6 +135,8 @@ class Result(msgspec.Struct, frozen=True):
     """The texts of the files that conflict, in the order of their paths."""
     checked: Checked | None = None
     """Verdict of a check of the package; None if there was none. Its findings are among the diagnostics."""
+    reads: Dependencies = msgspec.field(default_factory=Dependencies)
+    """All that the plan, or the error in its place, has read; what was written since is in there as it is now."""
 
     @property
     def conflicts(self) -> Sequence[DisputedFile]:
