@@ -7,10 +7,12 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from support.networks import run_all
+from support import xacros
+from support.networks import RECORD, configure, resistor, run, run_all
 
 from urdfsync import dependencies
-from urdfsync.dependencies import VARIABLE
+from urdfsync.dependencies import LSTAT, MODELICA, NAMES, NOTHING, STAT, STAT_TYPE, VARIABLE
+from urdfsync.files import digest
 
 
 @pytest.fixture
@@ -59,3 +61,54 @@ def test_what_changes_or_fails_meanwhile_makes_the_record_incomplete(tmp_path: P
     with dependencies.Dependencies() as found, pytest.raises(OSError, match="too long"):
         dependencies.is_file(tmp_path / ("a" * 5000))
     assert not found.complete, "the system did not tell"
+
+
+def test_a_plan_lists_what_it_has_read_each_with_its_kind(project: Path) -> None:
+    """Files, places where nothing is, names in folders, and outputs that are to be made."""
+    configure('package_paths = ["later"]\ntemplates = "own"\n')
+    (project / "own").mkdir()
+    (project / "Mine.mo").write_text("model Mine end Mine;")
+    (project / "step.csv").unlink()
+    reads = run(dry=True).reads.entries
+    for check, name in ((STAT, "ladder.json"), (STAT, "Mine.mo"), (NAMES, "own"), (MODELICA, ".")):
+        assert reads[check, str((project / name).resolve())] != NOTHING
+    for check, name in ((STAT_TYPE, "step.csv"), (STAT_TYPE, "later/step.csv"), (STAT_TYPE, "modelica")):
+        assert reads[check, str(project / name)] == NOTHING
+    run()
+    assert (LSTAT, str(project / RECORD)) in run(dry=True).reads.entries
+
+
+def test_an_error_carries_the_list_in_the_place_of_a_plan(project: Path) -> None:
+    (project / "ladder.json").unlink()
+    (failed,) = run_all()
+    assert failed.reads.entries[STAT_TYPE, str(project / "ladder.json")] == NOTHING
+    (project / "ladder.json").write_text("{")
+    (failed,) = run_all()
+    assert failed.reads.entries[STAT, str(project / "ladder.json")] != NOTHING
+
+
+def test_so_does_an_error_of_xacro(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    source = xacros.ARM.replace("parts/beam.xacro", "parts/*.xacro").replace("masses.yaml", "gone.yaml")
+    xacros.write(tmp_path, {"arm.urdf.xacro": source})
+    Path("urdfsync.toml").write_text('[robots.arm]\nsource = "urdf/arm.urdf.xacro"\npackage = "Arm"\n')
+    (failed,) = run_all()
+    assert failed.failed
+    reads = {
+        (check, str(Path(path).relative_to(tmp_path))): facts
+        for (check, path), facts in failed.reads.entries.items()
+        if path.startswith(str(tmp_path))
+    }
+    assert reads[STAT, "urdf/gone.yaml"] == NOTHING
+    assert (NAMES, "urdf/parts") in reads
+
+
+def test_a_build_lists_what_it_wrote_as_it_is_then(project: Path) -> None:
+    run()
+    resistor(150)
+    result = run()
+    assert result.writes
+    for entry, facts in result.reads.entries.items():
+        assert dependencies.check_path(*entry) == facts, entry
+    record = project / RECORD
+    assert result.reads.hashes[LSTAT, str(record)] == digest(record.read_bytes())

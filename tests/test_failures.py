@@ -110,7 +110,7 @@ def test_a_signal_ends_a_build_with_130(
     with Lock(tmp_path / ".urdfsync/lock", 0) as lock:
         lock.acquire()
         # Python may lose a signal that arrives while it imports, so all that the lock needs is there
-        code = "import filelock, sys; from urdfsync import cli; from urdfsync.state.lock import Lock"
+        code = "import sys; from urdfsync import cli; from urdfsync.state.lock import Lock"
         code += "\nacquire = Lock.acquire"
         code += "\ndef tell(*a, **k): print('waits', flush=True); return acquire(*a, **k)"
         code += "\nLock.acquire = tell; sys.exit(cli.main(['build']))"

@@ -5,10 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 from urdfsync import dependencies, registry
-from urdfsync.dependencies import STAT
+from urdfsync.dependencies import NAMES
 
 
 def test_domains_that_are_installed_depend_on_what_else_is(rc_domain: None, rc_site: Path) -> None:
     with dependencies.Dependencies() as found:
         registry.domain("rcnetwork")
-    assert (STAT, str(rc_site)) in found.entries
+    assert (NAMES, str(rc_site)) in found.modules

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import enum
 import os
-from collections.abc import Collection
 from typing import Self
 
 import msgspec
@@ -117,11 +116,6 @@ class ConfigError(UrdfsyncError):
 
 class SourceError(UrdfsyncError):
     """A source can't be read as a model."""
-
-    reads: Collection[str] = ()
-    """Absolute paths of the other files that were read for it, or are not there; as far as is known."""
-    patterns: Collection[str] = ()
-    """Likewise, those by which files were looked for."""
 
 
 class StateError(UrdfsyncError):

@@ -10,7 +10,16 @@ import stat
 from collections.abc import Sequence
 from pathlib import Path
 
-from urdfsync.dependencies import file_type, read_file, read_stat, read_unrecorded, walk_files
+from urdfsync.dependencies import (
+    LSTAT,
+    Dependencies,
+    file_type,
+    note_content,
+    read_file,
+    read_stat,
+    read_unrecorded,
+    walk_files,
+)
 from urdfsync.diagnostics import OutputError
 
 TEMPORARY = ".urdfsync-tmp"
@@ -68,15 +77,16 @@ def put(file: Path, content: bytes) -> None:
 def templates_digest(folders: Sequence[Path]) -> str:
     """Return the SHA-256 (hex) of the templates in use, by name and content; earlier folders hide names of later ones.
 
-    Hidden files are left out.
+    The last folder is the program's. Hidden files are left out.
     """
     templates: dict[str, str] = {}
     for folder in reversed(folders):
         above = len(str(folder)) + 1
-        for path in walk_files(folder):
-            name = path[above:].replace(os.sep, "/")
-            if not name.rpartition("/")[2].startswith("."):
-                templates[name] = text_digest(read_file(path))
+        with Dependencies(is_program=folder is folders[-1]):
+            for path in walk_files(folder):
+                name = path[above:].replace(os.sep, "/")
+                if not name.rpartition("/")[2].startswith("."):
+                    templates[name] = text_digest(read_file(path))
     lines = [f"{name}\0{content}\n" for name, content in sorted(templates.items())]
     return digest("".join(lines).encode())
 
@@ -129,8 +139,12 @@ class Tree:
             return None
         try:
             mode = read_stat(path)[0]
-            if not mode or stat.S_ISREG(mode):
-                return read_unrecorded(path) if mode else None
+            if not mode:
+                return None
+            if stat.S_ISREG(mode):
+                content = read_unrecorded(path)
+                note_content(LSTAT, path, content)
+                return content
         except (FileNotFoundError, NotADirectoryError):
             return None  # it is gone since
         except OSError as error:

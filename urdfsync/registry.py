@@ -9,7 +9,7 @@ import sys
 from pathlib import Path
 from typing import cast
 
-from urdfsync.dependencies import list_folder, read_file
+from urdfsync.dependencies import Dependencies, list_folder, read_file
 from urdfsync.diagnostics import ConfigError
 from urdfsync.domain import Domain
 from urdfsync.spelling import nearest
@@ -51,18 +51,19 @@ def _installed() -> dict[str, str]:
     from importlib.metadata import PathDistribution
 
     domains = dict[str, str]()
-    for folder in sys.path:
-        names = list[str]()
-        with contextlib.suppress(OSError):  # it need not exist, and may be an archive
-            names = list_folder(folder or ".")
-        for name in names:
-            # strings take a third of the time of paths: there are hundreds of distributions
-            file = f"{folder or '.'}/{name}/entry_points.txt"
-            if not name.endswith("-info") or not os.path.isfile(file):  # noqa: PTH113
-                continue
-            with contextlib.suppress(OSError):  # Python passes over such a distribution, too
-                if b"[urdfsync.domains]" in read_file(file):  # to parse those of all distributions takes 15 ms
-                    entries = PathDistribution(Path(file).parent).entry_points.select(group="urdfsync.domains")
-                    # an entry's name is the domain's, its value `module:object`; the first on the path counts
-                    domains = {entry.name: entry.value for entry in entries} | domains
+    with Dependencies(is_program=True):
+        for folder in sys.path:
+            names = list[str]()
+            with contextlib.suppress(OSError):  # it need not exist, and may be an archive
+                names = list_folder(folder or ".")
+            for name in names:
+                # strings take a third of the time of paths: there are hundreds of distributions
+                file = f"{folder or '.'}/{name}/entry_points.txt"
+                if not name.endswith("-info") or not os.path.isfile(file):  # noqa: PTH113
+                    continue
+                with contextlib.suppress(OSError):  # Python passes over such a distribution, too
+                    if b"[urdfsync.domains]" in read_file(file):  # to parse those of all distributions takes 15 ms
+                        entries = PathDistribution(Path(file).parent).entry_points.select(group="urdfsync.domains")
+                        # an entry's name is the domain's, its value `module:object`; the first on the path counts
+                        domains = {entry.name: entry.value for entry in entries} | domains
     return domains

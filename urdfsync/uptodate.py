@@ -1,8 +1,10 @@
 """The up-to-date check: repeat the answer of a command, while nothing has changed that it depends on.
 
-`.urdfsync/stamp-build` holds the last answer of `build`, the paths that it depended on, and a hash of the facts about
-these paths; so do `stamp-status` and `stamp-hook`. If the file is in any other state, the command runs. The program's
-own modules are among the paths, for those who work on it.
+`.urdfsync/stamp-build` holds the last answer of `build`, the list of all that it read, and a hash of the facts about
+that; so do `stamp-status` and `stamp-hook`. If the file is in any other state, the command runs. The program's own
+modules are in the list, for those who work on it.
+Files that were young when they were read are compared by their contents, as git does with racy entries of its index;
+once all of them are old, the answer is written again, and from then on stat values tell.
 The check comes before all else that a command does, so this module imports only what loads in a fraction of a ms:
 contextlib would take 1 of 12.
 """
@@ -11,14 +13,17 @@ from __future__ import annotations
 
 import os
 import sys
+import time
 
 from urdfsync import __version__, streams
-from urdfsync.dependencies import LSTAT, MAX_FILE, STAT, VARIABLE, Dependencies, check_path, is_young
+from urdfsync.dependencies import MAX_FILE, VARIABLE, Dependencies, check_path, hash_file, is_young
 
 COMMANDS = ("build", "status")
 CONFIGURATION = "urdfsync.toml"
 
-_FORMAT = "urdfsync answer 4"
+_FORMAT = "urdfsync answer 5"
+_OLD = "-"
+"""In the place of a content's hash: stat values tell whether the file has changed."""
 _VARIABLES = (
     *("ROS_PACKAGE_PATH", "AMENT_PREFIX_PATH", "MODELICAPATH", "PYTHONPATH", "NO_COLOR", "FORCE_COLOR", "TERM"),
     *("COLORTERM", "COLUMNS", "LINES", "TTY_COMPATIBLE", "TTY_INTERACTIVE", "UNICODE_VERSION"),
@@ -68,21 +73,32 @@ def find_answer(config_file: str, command: str, key: str) -> list[str] | None:
 
     It counts only if this program wrote it in this very file: a copy, such as a committed one, is somebody else's.
     """
-    flags = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOFOLLOW", 0)  # a pipe must not hold it up
     try:
-        with open(
-            os.open(_stamp(config_file, command), flags), encoding="utf-8", errors="surrogateescape", newline=""
-        ) as file:
-            status = os.fstat(file.fileno())
-            text = file.read() if status.st_size <= MAX_FILE else ""
-        if not text.startswith(f"{_bound(status)}\0\0"):  # nobody else's is taken apart, which could take minutes
-            return None
-        _, (saved_hash,), checks, (saved_key, *answer), end = [section.split("\0") for section in text.split("\0\0")]
-        # Python gives tuples of integers the same hash in each process
-        now = hash(tuple(check_path(check, path) for check, path in zip(checks[::2], checks[1::2], strict=True)))
-        return answer if saved_key == key and now == int(saved_hash) and end == ["end"] else None
+        return _find_answer(_stamp(config_file, command), key)
     except (OSError, ValueError):
         return None
+
+
+def _find_answer(stamp: str, key: str) -> list[str] | None:
+    flags = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOFOLLOW", 0)  # a pipe must not hold it up
+    with open(os.open(stamp, flags), encoding="utf-8", errors="surrogateescape", newline="") as file:
+        status = os.fstat(file.fileno())
+        text = file.read() if status.st_size <= MAX_FILE else ""
+    if not text.startswith(f"{_bound(status)}\0\0"):  # nobody else's is taken apart, which could take minutes
+        return None
+    _, (facts_hash,), read, (saved_key, *answer), end = [section.split("\0") for section in text.split("\0\0")]
+    paths, hashes, started = read[1::3], read[2::3], time.time_ns()
+    facts = tuple(check_path(check, path) for check, path in zip(read[::3], paths, strict=True))
+    # Python gives tuples of integers the same hash in each process
+    if saved_key != key or hash(facts) != int(facts_hash) or end != ["end"]:
+        return None
+    young = [number for number, sha256 in enumerate(hashes) if sha256 != _OLD]
+    if any(hash_file(paths[number]) != hashes[number] for number in young):
+        return None
+    if young and not any(is_young(facts[number], started) for number in young):
+        read[2::3] = [_OLD] * len(paths)
+        _write(stamp, facts_hash, read, [key, *answer])
+    return answer
 
 
 def _bound(status: os.stat_result) -> str:
@@ -110,25 +126,27 @@ def print_answer(arguments: list[str]) -> str | None:
 def save_answer(config_file: str, command: str, key: str, answer: list[str], dependencies: Dependencies) -> None:
     """Save the answer of a command that exited with 0, in the place of the command's last one.
 
-    Nothing is saved if one of the dependencies has just changed, or if it is not certain that they are all there are.
+    Nothing is saved if it is not certain that `dependencies` are all that it was made of, and as they were.
     """
     from pathlib import PurePath  # 10 ms, which the check does without
 
     if not dependencies.complete or sum(map(len, answer)) > _MAX_CHARACTERS:
         return
-    here, stamp = os.getcwd(), _stamp(config_file, command)
+    here = os.getcwd()
     dependencies.add_modules()
-    recorded = {
-        (check, path if check == VARIABLE else os.path.join(here, path)): facts
-        for (check, path), facts in dependencies.entries.items()
-    }
-    if (STAT, str(PurePath(config_file))) not in recorded:
+    read, entries = list[str](), dependencies.entries | dependencies.modules
+    for check, path in entries:
+        place = path if check == VARIABLE else os.path.join(here, path)
+        read += (check, place, dependencies.hashes.get((check, path), _OLD))
+    if str(PurePath(config_file)) not in read:
         return  # such as `--help`, which reads nothing
-    if any(is_young(facts, dependencies.started) for (check, _), facts in recorded.items() if check in (LSTAT, STAT)):
-        return
-    checks = [text for pair in recorded for text in pair]
-    if any(not text or "\0" in text for text in (*checks, key, *answer)):
-        return  # the file can't hold that
+    if any(not text or "\0" in text for text in (*read, key, *answer)):
+        return  # the content of a young file is not known, or the file can't hold that
+    _write(_stamp(config_file, command), str(hash(tuple(entries.values()))), read, [key, *answer])
+
+
+def _write(stamp: str, facts_hash: str, read: list[str], answer: list[str]) -> None:
+    """Write an answer with its key, and what it rests on: a check, a path and a hash or `_OLD` for each entry."""
     folder = os.path.dirname(stamp)
     temporary = os.path.join(folder, ".stamp.urdfsync-tmp")
     if os.path.islink(folder):  # a repository may have committed one that leads elsewhere
@@ -141,9 +159,8 @@ def save_answer(config_file: str, command: str, key: str, answer: list[str], dep
             os.utime(descriptor, ns=(0, 0))
             if os.name == "nt" or os.fstat(descriptor).st_ctime_ns < status.st_ctime_ns:
                 return  # on Windows, FAT and sshfs, a file has no time of change that nobody can set
-            facts_hash = str(hash(tuple(recorded.values())))
             # the last section says that the file is whole
-            text = "\0\0".join([_bound(status), facts_hash, "\0".join(checks), "\0".join([key, *answer]), "end"])
+            text = "\0\0".join([_bound(status), facts_hash, "\0".join(read), "\0".join(answer), "end"])
             os.write(descriptor, text.encode("utf-8", "surrogateescape"))
             os.utime(descriptor, ns=(status.st_mtime_ns, status.st_mtime_ns))
             os.replace(temporary, stamp)

@@ -19,7 +19,7 @@ from support.networks import edit, run_all
 from support.replay import contents
 
 from urdfsync import config
-from urdfsync.dependencies import Dependencies
+from urdfsync.dependencies import STAT, Dependencies
 from urdfsync.diagnostics import ConfigError
 from urdfsync.engine import pool
 from urdfsync.engine.build import build
@@ -81,9 +81,9 @@ def test_what_workers_read_is_recorded_as_a_dependency_of_the_answer(robots: Pat
     assert together.complete
     assert alone.entries.items() <= together.entries.items()
     (robots / "n2.json").write_text("{")
-    with Dependencies() as failed:
-        run_all(jobs=2)
-    assert not failed.complete
+    failed = run_all(jobs=2)[2]
+    assert failed.failed
+    assert (STAT, str(robots / "n2.json")) in failed.reads.entries, "an error carries it as a plan does"
 
 
 class LastComeFirst(Executor):

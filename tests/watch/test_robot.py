@@ -1,85 +1,115 @@
-"""The files of a watched robot: what a look at them finds, and which change is told first."""
+"""What a look at a watched robot finds of all that its last build read, and which change is told first."""
 
 from __future__ import annotations
 
 import os
 import shutil
+import time
 from pathlib import Path
 
 import msgspec
 import pytest
 
-from urdfsync import config
-from urdfsync.files import digest
-from urdfsync.watch.paths import RobotPaths
-from urdfsync.watch.robot import WatchedRobot, read_state
-
-NAMES = ["arm.urdf", "gone.stl"], ["Arm.mo"], ["*.yaml"]
+from urdfsync import config, dependencies
+from urdfsync.dependencies import STAT, Dependencies, file_type, list_folder, read_file, read_variable, scan_modelica
+from urdfsync.files import Tree
+from urdfsync.watch.robot import WatchedRobot
 
 
-@pytest.fixture
-def robot(folder: Path) -> WatchedRobot:
-    """A robot with a source, a template and a model, read once."""
-    for path in ("arm.urdf", "more.yaml", "own/sub/a.jinja", "Arm.mo"):
+@pytest.fixture(params=[True, False], ids=["young", "old"])
+def robot(folder: Path, request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> WatchedRobot:
+    """A robot with a source, templates and a model; its files are young or old when they are read."""
+    monkeypatch.setattr(dependencies, "YOUNG", 10**18 if request.param else 0)
+    for path in ("arm.urdf", "own/a.jinja", "models/Own.mo", "Arm.mo"):
         Path(path).parent.mkdir(parents=True, exist_ok=True)
         Path(path).write_text("old")
     text = '[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\ntemplates = "own"\n'
-    (settings,) = config.parse(text, folder / "urdfsync.toml", "urdfsync.toml").robots
-    inputs, outputs, patterns = (frozenset(str(folder / name) for name in names) for names in NAMES)
-    found = WatchedRobot(settings, RobotPaths(inputs, outputs, patterns))
-    assert found.has_changed()
+    found = WatchedRobot(config.parse(text, folder / "urdfsync.toml", "urdfsync.toml").robots[0])
+    assert found.take(read(folder), {})
+    assert found.look()
+    assert not found.look()
+    assert not found.has_changed
     return found
 
 
-def test_inputs_outputs_templates_and_what_patterns_match_are_read(robot: WatchedRobot) -> None:
-    names = {os.path.relpath(path): sha256 for path, sha256 in robot.hashes.items()}
-    read = dict.fromkeys(("arm.urdf", "more.yaml", "own/sub/a.jinja", "Arm.mo"), digest(b"old"))
-    assert names == {**read, "gone.stl": "missing"}
-    assert robot.has_files([*robot.hashes])
-    assert not robot.has_files([str(Path("own").absolute())])
+def read(folder: Path) -> Dependencies:
+    with Dependencies() as reads:
+        for path in ("arm.urdf", "own/a.jinja"):
+            assert read_file(folder / path)
+        assert file_type(folder / "gone.stl") == 0
+        assert list_folder(folder / "own")
+        assert scan_modelica(folder / "models")
+        assert Tree(folder).read(folder / "Arm.mo")
+        assert Tree(folder).read(folder / "New.mo") is None
+        assert read_variable("HOME") is not None
+    return reads
 
 
 @pytest.mark.parametrize(("files", "first"), [
-    (["arm.urdf"], "arm.urdf"), (["gone.stl"], "gone.stl"), (["new.yaml"], "new.yaml"),
-    (["own/new.jinja"], "own/new.jinja"), (["Arm.mo"], "Arm.mo"), (["Arm.mo", "arm.urdf", "gone.stl"], "arm.urdf"),
-    (["other.txt"], ""),
+    (["arm.urdf"], "arm.urdf"), (["gone.stl"], "gone.stl"), (["own/a.jinja"], "own/a.jinja"), (["Arm.mo"], "Arm.mo"),
+    (["New.mo"], "New.mo"), (["Arm.mo", "arm.urdf", "gone.stl"], "arm.urdf"), (["own/new.jinja"], None),
+    (["models/New.mo"], None), (["other.txt"], ""), (["models/other.txt"], ""),
 ])  # fmt: skip
-def test_a_look_finds_what_changed_an_input_first(robot: WatchedRobot, files: list[str], first: str) -> None:
-    before = robot.hashes
+def test_a_look_finds_what_changed_an_input_first_and_names_in_folders_in_silence(
+    robot: WatchedRobot, files: list[str], first: str | None
+) -> None:
     for file in files:
-        Path(file).write_text("new text")
-    assert robot.has_changed() is bool(first)
+        Path(file).write_text("new")
+    robot.look()
+    assert robot.has_changed is (first != "")
     assert robot.changed_file == (str(Path(first).absolute()) if first else "")
-    assert robot.has_new_input(before) is (first in ("arm.urdf", "gone.stl"))
-    assert not robot.has_changed()
-    assert not robot.has_new_input({}), "what was not known before"
 
 
-def test_a_look_at_some_files_leaves_the_others_and_one_at_a_folder_reads_all(robot: WatchedRobot) -> None:
-    source, model = (str(Path(name).absolute()) for name in ("arm.urdf", "Arm.mo"))
-    for path in (source, model):
-        Path(path).write_text("new text")
-    assert robot.has_changed([model])
-    assert robot.hashes[source] == digest(b"old")
-    assert not robot.has_changed([model])
-    assert robot.has_changed([str(Path("own").absolute())])
-    assert robot.changed_file == source
+def test_only_contents_count(robot: WatchedRobot) -> None:
+    for path in ("arm.urdf", "Arm.mo", "own/a.jinja"):
+        os.utime(path, ns=(1, 1))
+    robot.look()
+    assert not robot.has_changed
+    Path("arm.urdf").unlink()
+    robot.look()
+    assert robot.changed_file == str(Path("arm.urdf").absolute())
 
 
-def test_of_what_is_no_file_a_word_is_known(robot: WatchedRobot, folder: Path) -> None:
-    shutil.move("Arm.mo", "elsewhere.mo")
-    Path("Arm.mo").symlink_to("elsewhere.mo")
-    assert robot.has_changed(), "a build refuses a link in the place of a model"
-    assert read_state(str(folder / "Arm.mo")) == digest(b"old")
-    assert robot.hashes[str(folder / "Arm.mo")] == read_state(str(folder / "Arm.mo"), follow=False) == "other"
-    assert [read_state(str(folder / name)) for name in ("own", "arm.urdf/x", "none")] == [
-        "folder",
-        "missing",
-        "missing",
-    ]
+def test_what_changed_since_it_was_read_has_changed(robot: WatchedRobot, folder: Path) -> None:
+    """Though no look has been between the two."""
+    reads = read(folder)
+    time.sleep(0.02)
+    Path("arm.urdf").write_text("now")
+    assert not robot.take(reads, {}), "the entries are the same"
+    robot.look()
+    assert robot.changed_file == str(Path("arm.urdf").absolute())
+
+
+def test_what_a_build_wrote_has_not(robot: WatchedRobot, folder: Path) -> None:
+    reads = read(folder)
+    for name in ("New.mo", "Arm.mo"):
+        Path(name).write_text("written")
+    reads.renew({str(folder / name): b"written" for name in ("New.mo", "Arm.mo")})
+    robot.take(reads, {})
+    robot.look()
+    assert not robot.has_changed
+    Path("New.mo").write_text("WRITTEN")
+    robot.look()
+    assert robot.changed_file == str(folder / "New.mo")
+
+
+def test_after_a_bug_the_robot_is_as_it_is(robot: WatchedRobot) -> None:
+    Path("arm.urdf").write_text("new")
+    assert not robot.take(Dependencies(), {})
+    robot.look()
+    assert not robot.has_changed
+
+
+def test_a_link_in_the_place_of_a_model_is_a_change_and_one_to_a_source_is_not(robot: WatchedRobot) -> None:
+    for name in ("arm.urdf", "Arm.mo"):
+        shutil.move(name, f"{name}.moved")
+        Path(name).symlink_to(f"{name}.moved")
+    robot.look()
+    assert robot.changed_file == str(Path("Arm.mo").absolute())
+    assert robot.seen[STAT, str(Path("arm.urdf").absolute())] == robot.built[STAT, str(Path("arm.urdf").absolute())]
 
 
 def test_to_settle_forgets_earlier_looks(robot: WatchedRobot) -> None:
-    earlier = msgspec.structs.replace(robot, sample=robot.hashes, invalid_until=5.0)
+    earlier = msgspec.structs.replace(robot, sample=robot.seen, invalid_until=5.0)
     earlier.settle(3.0, is_told=True)
     assert earlier == msgspec.structs.replace(robot, due=3.0, is_told=True)

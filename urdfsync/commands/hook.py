@@ -15,10 +15,10 @@ from pathlib import Path, PurePosixPath
 import msgspec
 
 from urdfsync import config as configuration
-from urdfsync import dependencies, git, hook, uptodate
+from urdfsync import git, hook, uptodate
 from urdfsync.commands import arguments
 from urdfsync.config import FILE_NAME, STATE_FOLDER, Config, RobotConfig
-from urdfsync.dependencies import VARIABLE, Dependencies
+from urdfsync.dependencies import LISTINGS, LSTAT, VARIABLE, Dependencies
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError, UrdfsyncError
 from urdfsync.engine import parents
 from urdfsync.engine.actions import ORPHANS, Reason
@@ -29,10 +29,11 @@ from urdfsync.files import shown
 from urdfsync.output.console import Console
 from urdfsync.output.results import show_result
 from urdfsync.spelling import counted
-from urdfsync.state.store import Store
 
 _FEW = 4
 """So many files to add are named one by one."""
+_COMMITTED = (f"robots{os.sep}", f"bases{os.sep}", ".git")
+"""Parts of the state that belong into version control."""
 _UNNEEDED = ORPHANS | {Reason.FORGET}
 """Actions on files that a clone can do without."""
 
@@ -124,27 +125,31 @@ class Commit:
 class RobotFiles:
     """The files of one robot as git names them: all that a build of it reads and writes."""
 
-    def __init__(self, commit: Commit, config: Config, robot: RobotConfig, planned: Result, read: Dependencies) -> None:
-        """`planned` is the result of a dry run, and `read` has all paths that it looked at."""
+    def __init__(self, commit: Commit, config: Config, robot: RobotConfig, planned: Result) -> None:
+        """`planned` is the result of a dry run."""
         self._commit, self._config_file, self.robot, self.planned = commit, config.file, robot, planned
-        state, store = config.root / STATE_FOLDER, Store(config.root)
-        bases = store.base_files(robot.name)
-        recorded = [store.path(robot.name), store.expansion(robot.name), *bases]
-        self.outputs = commit.paths([*recorded, state / ".gitignore", state / ".gitattributes", *parents.files(robot)])
+        self._state = f"{config.root / STATE_FOLDER}{os.sep}"
+        self.outputs = commit.paths(parents.files(robot))
         """Files that a commit has to have if they exist."""
-        looked_for = [path for check, path in read.entries if check != VARIABLE]
-        self.known = commit.paths([config.file, robot.source, *looked_for])
+        self.known = commit.paths([config.file])
         """These, and files that are read, or could have been there."""
         self.note(planned)
-        folders = [robot.folder, bases[0].parent, *([robot.templates] if robot.templates else [])]
+        folders = [robot.folder, Path(self._state, "bases", robot.name), *filter(None, [robot.templates])]
         self.folders = tuple(f"{path}/" for folder in folders if (path := commit.path(folder)) is not None)
 
     def note(self, result: Result) -> None:
-        """Add the outputs of a plan or a build."""
-        places = [f"{result.root}/{action.path}" for action in result.actions if action.reason not in _UNNEEDED]
-        whole = [f"{place.removesuffix('.mo')}/package.mo" for place in places]  # of classes that are folders now
-        self.outputs |= self._commit.paths([*places, *whole])
-        self.known |= self.outputs
+        """Add all that a plan or a build has read and written."""
+        entries = [entry for entry in result.reads.entries if entry[0] not in (*LISTINGS, VARIABLE)]
+        package = f"{self.robot.folder}{os.sep}"
+        outputs = {path for check, path in entries if check == LSTAT or path.startswith(package)}
+        unneeded = {action.path for action in result.actions if action.reason in _UNNEEDED}
+        outputs -= {os.path.normpath(result.root / path) for path in unneeded}
+        self.outputs |= self._commit.paths(path for path in outputs if self._is_for_git(path))
+        self.known |= self.outputs | self._commit.paths(path for _, path in entries)
+
+    def _is_for_git(self, path: str) -> bool:
+        """Return whether a file is no uncommitted part of the state."""
+        return not path.startswith(self._state) or path.removeprefix(self._state).startswith(_COMMITTED)
 
     def select(self, paths: Iterable[str]) -> set[str]:
         """Return those of the paths that are the robot's."""
@@ -228,7 +233,5 @@ def _find_faults(commit: Commit, path: str, options: BuildOptions, writing: bool
 def _plan(commit: Commit, config: Config, robot: RobotConfig, options: BuildOptions) -> RobotFiles:
     """Plan a build of one robot in the working tree, and find its files."""
     dry = msgspec.structs.replace(options, dry=True, trusted=True)
-    with Dependencies() as read:
-        (result,) = build(config, [robot], dry)
-    dependencies.include(read)
-    return RobotFiles(commit, config, robot, result, read)
+    (result,) = build(config, [robot], dry)
+    return RobotFiles(commit, config, robot, result)

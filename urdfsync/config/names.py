@@ -41,7 +41,12 @@ def model_class(package: str, chosen: str) -> str:
 
 def is_package(name: str) -> bool:
     """Whether a full name can be that of a package: it hides nothing that generated models refer to."""
-    return re.fullmatch(PACKAGE_PATTERN, name, re.ASCII) is not None
+    # what `PACKAGE_PATTERN` says, which takes 4 ms to compile
+    reserved = {word.lower() for word in RESERVED_CLASSES | DEVICES}
+    return all(
+        part.isascii() and part.isidentifier() and part not in KEYWORDS | FUNCTIONS and part.lower() not in reserved
+        for part in name.removeprefix(f"{LIBRARY}.").split(".")
+    )
 
 
 def find_name_problems(package: str, chosen: str) -> list[tuple[str, str, str]]:

@@ -8,7 +8,6 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import urdfsync
-from urdfsync import dependencies
 from urdfsync.diagnostics import ConfigError
 from urdfsync.domain import Domain
 from urdfsync.modelica.names import LIBRARY
@@ -64,4 +63,4 @@ def _data_folder(name: str) -> Path:
     """Return a folder of a wheel, or of the repository around an editable installation."""
     package = Path(urdfsync.__file__).parent
     installed = package / "_data" / name
-    return installed if dependencies.is_folder(installed) else package.parent / name
+    return installed if installed.is_dir() else package.parent / name

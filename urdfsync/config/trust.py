@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import os
-import shlex
 from pathlib import Path
 
 import msgspec
-import platformdirs
 
 from urdfsync import dependencies, tomlfile
 from urdfsync.config.settings import Config, RobotConfig
@@ -35,6 +33,8 @@ def find_untrusted_output(config: Config, robot: RobotConfig) -> Diagnostic | No
 
 def find_untrusted_command(config: Config, robot: RobotConfig) -> Diagnostic | None:
     """Return an error if a robot has a command, and the user has not named the folder. Raises ConfigError."""
+    import shlex  # 2 ms, and few robots have a command
+
     message = f"robot `{robot.name}`: its `command` was not run: {shlex.join(robot.command)}"
     return _find_untrusted(config, message, robot.lines.get("command", 0), "untrusted-command")
 
@@ -63,6 +63,8 @@ def find_untrusted_file(config: Config, path: Path) -> Diagnostic | None:
 
 def _find_untrusted(config: Config, message: str, line: int, code: str = "untrusted-output") -> Diagnostic | None:
     """Return an error with this message if the user has not named the configuration's folder. Raises ConfigError."""
+    import platformdirs  # 6 ms, and few configurations lead out of their folder
+
     file = platformdirs.user_config_path("urdfsync", appauthor=False) / "trusted.toml"
     try:
         text = dependencies.read_file(file).decode()

@@ -15,6 +15,7 @@ import msgspec
 from urdfsync import dependencies, machine
 from urdfsync.config import STATE_FOLDER, Config, RobotConfig
 from urdfsync.config.trust import find_untrusted_output
+from urdfsync.dependencies import Dependencies
 from urdfsync.diagnostics import (
     ConfigError,
     Diagnostic,
@@ -79,6 +80,7 @@ class _Builder:
 
     def build(self, robot: RobotConfig) -> Result:
         """Build one robot. Whatever is wrong comes back as diagnostics."""
+        self._reads = Dependencies()
         try:
             untrusted = None if self._options.trusted else find_untrusted_output(self._config, robot)
             if untrusted and not self._options.dry:
@@ -96,16 +98,18 @@ class _Builder:
                 unfinished=isinstance(error, UnfinishedError),
                 source_error=error if isinstance(error, SourceError) else None,
                 dry=self._options.dry,
+                reads=self._reads,
             )
         warnings = [msgspec.structs.replace(untrusted, severity=Severity.WARNING)] if untrusted else []
-        return msgspec.structs.replace(result, diagnostics=(*warnings, *result.diagnostics))
+        return msgspec.structs.replace(result, diagnostics=(*warnings, *result.diagnostics), reads=self._reads)
 
     def _plan_and_write(self, robot: RobotConfig) -> Result:
         """Plan, and write unless the run is dry; again if another build or a save overtook the plan."""
         saved = robot.folder
         for _ in range(_ATTEMPTS):
-            self._recover()
-            plan = self._pool.plan(robot) if self._pool else plan_robot(self._config, robot, self._options)
+            with Dependencies() as self._reads:
+                self._recover()
+                plan = self._pool.plan(robot) if self._pool else plan_robot(self._config, robot, self._options)
             if self._options.dry:
                 if self._is_current(plan):
                     self._note(robot, plan)
@@ -123,6 +127,7 @@ class _Builder:
             applied = self._transactions.apply(robot.name, [*shared, *plan.writes], plan.emptied)
             self.notes += applied.diagnostics
             if not applied.not_done:  # else somebody saved a file in between
+                self._reads.renew({str(change.path): change.content for change in (*shared, *plan.writes)})
                 self._note(robot, plan)
                 return plan.result
             saved = applied.not_done[0]

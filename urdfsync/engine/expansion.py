@@ -10,7 +10,7 @@ import os
 import re
 import shlex
 import subprocess
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import msgspec
@@ -115,10 +115,6 @@ class Inputs:
         except (IndexError, ValueError):  # not from here
             return []
 
-    def paths(self, names: Iterable[str]) -> list[Path]:
-        """Return the paths of those files, or patterns, that are on this machine."""
-        return [path for path in map(self.path, names) if path is not None]
-
 
 def _is_there(path: Path | None) -> bool:
     try:
@@ -155,9 +151,13 @@ def expand(inputs: Inputs, arguments: Mapping[str, str]) -> Expansion:
         message = problem.message or f"expanding it takes more than {CPU_SECONDS:g} s or {MEMORY / 1e9:g} GB"
         file = shown(Path(problem.file)) if problem.file else shown(inputs.source)
         place, hint = (file, problem.line), problem.hint or _HINTS.get(problem.code, _HINTS["xacro"])
-        error = SourceError.of(problem.code, message, *place, hint=hint)
-        error.reads, error.patterns = tuple(answer.files), answer.patterns
-        raise error
+        for path in answer.files:  # those of a source that was made are looked at by `find_changes`
+            file_hash(Path(path))
+        for pattern in answer.patterns:
+            names_hash(Path(pattern))
+        for name in answer.variables:
+            variable_hash(name)
+        raise SourceError.of(problem.code, message, *place, hint=hint)
     names = {path: inputs.name(path, answer.packages) for path in answer.files}
     number = {path: index for index, path in enumerate(sorted(names, key=names.__getitem__))}
     return Expansion(

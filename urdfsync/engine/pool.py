@@ -6,6 +6,7 @@ import contextlib
 from collections import deque
 from collections.abc import Iterator, Sequence
 from concurrent.futures import Future, wait
+from typing import TypeAlias
 
 import msgspec
 
@@ -24,6 +25,8 @@ _CLUSTER_WORKERS = 16
 """Workers that a cluster is taken to have, unless `--jobs` says otherwise."""
 _PAUSE = 0.1
 """Seconds between two reports of progress."""
+_Planned: TypeAlias = tuple[Plan | UrdfsyncError | OSError, Dependencies]
+"""A plan or the error in its place, and all that was read."""
 
 
 @contextlib.contextmanager
@@ -42,7 +45,7 @@ class Pool:
     ) -> None:
         self._config, self._options, self._workers = config, options, started
         self._total, self._most = len(robots), most
-        self._waiting, self._futures = deque(robots), dict[str, Future[tuple[Plan, Dependencies]]]()
+        self._waiting, self._futures = deque(robots), dict[str, Future[_Planned]]()
 
     def plan(self, robot: RobotConfig) -> Plan:
         """Plan one robot. Raises UrdfsyncError for whatever is wrong."""
@@ -59,21 +62,23 @@ class Pool:
                 remaining = len(self._waiting) + sum(not other.done() for other in self._futures.values()) + 1
                 self._options.progress("reading", self._total - remaining, self._total)
             plan, reads = future.result()
-        except UrdfsyncError:
-            dependencies.mark_incomplete()
-            raise
         except Exception as error:  # the workers are lost, in one of many ways
             reason = "a process that planned it ended unexpectedly, perhaps because memory ran out"
             raise OutputError.of(
                 "lost-process", f"robot `{robot.name}`: {reason}", hint="try again with `--jobs 1`"
             ) from error
         dependencies.include(reads)
+        if isinstance(plan, Exception):
+            raise plan
         return plan
 
 
-def plan_in_worker(config: Config, robot: RobotConfig, options: BuildOptions) -> tuple[Plan, Dependencies]:
-    """Plan in a worker; also what that has read. Raises UrdfsyncError."""
+def plan_in_worker(config: Config, robot: RobotConfig, options: BuildOptions) -> _Planned:
+    """Plan in a worker; also what that has read."""
     with Dependencies() as reads:
-        plan = plan_robot(config, robot, options)
+        try:
+            plan: Plan | UrdfsyncError | OSError = plan_robot(config, robot, options)
+        except (UrdfsyncError, OSError) as error:
+            plan = error
     reads.add_modules()
     return plan, reads

@@ -11,6 +11,7 @@ from pathlib import Path
 import msgspec
 
 from urdfsync.changes import Changes
+from urdfsync.dependencies import Dependencies
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.engine.actions import Action, Actions, Choice, Reason
 from urdfsync.engine.conflicts import Conflict
@@ -135,6 +136,8 @@ class Result(msgspec.Struct, frozen=True):
     """The keys of the files of which choices came about."""
     checked: Checked | None = None
     """Verdict of a check of the package; None if there was none. Its findings are among the diagnostics."""
+    reads: Dependencies = msgspec.field(default_factory=Dependencies)
+    """All that the plan, or the error in its place, has read; what was written since is in there as it is now."""
 
     @property
     def conflicts(self) -> Sequence[DisputedFile]:

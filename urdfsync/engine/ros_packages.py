@@ -8,7 +8,7 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
-from urdfsync.dependencies import depend_on, file_type, is_file, is_folder, list_folder, read_file
+from urdfsync.dependencies import depend_on, file_type, is_file, is_folder, list_folder, note_names, read_file
 
 _NAME = rb"<name>\s*([^<\s]+)\s*</name>"
 _IGNORED = frozenset({"CATKIN_IGNORE", "COLCON_IGNORE", "AMENT_IGNORE"})
@@ -98,7 +98,7 @@ def _below(top: Path) -> Iterator[tuple[str, Path]]:
     # what is not there, or can't be read, may change
     for current, folders, files in os.walk(top, onerror=lambda error: depend_on(error.filename)):
         path = Path(current)
-        depend_on(path)
+        note_names(path, (*folders, *files))
         for mark in _MARKS.intersection(folders):
             file_type(path / mark)  # a link may lead to a file later
         if _IGNORED.intersection(files):

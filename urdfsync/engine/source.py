@@ -17,7 +17,16 @@ import msgspec
 from urdfsync import registry
 from urdfsync.config import Config, RobotConfig, templates_folder
 from urdfsync.config.trust import find_untrusted_command
-from urdfsync.dependencies import is_file, is_folder, mark_incomplete, read_file, read_unrecorded
+from urdfsync.dependencies import (
+    depend_on,
+    file_type,
+    is_file,
+    is_folder,
+    mark_incomplete,
+    note_names,
+    read_file,
+    read_unrecorded,
+)
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError, UrdfsyncError
 from urdfsync.domain import Domain, Reading, Snapshot, Templates
 from urdfsync.engine.options import BuildOptions
@@ -223,9 +232,9 @@ def _warnings(made: Expansion, file: Path, place: tuple[str, int], robot: str = 
 def _read(config: Config, robot: RobotConfig) -> bytes:
     """Return the bytes of the robot's source. Raises SourceError at the line of the configuration that names it."""
     try:
-        if stat.S_ISREG(robot.source.stat().st_mode):
+        if (mode := file_type(robot.source)) in (0, stat.S_IFREG):
             return read_file(robot.source)
-        reason = f"is {kind_of(robot.source.stat().st_mode)}"
+        reason = f"is {kind_of(mode)}"
     except OSError as error:
         reason = "does not exist" if isinstance(error, FileNotFoundError) else f"can't be read: {error.strerror}"
     message = f"robot `{robot.name}`: the source {shown(robot.source)} {reason}"
@@ -258,11 +267,14 @@ def _check_templates(folder: Path) -> None:
     The files may be a stranger's. Raises ConfigError.
     """
     for place, folders, files in os.walk(folder):
+        note_names(place, (*folders, *files))
         for path in (Path(place, name) for name in (*folders, *files)):
+            file_type(path, follow=False)
             if path.is_symlink() and not path.resolve().is_relative_to(folder.resolve()):
                 message = "the link leads out of the template folder"
                 hint = "put a copy of what it leads to in its place"
             elif path.is_file() and path.stat().st_size > MAX_TEMPLATE:
+                depend_on(path)
                 message = f"the file has more than {MAX_TEMPLATE:,} bytes, which is too large for a template"
                 hint = "move it out of the template folder"
             elif path.exists() and not (path.is_file() or path.is_dir()):  # reading a FIFO would never end

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import difflib
 import os
-import shlex
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
@@ -139,6 +137,8 @@ def _text_lines(texts: Conflict) -> Iterator[StyledLine]:
 
 def difference_lines(old: str, new: str, old_name: str, new_name: str) -> Iterator[StyledLine]:
     """Yield how two texts of these names differ, as git shows it."""
+    import difflib  # 1 ms, as shlex below: few builds have conflicts
+
     texts = _split_lines(old), _split_lines(new)
     for text in difflib.unified_diff(*texts, old_name, new_name, lineterm="", n=_CONTEXT):
         yield _text_line(text, _SIGNS.get(text[:1], "dim"))
@@ -162,6 +162,8 @@ def _command(arguments: Sequence[str], console: Console) -> str:
     command = ["urdfsync", *arguments, *(["--config", console.config] if console.config else [])]
     if os.name == "nt":
         return " ".join(f'"{argument}"' if " " in argument else argument for argument in command)
+    import shlex
+
     return shlex.join(command)
 
 

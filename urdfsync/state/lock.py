@@ -5,19 +5,25 @@ from __future__ import annotations
 import contextlib
 import os
 import stat
+import sys
+import time
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Self
+from typing import Self
 
 from urdfsync.diagnostics import UrdfsyncError
 from urdfsync.files import Tree, failure, shown
 
-if TYPE_CHECKING:
-    from filelock import BaseFileLock
+if sys.platform == "win32":
+    import msvcrt
+else:
+    import fcntl
 
 _FLAGS = getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0)
 _LEAST_WAIT = 0.2
 """Seconds for some attempts: one alone takes a lock file that is deleted meanwhile for one that somebody holds."""
+_PAUSE = 0.05
+"""Seconds between two attempts."""
 
 
 class LockedError(UrdfsyncError):
@@ -32,7 +38,7 @@ class Lock:
     def __init__(self, file: Path, wait: float) -> None:
         """`wait` is in seconds; less than 0.2 is 0.2."""
         self._file, self._wait = file, wait
-        self._lock: BaseFileLock | None = None
+        self._descriptor: int | None = None
 
     def acquire(self, waiting: Callable[[], object] = lambda: None) -> None:
         """Take the lock, unless this object holds it already and the file is still there. Calls `waiting` on and on.
@@ -40,30 +46,31 @@ class Lock:
         Raises LockedError after `wait` seconds, and at once if that has happened before; OutputError if the file can't
         be locked.
         """
-        if self._lock is not None and self._file.exists():
+        if self._descriptor is not None and self._file.exists():
             return
         self.release()
-        from filelock import FileLock, Timeout  # 40 ms, for builds that write only
-
-        lock = FileLock(self._file, thread_local=False)
+        end = time.monotonic() + max(self._wait, _LEAST_WAIT)
         try:
-            Tree(self._file.parent.parent).check_folder(self._file.parent)  # FileLock follows a link to a folder
-            lock.acquire(max(self._wait, _LEAST_WAIT), cancel_check=lambda: bool(waiting()))
-        except Timeout:
-            self._wait = 0
-            message = f"{self.holder()} is building here, and did not finish in time"
-            hint = "wait for it or end it, then build again"
-            raise LockedError.of("locked", message, shown(self._file), hint=hint) from None
+            Tree(self._file.parent.parent).check_folder(self._file.parent)
+            self._file.parent.mkdir(parents=True, exist_ok=True)
+            while (descriptor := _lock(self._file)) is None:
+                if time.monotonic() > end:
+                    self._wait = 0
+                    message = f"{self.holder()} is building here, and did not finish in time"
+                    hint = "wait for it or end it, then build again"
+                    raise LockedError.of("locked", message, shown(self._file), hint=hint)
+                waiting()
+                time.sleep(_PAUSE)
         except OSError as error:
             raise failure(error, self._file, "it can't be locked") from None
-        self._lock = lock
+        self._descriptor = descriptor
         self._sign()
 
     def release(self) -> None:
         """Let the lock go, if it is held."""
-        if self._lock is not None:
-            self._lock.release()
-            self._lock = None
+        if self._descriptor is not None:
+            os.close(self._descriptor)
+            self._descriptor = None
 
     def holder(self) -> str:
         """The process that has the lock, or had it last, in words."""
@@ -87,6 +94,26 @@ class Lock:
                 file.seek(0)
                 file.truncate()
                 file.write(number)
+
+
+def _lock(file: Path) -> int | None:
+    """Lock a file; returns its descriptor, None if another process has locked it. Raises OSError.
+
+    filelock does the same, and takes 20 of the 90 ms of a build with one changed mass to import.
+    """
+    descriptor = os.open(file, os.O_RDWR | os.O_CREAT | _FLAGS, 0o666)
+    with contextlib.ExitStack() as stack:
+        stack.callback(os.close, descriptor)
+        # on Windows, a lock that is held is a lack of permission
+        with contextlib.suppress(BlockingIOError, PermissionError, FileNotFoundError):
+            if sys.platform == "win32":
+                msvcrt.locking(descriptor, msvcrt.LK_NBLCK, 1)
+            else:
+                fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            if os.path.samestat(os.fstat(descriptor), os.lstat(file)):  # else it was deleted meanwhile
+                stack.pop_all()
+                return descriptor
+    return None
 
 
 def build_lock(state_folder: Path, wait: float) -> Lock:

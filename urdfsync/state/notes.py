@@ -13,7 +13,7 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync.dependencies import MAX_FILE, is_folder
+from urdfsync.dependencies import MAX_FILE
 from urdfsync.files import TEMPORARY
 from urdfsync.state import file_operations
 
@@ -58,7 +58,7 @@ def save(state_folder: Path, robot: str, notes: Notes) -> None:
     file = place(state_folder, robot)
     temporary = file.with_name(f".{file.name}{TEMPORARY}")
     with contextlib.suppress(OSError):
-        if not is_folder(state_folder) or state_folder.is_symlink() or file.parent.is_symlink():
+        if not state_folder.is_dir() or state_folder.is_symlink() or file.parent.is_symlink():
             return  # a repository may have committed a link that leads elsewhere
         file_operations.make_folder(file.parent)
         file_operations.remove(temporary)  # left by a process that was killed

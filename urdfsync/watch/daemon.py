@@ -1,12 +1,12 @@
 """The daemon: one thread that waits for events, lets files settle, and builds.
 
-1. Wait for an event, or for the next look that is due. An event only says where to look. What is built is decided by
-   the files on disk, so an event too many or too few costs time and nothing else.
-2. The robots of which a file has changed have to settle: no event for some time, and two looks that show the same.
+1. Wait for an event, or for the next look that is due. An event only says where to look: at what the last build has
+   read. What is built is decided by the files on disk, so an event too many or too few costs time and nothing else.
+2. The robots of which something has changed have to settle: no event for some time, and two looks that show the same.
 3. All that have settled are built together. An exporter may still be writing an invalid source: it is an error only if
    it stays as it is.
 4. A build that wrote something, or during which a file was saved, is followed by another one once the files have
-   settled. So the daemon need not know what it wrote itself: a robot rests after a build that left all files alone.
+   settled: a robot rests after a build that left all files alone.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ import contextlib
 import math
 import os
 import time
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from queue import Empty, SimpleQueue
 
@@ -23,6 +23,7 @@ import msgspec
 
 from urdfsync import config
 from urdfsync.config import STATE_FOLDER, Config, RobotConfig, warnings
+from urdfsync.dependencies import STAT
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity, internal_error
 from urdfsync.engine.build import WAITING, build
 from urdfsync.engine.options import BuildOptions
@@ -32,10 +33,12 @@ from urdfsync.state.lock import Lock, LockedError
 from urdfsync.watch import events, precommit
 from urdfsync.watch.checks import CheckEnded, CheckQueue
 from urdfsync.watch.exec import CommandEnded, CommandRunner
-from urdfsync.watch.observer import Observer
-from urdfsync.watch.paths import WatchedPaths, find_robot_paths, find_watched_paths
-from urdfsync.watch.robot import WatchedRobot, read_state
+from urdfsync.watch.observer import FileEvent, Observer
+from urdfsync.watch.paths import find_watched_folders
+from urdfsync.watch.robot import WatchedRobot, look_at
 
+_REST = 3.0
+"""So much longer than the last look takes, the daemon waits with the next one."""
 _PAUSE = 0.25
 """Seconds between two looks whether pre-commit has ended."""
 
@@ -67,14 +70,14 @@ class Daemon:
         self._options, self._listener = options, listener
         self._build_options = msgspec.structs.replace(options.build, progress=self._progress)
         self._queue: SimpleQueue[object] = SimpleQueue()
-        """Paths that may have changed, `CommandEnded`, `CheckEnded`, and None to wake the daemon."""
+        """`FileEvent`, `CommandEnded`, `CheckEnded`, and None to wake the daemon."""
         self._observer = Observer(self._queue)
         self._robots: dict[str, WatchedRobot] = {}
         self._checks = CheckQueue(self._queue, options.build)
         self._commands = CommandRunner(self._queue, options.command, options.file.absolute().parent)
         self._config: Config
-        self._config_hash = self._hash_config()
-        self._watched = WatchedPaths()
+        self._config_file = (STAT, str(options.file.absolute()))
+        self._config_hash = look_at(self._config_file)
         self._unwatched: tuple[Diagnostic, ...] = ()
         self._stop_signal = ""
         self._building: Sequence[str] = ()
@@ -82,6 +85,11 @@ class Daemon:
         self._is_working = True
         self._is_paused = False
         self._next_rescan = 0.0
+        self._next_look = math.inf
+        """When to look at all files, since something has happened in a folder."""
+        self._earliest_look = 0.0
+        """When the next look may be: events without end must not keep the daemon looking."""
+        self._has_new_places = False
 
     def stop(self, signal: str) -> None:
         """End when the build in hand is finished, or given up if it has not begun to write. For signal handlers.
@@ -116,13 +124,15 @@ class Daemon:
         self._use(loaded)
         self._next_rescan = time.monotonic() + self._options.rescan
         while not self._stop_signal:
-            paths = self._receive()
-            self._touch(self._find_changed(paths))
+            self._receive()
+            has_looked = time.monotonic() >= self._next_look
+            if has_looked:
+                self._look()
             if time.monotonic() >= self._next_rescan:
                 with contextlib.suppress(OutputError):  # where this daemon can't write the lock, no other can
                     self._acquire(lock)
                 self._rescan()
-            settled = self._find_settled()
+            settled = self._find_settled(has_looked=has_looked)
             if settled and self._reload_config():
                 continue  # which has all robots settle again
             changed = [watched for watched in settled if self._has_to_be_built(watched)]
@@ -166,21 +176,17 @@ class Daemon:
         before, self._robots = self._robots, {}
         due = time.monotonic() + self._options.settle
         for robot in robots:  # of those that were watched before, the last results are still known
-            paths = find_robot_paths(loaded, robot, self._options.build.package_paths)
-            watched = before.get(robot.name) or WatchedRobot(robot, paths)
-            watched.robot, watched.paths, watched.built = robot, paths, None
+            watched = before.get(robot.name) or WatchedRobot(robot)
+            watched.robot, watched.is_confirmed = robot, False
             watched.settle(due, is_told=True)
             self._robots[robot.name] = watched
         self._listener(events.Started(loaded.file, tuple(self._robots), again))
         self._note(tuple(warnings.find_warnings(loaded, robots)))
         self._watch_folders()
 
-    def _hash_config(self) -> str:
-        return read_state(str(self._options.file.absolute()))
-
     def _reload_config(self) -> bool:
         """Read the configuration again if it has changed; while it is invalid, the last valid one stays in force."""
-        before, self._config_hash = self._config_hash, self._hash_config()
+        before, self._config_hash = self._config_hash, look_at(self._config_file)
         if before == self._config_hash:
             return False
         try:
@@ -192,57 +198,57 @@ class Daemon:
 
     # Events and looks
 
-    def _receive(self) -> set[str]:
-        """Wait until something happens or is due; return the paths that may have changed."""
-        paths: set[str] = set()
+    def _receive(self) -> None:
+        """Wait until something happens or is due."""
         with contextlib.suppress(Empty):  # the first `get` waits; the others take what has come meanwhile
             message = self._queue.get(timeout=self._seconds_until_due())
             while True:
                 match message:
-                    case str():
-                        paths.add(message)
+                    case FileEvent():
+                        self._has_new_places |= message.is_place
+                        self._next_look = self._earliest_look
                     case CommandEnded():
                         self._show_all(self._commands.finish(message))
                     case CheckEnded():
                         self._show_all(self._checks.finish(message))
                 message = self._queue.get_nowait()
-        return paths
 
     def _seconds_until_due(self) -> float:
         now = time.monotonic()
-        due = [self._next_rescan, *(watched.due for watched in self._robots.values())]
+        due = [self._next_rescan, self._next_look, *(watched.due for watched in self._robots.values())]
         due += [now + _PAUSE] if self._is_paused else []
         return max(min(due) - now, 0.0)
 
-    def _find_changed(self, paths: Iterable[str]) -> list[WatchedRobot]:
-        """Return the robots that have to settle after events of these paths."""
-        by_robot: dict[str, set[str]] = {}
-        for path in paths:
-            for name in self._watched.robots_for(path):
-                by_robot.setdefault(name, set()).add(path)
-        affected = [watched for name, watched in self._robots.items() if name in by_robot]
-        if not all(watched.has_files(by_robot[watched.name]) for watched in affected):
-            self._watch_folders()  # a folder or a link may have been replaced
-        return [watched for watched in affected if watched.is_told or watched.has_changed(by_robot[watched.name])]
+    def _look(self) -> None:
+        """Look at all files after events; the robots of which one is other than at the last look have to settle."""
+        begin = time.monotonic()
+        self._next_look, has_new_places, self._has_new_places = math.inf, self._has_new_places, False
+        if has_new_places:
+            self._watch_folders()
+        looks = [(watched, watched.look()) for watched in self._robots.values()]
+        self._touch([watched for watched, is_new in looks if is_new and (watched.is_told or watched.has_changed)])
+        self._earliest_look = time.monotonic() + _REST * (time.monotonic() - begin)
 
     def _touch(self, robots: Sequence[WatchedRobot]) -> None:
-        """Let robots settle, since something changed; all from the same moment, so that they are built together."""
+        """Let robots settle, since something changed; all from the same moment, so that they are built together.
+
+        If only names in folders have changed, the user is not told: they hardly ever matter.
+        """
         due = time.monotonic() + self._options.settle
         for watched in robots:
-            if not watched.is_told:
-                file, watched.changed_file = watched.changed_file, ""
-                self._listener(events.Settling(watched.name, shown(Path(file)) if file else ""))
-            watched.settle(due, is_told=True)
+            is_told = watched.is_told or bool(watched.changed_file)
+            if is_told and not watched.is_told:
+                self._listener(events.Settling(watched.name, shown(Path(watched.changed_file))))
+            watched.settle(due, is_told=is_told)
 
     def _show_all(self, shown_events: Iterable[events.Event]) -> None:
         for event in shown_events:
             self._listener(event)
 
     def _watch_folders(self) -> None:
-        self._watched = find_watched_paths(
-            self._config, {name: watched.paths for name, watched in self._robots.items()}
-        )
-        unwatched = self._observer.watch_folders(self._watched)
+        entries = {entry for watched in self._robots.values() for entry in watched.built}
+        folders = find_watched_folders(self._config, entries, self._options.build.package_paths)
+        unwatched = self._observer.watch_folders(folders)
         told = {diagnostic.hint for diagnostic in self._unwatched}
         self._note(tuple(diagnostic for diagnostic in unwatched if diagnostic.hint not in told))
         self._unwatched = unwatched
@@ -250,32 +256,32 @@ class Daemon:
     def _rescan(self) -> None:
         """Look at all files, since events may be lost."""
         self._next_rescan = time.monotonic() + self._options.rescan
-        self._watch_folders()
-        self._touch([watched for watched in self._robots.values() if watched.has_changed()])
+        self._has_new_places = True
+        self._look()
 
-    def _find_settled(self) -> list[WatchedRobot]:
-        """Look at the robots that are due; return those whose files are as they were at the look before."""
+    def _find_settled(self, *, has_looked: bool) -> list[WatchedRobot]:
+        """Look at the robots that are due, unless that was just done; return those that are as at the look before."""
         now, settled = time.monotonic(), []
         for watched in self._robots.values():
             if watched.due > now:
                 continue
-            before = watched.hashes
-            watched.read_files()
-            if not watched.is_told and watched.has_new_input(before):
+            if not has_looked:
+                watched.look()
+            if not watched.is_told and watched.changed_file:
                 self._touch([watched])  # its event may come later
-            elif watched.hashes == watched.sample or not self._options.sample:
+            elif watched.seen == watched.sample or not self._options.sample:
                 settled.append(watched)
             else:
                 watched.settle(now + self._options.sample, is_told=watched.is_told)
-                watched.sample = watched.hashes
+                watched.sample = watched.seen
         return settled
 
     # Builds
 
     def _has_to_be_built(self, watched: WatchedRobot) -> bool:
-        """Whether the files of a robot are other than after the last build; if not, the robot rests."""
+        """Whether anything is other than after the last build; if not, the robot rests."""
         # a build that failed may work now, whatever it failed of
-        if watched.failure is not None or watched.hashes != watched.built:
+        if watched.failure is not None or not watched.is_confirmed or watched.has_changed:
             return True
         if watched.is_told:
             self._listener(events.Unchanged(watched.name))
@@ -293,30 +299,31 @@ class Daemon:
         self._is_paused = stash is not None
 
     def _build(self, robots: Sequence[WatchedRobot]) -> None:
-        """Build robots. One that has written, or of which a file is other than before, has to settle again."""
+        """Build robots. One that has written, or of which a file was saved meanwhile, has to settle again."""
         self._building = [watched.name for watched in robots if watched.is_told]
         self._show_all(list(map(events.Building, self._building)))
-        before, results = {watched.name: watched.hashes for watched in robots}, {}
+        has_other_entries = False
         for result in self._results([watched.robot for watched in robots]):
-            watched, results[result.robot] = self._robots[result.robot], result
-            watched.built = None  # what is saved meanwhile is built, even if it is as before the last change
+            watched = self._robots[result.robot]
+            has_other_entries |= watched.take(result.reads, {self._config_file: self._config_hash})
+            watched.is_confirmed = not result.writes
             if not result.failed:
                 self._take_result(watched, result)
                 continue
-            watched.read_files()
-            if watched.hashes == before[watched.name]:  # else it is built again
+            watched.look()
+            if not watched.has_changed:  # else it is built again
                 self._take_failure(watched, result)
-        self._renew_paths(robots, results)
+        if has_other_entries:
+            self._watch_folders()
         for watched in robots:
-            old = before[watched.name]
-            watched.read_files()
-            if watched.has_new_input(old):
+            watched.look()
+            if watched.changed_file:
                 # somebody saved meanwhile: the user is told, unless he knows that the robot waits for that
                 watched.is_told = watched.invalid_until > 0
                 self._touch([watched])
             elif watched.invalid_until:
-                watched.sample, watched.due = watched.hashes, watched.invalid_until
-            elif watched.hashes == old and not results[watched.name].writes:  # git may have taken back what was written
+                watched.sample, watched.due = watched.seen, watched.invalid_until
+            elif watched.is_confirmed and not watched.has_changed:
                 self._rest(watched)
             else:  # most likely its own writes: confirmed without a word
                 watched.settle(time.monotonic() + self._options.settle, is_told=False)
@@ -334,18 +341,8 @@ class Daemon:
                     robot.name, robot.target.package, robot.folder, self._config.root, diagnostics=(bug,), failed=True
                 )
 
-    def _renew_paths(self, robots: Sequence[WatchedRobot], results: Mapping[str, Result]) -> None:
-        """Find the paths of some robots again, after a build."""
-        before = [watched.paths for watched in robots]
-        for watched in robots:
-            error = results[watched.name].source_error
-            watched.paths = find_robot_paths(self._config, watched.robot, self._options.build.package_paths, error)
-        if before != [watched.paths for watched in robots]:
-            self._watch_folders()
-
     def _rest(self, watched: WatchedRobot) -> None:
         """Leave a robot alone until something changes, or for a while if it failed; check its package otherwise."""
-        watched.built = watched.hashes
         if watched.failure is None:
             watched.settle(math.inf, is_told=False)
             self._show_all(self._checks.check(watched.robot))
@@ -358,7 +355,7 @@ class Daemon:
         if error is not None and not (again or watched.invalid_until):
             reason = f"waiting for the exporter of {shown(watched.robot.source)}"
             self._listener(events.Waiting(watched.name, reason, error.diagnostics))
-            watched.invalid_until = time.monotonic() + self._options.give_up_after
+            watched.invalid_until, watched.is_confirmed = time.monotonic() + self._options.give_up_after, False
             return
         if watched.is_told or not again:
             self._listener(events.Failed(result, again))

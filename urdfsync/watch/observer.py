@@ -8,13 +8,13 @@ import logging
 import os
 from pathlib import Path
 from queue import SimpleQueue
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from watchdog import events, observers
 
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.files import shown
-from urdfsync.watch.paths import WatchedPaths
+from urdfsync.watch.paths import WatchedFolders
 
 if TYPE_CHECKING:
     from watchdog.observers.api import BaseObserver, ObservedWatch
@@ -42,28 +42,32 @@ _HINTS = {
 logging.getLogger("watchdog").addHandler(logging.NullHandler())
 
 
+class FileEvent(NamedTuple):
+    """Something has happened to a file or folder."""
+
+    is_place: bool
+    """Whether a folder or a link may have been replaced."""
+
+
 class Observer(events.FileSystemEventHandler):
-    """Puts paths that may have changed into a queue, until it is closed; paths that matter to no robot are left out."""
+    """Puts a message into a queue for each event in a folder that is watched, until it is closed."""
 
     def __init__(self, queue: SimpleQueue[object]) -> None:
         self._queue = queue
-        self._paths = WatchedPaths()
         self._backend: BaseObserver | None = None
         self._watches: dict[tuple[str, bool, int, int], ObservedWatch] = {}
         """By folder, whether folders below are watched, too, and the numbers of device and file."""
 
     def dispatch(self, event: events.FileSystemEvent) -> None:
-        """Pass on both paths of an event."""
-        for path in (event.src_path, event.dest_path):
-            if path and self._paths.robots_for(os.fsdecode(path)):
-                self._queue.put(os.fsdecode(path))
+        """Tell of an event."""
+        paths = (os.fsdecode(path) for path in (event.src_path, event.dest_path) if path)
+        self._queue.put(FileEvent(event.is_directory or any(map(os.path.islink, paths))))
 
-    def watch_folders(self, paths: WatchedPaths) -> tuple[Diagnostic, ...]:
-        """Watch exactly the folders of these paths; one that was replaced since the last call is watched anew.
+    def watch_folders(self, folders: WatchedFolders) -> tuple[Diagnostic, ...]:
+        """Watch exactly these folders; one that was replaced since the last call is watched anew.
 
         Returns one finding for each reason for which folders can't be watched.
         """
-        self._paths = paths
         problems: dict[int | None, Diagnostic] = {}
         try:
             if self._backend is None:
@@ -73,7 +77,7 @@ class Observer(events.FileSystemEventHandler):
         except (OSError, RuntimeError) as error:  # threading raises RuntimeError if there are no more threads
             return (_not_watched(error, ""),)
         wanted = set()
-        for folder, deep in {**dict.fromkeys(paths.folders, False), **dict.fromkeys(paths.trees, True)}.items():
+        for folder, deep in {**dict.fromkeys(folders.singles, False), **dict.fromkeys(folders.trees, True)}.items():
             with contextlib.suppress(OSError):  # gone again
                 status = os.stat(folder)  # noqa: PTH116
                 wanted.add((folder, deep, status.st_dev, status.st_ino))

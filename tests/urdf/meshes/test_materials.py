@@ -12,11 +12,13 @@ from support import meshes
 from support.commands import Execute
 
 from urdfsync import config
+from urdfsync.dependencies import STAT
 from urdfsync.domain import Conversion, Dependency
+from urdfsync.engine.build import build
+from urdfsync.engine.options import BuildOptions
 from urdfsync.urdf.meshes.convert import convert
 from urdfsync.urdf.meshes.lookup import BOUNDS, COLORLESS, COLORS, PARTS, TEXTURED, key, mentioned_files, target
 from urdfsync.urdf.robot import Mesh
-from urdfsync.watch.paths import find_robot_paths
 
 OBJ = b"""\
 mtllib paint.mtl
@@ -229,10 +231,11 @@ def test_a_change_of_another_file_is_a_change_of_the_mesh(painted: Path, execute
     assert "color = {51, 51, 51}" in record()
 
 
-def test_the_daemon_watches_the_other_files_too(painted: Path) -> None:
+def test_the_other_files_are_listed_as_read_too(painted: Path) -> None:
     loaded = config.load(painted / "urdfsync.toml")
-    inputs = find_robot_paths(loaded, loaded.robots[0], ()).inputs
-    assert {str(painted / "meshes" / name) for name in ("a.obj", "paint.mtl", "textures/wood.png")} <= inputs
+    (result,) = build(loaded, loaded.robots, BuildOptions(dry=True))
+    read = {path for check, path in result.reads.entries if check == STAT}
+    assert {str(painted / "meshes" / name) for name in ("a.obj", "paint.mtl", "textures/wood.png")} <= read
 
 
 def test_copies_serve_where_the_mesh_is_missing(painted: Path, execute: Execute) -> None:

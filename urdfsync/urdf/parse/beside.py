@@ -15,7 +15,6 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 from xml.etree.ElementTree import SubElement
-from xml.sax.saxutils import quoteattr
 
 from urdfsync.diagnostics import SourceError
 from urdfsync.spelling import counted
@@ -91,6 +90,8 @@ def _names(nodes: Sequence[Any], key: str) -> Sequence[Any]:
 
 def _elements(document: Any) -> Iterator[tuple[str, int]]:
     """Yield each element, and its line in the YAML."""
+    from xml.sax.saxutils import quoteattr  # 9 ms, with urllib, http and email; few robots need it
+
     if document.id != "mapping":
         return  # another YAML that has the word in it
     parts = dict[str, Any]()
