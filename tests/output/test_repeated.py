@@ -10,7 +10,7 @@ from support.files import unchanged
 from support.urdfs import joint, link, robot
 
 COUNTED = ["arm: 1 finding as before; --verbose shows it"]
-SAID = Path(".urdfsync/said/arm")
+NOTES = Path(".urdfsync/notes/arm.json")
 
 
 def write(axis: str = "0 0 2", mass: float = 1.0) -> None:
@@ -59,14 +59,22 @@ def test_an_error_hides_nothing_and_forgets_nothing(execute: Execute) -> None:
     assert execute("build").errors == COUNTED
 
 
-@pytest.mark.parametrize("place", [SAID, SAID.parent])
+@pytest.mark.parametrize("place", [NOTES, NOTES.parent])
 def test_what_is_lost_or_something_else_is_not_used(execute: Execute, tmp_path: Path, place: Path) -> None:
     other = tmp_path / "other"
-    other.write_bytes(SAID.read_bytes())
-    SAID.unlink()
-    if place != SAID:
+    other.write_bytes(NOTES.read_bytes())
+    NOTES.unlink()
+    if place != NOTES:
         place.rmdir()
     place.symlink_to(other)
     before = other.read_bytes()
     assert "axis" in execute("build").err
     assert other.read_bytes() == before
+
+
+def test_what_a_copy_of_the_notes_says_was_told_is_told_again(execute: Execute) -> None:
+    """Anybody may have committed it."""
+    content = NOTES.read_bytes()
+    NOTES.unlink()
+    NOTES.write_bytes(content)
+    assert "axis" in execute("build").err

@@ -221,7 +221,8 @@ def _find_faults(commit: Commit, path: str, options: BuildOptions, writing: bool
             to_build.append(robot)
         elif fault:
             yield fault
-    results = list(build(config, [robot.robot for robot in to_build], options)) if to_build else []
+    alone = msgspec.structs.replace(options, renews=False)
+    results = list(build(config, [robot.robot for robot in to_build], alone)) if to_build else []
     commit.index = git.Index()  # of which builds have changed files
     for robot, result in zip(to_build, results, strict=True):
         robot.note(result)

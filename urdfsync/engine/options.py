@@ -29,7 +29,7 @@ class BuildOptions(msgspec.Struct, frozen=True):
     trusted: bool = False
     """Write to outputs outside of the configuration's folder, too."""
     renews: bool = True
-    """Renew the recorded state even if no file of the package is written."""
+    """Renew the recorded state of a package that is in step; without it, together with the next file only."""
     adopts: bool = False
     """Take files that are there before the first build for edits of the generated ones."""
     removes: bool = False

@@ -79,6 +79,8 @@ def _settle(generation: Generation, decision: Decision, action: Action, chosen: 
             content, reason, record = None, Reason.DELETE, inputs.last.files.get(key, FileRecord())
     elif choice is Choice.TAKE and action.mine is not None and (action.is_conflict or action.reason in _EDITED):
         content, reason = _generated(generation, action, mine or b""), Reason.UPDATE
+        if content is None:
+            return False
     elif not (action.is_conflict or conflict):
         return False
     elif choice is Choice.KEEP:
@@ -101,10 +103,11 @@ def _settle(generation: Generation, decision: Decision, action: Action, chosen: 
     return True
 
 
-def _generated(generation: Generation, action: Action, mine: bytes) -> bytes:
+def _generated(generation: Generation, action: Action, mine: bytes) -> bytes | None:
+    """Return the generated content of a file; None for an imported file whose source is missing."""
     path = generation.inputs.folder.path(action.path)
     if action.role is Role.IMPORT:
-        return generation.imported.contents[path]
+        return generation.imported.contents.get(path)
     return with_line_ends(generation.package.content(path), mine)
 
 

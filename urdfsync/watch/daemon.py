@@ -68,7 +68,7 @@ class Daemon:
 
     def __init__(self, options: WatchOptions, listener: events.Listener) -> None:
         self._options, self._listener = options, listener
-        self._build_options = msgspec.structs.replace(options.build, progress=self._progress)
+        self._build_options = msgspec.structs.replace(options.build, progress=self._progress, renews=False)
         self._queue: SimpleQueue[object] = SimpleQueue()
         """`FileEvent`, `CommandEnded`, `CheckEnded`, and None to wake the daemon."""
         self._observer = Observer(self._queue)
