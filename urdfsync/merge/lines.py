@@ -20,6 +20,11 @@ class Contradiction(NamedTuple):
     mine: str
     generated: str
 
+    @property
+    def swapped(self) -> Contradiction:
+        """The same with the sides in each other's place."""
+        return self._replace(mine=self.generated, generated=self.mine)
+
 
 Piece: TypeAlias = str | Contradiction
 

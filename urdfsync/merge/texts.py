@@ -82,12 +82,15 @@ def _preferring(side: str, pieces: Sequence[Piece], ending: str) -> str:
 
 
 def merge_file(base: str, mine: str, other: str, markers: Sequence[tuple[str, str]]) -> tuple[str, int]:
-    """Return a merge with markers in it, and the number of conflicts; by lines if that of elements has a flaw."""
+    """Merge the versions of two people: return the text with markers in it, and the number of conflicts.
+
+    It is a merge by lines if that of elements has a flaw.
+    """
     ending = _ending(mine)
     merged, count = "", 0
     ways: tuple[KnownStatements | None, ...] = {}, None
     for statements in ways:
-        pieces = _merge_pieces(base, mine, other, ending, statements)
+        pieces = _merge_pieces(base, mine, other, ending, statements, is_export=False)
         merged = _with_markers(pieces, ending, markers)
         count = sum(isinstance(piece, Contradiction) for piece in pieces)
         if count or not find_flaw(merged, (mine, other)):
@@ -105,7 +108,7 @@ def _with_ending(text: str, ending: str) -> str:
 
 
 def _merge_pieces(
-    base: str, mine: str, generated: str, ending: str, statements: KnownStatements | None
+    base: str, mine: str, generated: str, ending: str, statements: KnownStatements | None, *, is_export: bool = True
 ) -> Sequence[Piece]:
     """Return the merged text in pieces; new lines get the `ending`.
 
@@ -120,15 +123,16 @@ def _merge_pieces(
     if plain_base == plain_mine and not is_mixed:
         return [generated]
     texts = written if is_mixed else plain
-    pieces = None if statements is None else _merge_classes(texts[0], texts[1], texts[2], statements)
+    pieces = None if statements is None else _merge_classes(texts, statements, is_export=is_export)
     if pieces is None:
         return merge_lines(*written)
     return [piece.replace("\n", ending) if isinstance(piece, str) and not is_mixed else piece for piece in pieces]
 
 
-def _merge_classes(base: str, mine: str, generated: str, statements: KnownStatements) -> list[Piece] | None:
+def _merge_classes(texts: Sequence[str], statements: KnownStatements, *, is_export: bool) -> list[Piece] | None:
     """Merge texts that are one class each; None if one of them is not, or if too much of them differs."""
-    base_tree, mine_tree, generated_tree = (read_tree(text, statements) for text in (base, mine, generated))
+    base, _, generated = texts
+    base_tree, mine_tree, generated_tree = (read_tree(text, statements) for text in texts)
     if not (base_tree and mine_tree and generated_tree):
         return None
     try:
@@ -136,7 +140,9 @@ def _merge_classes(base: str, mine: str, generated: str, statements: KnownStatem
             base_tree, generated_tree = (
                 read_tree(text, statements) for text in rename(base, generated, names, modifiers=False)
             )
-        return merge_trees(base_tree, mine_tree, generated_tree) if base_tree and generated_tree else None
+        if not (base_tree and generated_tree):
+            return None
+        return merge_trees(base_tree, mine_tree, generated_tree, is_export=is_export)
     except (TooManyPairsError, UnreadableError):
         return None
 
