@@ -59,7 +59,7 @@ def test_two_people(name: str) -> None:
     base, mine, other, expected = (text.read_text("utf-8") for text in texts)
     merged, conflicts = merge_file(base, mine, other, MARKERS)
     assert merged == expected
-    assert conflicts == expected.count("=======\n") == merge_file(base, other, mine, MARKERS)[1]
+    assert len(conflicts) == expected.count("=======\n") == len(merge_file(base, other, mine, MARKERS)[1])
 
 
 @pytest.mark.parametrize("name", sorted(folder.name for folder in CATALOGUE.iterdir() if folder.name not in TWO_PEOPLE))
@@ -179,8 +179,8 @@ def test_of_two_people_no_comment_is_lost(random: Random, mine: list[str], other
     assert {*re.findall(r"(?:mine|other)\d+", ours + theirs)} <= {*re.findall(r"(?:mine|other)\d+", merged)}
     swapped, as_many = merge_file(base, theirs, ours, MARKERS)
     assert bool(conflicts) == bool(as_many) == ("<<<<<<< mine" in swapped)
-    assert merge_file(base, ours, base, MARKERS) == (ours, 0)
-    assert merge_file(base, base, ours, MARKERS) == (ours.replace("\r\n", "\n"), 0)
+    assert merge_file(base, ours, base, MARKERS) == (ours, ())
+    assert merge_file(base, base, ours, MARKERS) == (ours.replace("\r\n", "\n"), ())
 
 
 def read_by_pymoca(text: str) -> tuple[set[str], int]:

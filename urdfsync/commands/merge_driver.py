@@ -93,7 +93,7 @@ def _merge(args: argparse.Namespace) -> list[Diagnostic]:
     merged, conflicts = merge_file(base, mine, other, markers)
     if merged != mine:
         args.mine.write_bytes(merged.encode())  # a temporary file of git's
-    message, hint = f"{counted(conflicts, 'conflict')} between markers", "settle them in the file"
+    message, hint = f"{counted(len(conflicts), 'conflict')} between markers", "settle them in the file"
     return [Diagnostic(Severity.WARNING, "conflict", message, file, hint=hint)] if conflicts else []
 
 

@@ -135,7 +135,7 @@ def _find_named(planned: Sequence[Result], text: str, choice: Choice) -> Iterato
         is_found = False
         for action in result.actions:
             files = {Path(os.path.normpath(root / key)) for key in (action.origin or action.path, action.path)}
-            is_user = action.is_conflict or action.reason in USERS or action.choice is not None
+            is_user = action.is_conflict or action.reason in USERS or action.is_left_by_git or action.choice
             is_named = not places.isdisjoint(files) and (is_user or choice is Choice.UNDO)
             is_below = action.is_conflict and any(not places.isdisjoint(file.parents) for file in files)
             if is_named or is_below:
@@ -174,7 +174,7 @@ def _compare(
             message = "the file or its generated text changed after they were read, so your choice was not applied"
             hint = "look at it, then choose again"
             problems.append(Diagnostic(Severity.WARNING, "changed-meanwhile", message, place, hint=hint))
-        elif after is None or (after.choice is not choice and not before.is_conflict):
+        elif after is None or (after.choice is not choice and not (before.is_conflict or before.is_left_by_git)):
             problems.append(_without_effect(choice, before, place))
         elif not after.is_conflict:
             accepted.add(path)

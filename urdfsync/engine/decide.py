@@ -11,17 +11,18 @@ from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.domain import ChangeClass, Role
 from urdfsync.engine import united
 from urdfsync.engine.actions import DISPUTED, ORPHANS, Action, Actions, Reason
-from urdfsync.engine.conflicts import MERGES, PREFERENCES, Conflict, find_conflict, over_bases, resolve
+from urdfsync.engine.conflicts import MERGES, PREFERENCES, Conflict, find_conflict, resolve
 from urdfsync.engine.fit import Misfit, Package, find_misfits
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import Inputs
 from urdfsync.engine.needed import keep_needed
-from urdfsync.engine.package_files import PackageFiles, text_hash
+from urdfsync.engine.package_files import PackageFiles
 from urdfsync.engine.package_names import renamed_names
 from urdfsync.engine.parents import SharedFile, merge_order
-from urdfsync.engine.rules import NEVER_WRITTEN, File, decide, put_off, valid_choices
+from urdfsync.engine.rules import File, decide, put_off, valid_choices
 from urdfsync.engine.undo import apply_undo, former_names
 from urdfsync.files import shown
+from urdfsync.markers import find_markers, join_sides
 from urdfsync.modelica.files import class_parts
 from urdfsync.modelica.layout import with_within
 from urdfsync.modelica.literals import numbers_only
@@ -74,10 +75,11 @@ def decide_package(generation: Generation) -> Decision:
     conflicts, choices = _without_misfits(generation, actions, conflicts, choices)
     actions, merged = resolve(actions, conflicts, choices, merging=inputs.robot.on_conflict == "merge")
     merged |= undone
-    actions = keep_needed(generation, actions, merged)
+    actions = tuple(united.settle(action) for action in keep_needed(generation, actions, merged))
+    merged |= united.settled_texts(files, actions, merged)
 
     order_actions, orders, shared = _decide_orders(generation, actions)
-    _refuse_markers(files, actions, (key for key, text in orders.items() if re.search(united.MARKER, text)))
+    _refuse_markers(files, actions, (key for key, text in orders.items() if find_markers(text)))
     has_conflicts = any(action.is_conflict for action in actions)
     numbers = _renumbered(generation, actions, merged, conflicts) if has_conflicts else ()
     origins = set(generation.moves.values())
@@ -95,7 +97,13 @@ def _find_files(generation: Generation) -> dict[str, File]:
 
     def add(key: str, role: Role, owner: str, generated: str | None) -> None:
         on_disk = inputs.files.on_disk(key, role)
-        files[key] = File(role, owner, last.file(key, role, on_disk, generated), on_disk, generated)
+        record = last.file(key, role, on_disk, generated)
+        is_edited = isinstance(on_disk, str) and on_disk not in (generated, *record.hashes)
+        if is_edited and role is not Role.IMPORT and (meaning := united.find_meaning(inputs, key)):
+            inputs.files.meanings[key] = meaning
+            on_disk = inputs.files.on_disk(key, role)
+            record = last.file(key, role, on_disk, generated)
+        files[key] = File(role, owner, record, on_disk, generated)
 
     for path, artifact in generation.package.artifacts.items():
         add(inputs.folder.key(path), artifact.role, artifact.owner, generation.package.hash(path))
@@ -112,32 +120,17 @@ def _find_files(generation: Generation) -> dict[str, File]:
 def _adjust(generation: Generation, action: Action) -> Action:
     """Return the action that contents and options lead to, beyond what hashes say."""
     inputs = generation.inputs
+    meaning = inputs.files.meanings.get(action.path)
+    if meaning and meaning.contradictions and action.reason is Reason.KEEP:
+        return msgspec.structs.replace(action, reason=Reason.CONFLICT)
+    if meaning and not meaning.contradictions:
+        action = msgspec.structs.replace(action, is_left_by_git=True)
     # the record may be a stranger's, who has put the hash of a file of the user's into it
     if action.reason is Reason.DELETE and action.role is not Role.IMPORT and inputs.last.base(action.base) is None:
         return msgspec.structs.replace(action, reason=Reason.ORPHAN)
     if action.reason is Reason.UNOWNED and inputs.options.adopts:
         return msgspec.structs.replace(action, reason=Reason.KEEP, base=action.generated)
-    if action.reason is Reason.CONFLICT and _is_merged_by_git(generation, action):
-        return msgspec.structs.replace(action, reason=Reason.UPDATE, base=action.mine)
     return action
-
-
-def _is_merged_by_git(generation: Generation, action: Action) -> bool:
-    """Return whether git alone made a file, of the texts that two branches recorded."""
-    inputs = generation.inputs
-    record = inputs.last.files.get(action.path, NEVER_WRITTEN)
-    if not record.is_ambiguous or action.role is Role.IMPORT:
-        return False
-    versions = united.find_versions(inputs.files.path(action.path))
-    if not versions or not {text_hash(version) for version in versions} <= {*record.hashes}:
-        return False
-    text, is_modelica = inputs.files.text(action.path) or "", action.path.endswith(".mo")
-    generated = generation.package.content(inputs.folder.path(action.path)).decode()
-    if united.lacks(text, versions, generated):
-        return False
-    if united.is_merge_by_lines(text, versions):
-        return True
-    return any(version == edited for version, edited in over_bases(versions, text, is_modelica=is_modelica))
 
 
 def _renamed(generation: Generation) -> Mapping[str, str]:
@@ -163,6 +156,9 @@ def _conflict(generation: Generation, action: Action, names: Mapping[str, str]) 
         texts = bases[0] if bases else None, package, generated, None
         reason = "you made a folder of the class"
         return Conflict(action.path, *texts, origin=action.origin, rejected=reason)
+    if (meaning := files.meanings.get(key)) and meaning.contradictions:
+        texts = bases[0] if bases else None, mine, generated, None
+        return Conflict(action.path, *texts, origin=action.origin, rejected=united.told(meaning))
     conflict = find_conflict(action, bases, mine, generated, {**former_names(generation, action), **names})
     if action.origin and action.path.endswith(".mo"):
         package = ".".join((generation.inputs.robot.target.package, *class_parts(path)))
@@ -252,14 +248,14 @@ def _renumbered(
 def _refuse_markers(files: PackageFiles, actions: Iterable[Action], orders: Iterable[str]) -> None:
     """Refuse files in which version control left its merge markers. Raises OutputError."""
     errors = []
+    conflicts = {action.origin or action.path for action in actions if action.is_conflict} & files.meanings.keys()
     edited = [a for a in actions if a.mine not in (None, a.base, a.generated) and a.role is not Role.IMPORT]
     for key in dict.fromkeys((*(action.origin or action.path for action in edited), *orders)):
-        text = files.text(key)
-        if text and (match := re.search(united.MARKER, text)):
-            line = text.count("\n", 0, match.start()) + 1
+        found = find_markers(files.text(key) or "")
+        if found and key not in conflicts:
             message, hint = "unresolved merge markers", "settle them in the file, then build again"
             file = shown(files.path(key))
-            errors.append(Diagnostic(Severity.ERROR, "merge-markers", message, file, line, hint=hint))
+            errors.append(Diagnostic(Severity.ERROR, "merge-markers", message, file, found[0][1], hint=hint))
     if errors:
         raise OutputError(*errors)
 
@@ -340,7 +336,7 @@ def _decide_orders(
         text = old
         if old is not None and inputs.last.record.is_united:
             # the file may be that of one branch, with a class that the other one has renamed
-            owned, text = [*owned, *_dangling_lines(files, key, old)], united.join_sides(old)
+            owned, text = [*owned, *_dangling_lines(files, key, old)], join_sides(old)
         if inputs.options.adopts and old is None:  # a new file would hide classes of the user's from tools
             users = _classes_beside(key, files.classes(key.removesuffix("package.order")))
             names = (*names, *(name for name in users if name not in names))

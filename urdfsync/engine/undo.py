@@ -110,9 +110,9 @@ def _written_over(
         is_replaced = action.reason in (Reason.UPDATE, Reason.MERGE, Reason.UNDO) and action.origin is None
         if not action.writes:
             continue
-        if action.mine and (is_taken or is_replaced):
-            before, old = inputs.files.text(action.path) or "", inputs.last.put_aside.texts.get(path)
-            base = inputs.last.base(action.base)  # None for what git has merged
+        if action.mine and (is_taken or is_replaced or action.is_left_by_git):
+            before, old = inputs.files.text_on_disk(action.path) or "", inputs.last.put_aside.texts.get(path)
+            base = None if action.is_left_by_git else inputs.last.base(action.base)
             base = before if base is not None and action.mine == action.base else base
             base = old.base if old and action.reason is Reason.UNDO else base
             is_again = old is not None and old.base == base  # the same merge, undone or made again

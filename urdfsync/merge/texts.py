@@ -12,7 +12,7 @@ from urdfsync.merge.elements import merge_trees
 from urdfsync.merge.lines import Contradiction, Piece, merge_lines
 from urdfsync.merge.pairs import TooManyPairsError
 from urdfsync.merge.renames import find_renamed, rename, without_clashes
-from urdfsync.merge.words import describe
+from urdfsync.merge.words import describe, place_of
 from urdfsync.modelica.lexer import find_markers
 from urdfsync.modelica.parser import parse
 from urdfsync.modelica.tree import KnownStatements, UnreadableError, find_faults, read_tree
@@ -81,21 +81,22 @@ def _preferring(side: str, pieces: Sequence[Piece], ending: str) -> str:
     return "".join(texts)
 
 
-def merge_file(base: str, mine: str, other: str, markers: Sequence[tuple[str, str]]) -> tuple[str, int]:
-    """Merge the versions of two people: return the text with markers in it, and the number of conflicts.
+def merge_file(base: str, mine: str, other: str, markers: Sequence[tuple[str, str]]) -> tuple[str, tuple[str, ...]]:
+    """Merge the versions of two people: return the text with markers in it, and the element of each conflict.
 
-    It is a merge by lines if that of elements has a flaw.
+    It is a merge by lines if that of elements has a flaw. Lines have no element: their conflicts have an empty text.
     """
     ending = _ending(mine)
-    merged, count = "", 0
+    merged, elements = "", tuple[str, ...]()
     ways: tuple[KnownStatements | None, ...] = {}, None
     for statements in ways:
         pieces = _merge_pieces(base, mine, other, ending, statements, is_export=False)
         merged = _with_markers(pieces, ending, markers)
-        count = sum(isinstance(piece, Contradiction) for piece in pieces)
-        if count or not find_flaw(merged, (mine, other)):
+        conflicts = (piece for piece in pieces if isinstance(piece, Contradiction))
+        elements = tuple(place_of(conflict.path)[0] if conflict.path else "" for conflict in conflicts)
+        if elements or not find_flaw(merged, (mine, other)):
             break
-    return merged, count
+    return merged, elements
 
 
 def _ending(text: str) -> str:
