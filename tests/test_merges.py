@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import contextlib
 import re
+import shutil
 import subprocess
 from collections.abc import Callable
 from pathlib import Path
@@ -18,9 +19,9 @@ from support.branches import export, perform
 from support.commands import Execute
 from support.files import fresh_models, models, unchanged
 from support.git import NEEDS_GIT, Repository
-from support.networks import LADDER, MODEL, configure, run
+from support.networks import LADDER, MODEL, configure, failure, run
 
-from urdfsync.markers import find_markers
+from urdfsync.markers import find_markers, join_sides, read_sides
 from urdfsync.state.record import Choice
 
 pytestmark = NEEDS_GIT
@@ -89,3 +90,78 @@ def test_merges(stop: Stop, tmp_path: Path, case: str, way: str, style: str) -> 
         Path(path).write_text(text)
     perform(re.sub(r"stays .*\n", "", expected))
     assert built == {path: text for path, text in models().items() if path in built}
+
+
+def first_conflict(text: str) -> str:
+    (conflict, *_) = re.findall(r"(?ms)^<{7,} .*?^>{7,} [^\n]*\n", text)
+    return str(conflict)
+
+
+@pytest.mark.parametrize("case", ["renamed-by-both", "edits-in-two-conflicts"])
+@pytest.mark.parametrize("side", ["ours", "theirs", "both", "neither"])
+def test_markers_that_somebody_has_half_settled_stay(stop: Stop, project: Path, case: str, side: str) -> None:
+    """Of the two conflicts in the model, one is settled."""
+    stop(case)
+    conflict = first_conflict(text := Path(MODEL).read_text())
+    settled = {"ours": read_sides(conflict)[0], "theirs": read_sides(conflict)[1], "both": join_sides(conflict)}
+    Path(MODEL).write_text(text.replace(conflict, settled.get(side, "")))
+    assert find_markers(Path(MODEL).read_text())
+    with unchanged(project):
+        assert "unresolved merge markers" in failure()
+        assert "unresolved merge markers" in failure(choices={MODEL: Choice.MERGE})
+
+
+@pytest.mark.parametrize("case", ["both-add-an-element", "edits-of-both", "renamed-by-both"])
+def test_a_text_with_markers_that_is_replaced_is_put_aside(stop: Stop, execute: Execute, case: str) -> None:
+    stop(case)
+    before = marked()
+    assert len(before) >= 1
+    run()
+    assert not marked()
+    execute("resolve", *before, "--undo", code=None)
+    assert marked() == before
+
+
+@pytest.mark.parametrize("choice", ["--merge", "--keep", "--take"])
+def test_a_file_that_a_build_writes_can_be_named(stop: Stop, execute: Execute, choice: str) -> None:
+    stop("edits-of-both")
+    assert execute("resolve", MODEL, choice)
+    assert not marked()
+    assert ("// other" in Path(MODEL).read_text()) == ("Ours" in Path(MODEL).read_text()) == (choice != "--take")
+    assert run().in_step
+
+
+@pytest.mark.parametrize("style", STYLES)
+@pytest.mark.parametrize("case", ["edits-that-contradict", "edits-that-contradict-alone"])
+def test_a_contradiction_is_for_people(stop: Stop, execute: Execute, case: str, style: str) -> None:
+    stop(case, style=style)
+    before = marked()
+    assert "since both branches changed" in execute("build", code=3).words
+    assert "since both branches changed" in execute("resolve", MODEL, "--merge", code=3).words
+    assert marked() == before
+    assert "unresolved merge markers" in execute("resolve", MODEL, "--keep", code=2).words
+    assert marked() == before
+    conflict = first_conflict(text := before[MODEL])
+    Path(MODEL).write_text(text.replace(conflict, read_sides(conflict)[1]))
+    while find_markers(text := Path(MODEL).read_text()):
+        Path(MODEL).write_text(text.replace(first_conflict(text), join_sides(first_conflict(text))))
+    assert execute("build", "--json", code=None).code in (0, 3)
+    assert not marked()
+
+
+def test_a_contradiction_can_be_given_up(stop: Stop, execute: Execute, tmp_path: Path) -> None:
+    stop("edits-that-contradict")
+    assert execute("resolve", MODEL, "--take")
+    assert models() == fresh_models(tmp_path / "fresh")
+
+
+def test_without_a_repository_markers_between_generated_texts_are_nobodys(stop: Stop, tmp_path: Path) -> None:
+    stop("both-change-a-number")
+    shutil.rmtree(".git")
+    (path,) = marked()
+    text = Path(path).read_text()
+    Path(path).write_text(text.replace("Resistance", "Mine"))
+    assert "unresolved merge markers" in failure()
+    Path(path).write_text(text)
+    run()
+    assert models() == fresh_models(tmp_path / "fresh")

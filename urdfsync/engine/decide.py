@@ -27,7 +27,7 @@ from urdfsync.modelica.files import class_parts
 from urdfsync.modelica.layout import with_within
 from urdfsync.modelica.literals import numbers_only
 from urdfsync.modelica.names import is_identifier
-from urdfsync.state.record import UsersChoice, role_of
+from urdfsync.state.record import Choice, UsersChoice, role_of
 
 
 class Decision(msgspec.Struct, frozen=True):
@@ -248,11 +248,12 @@ def _renumbered(
 def _refuse_markers(files: PackageFiles, actions: Iterable[Action], orders: Iterable[str]) -> None:
     """Refuse files in which version control left its merge markers. Raises OutputError."""
     errors = []
-    conflicts = {action.origin or action.path for action in actions if action.is_conflict} & files.meanings.keys()
     edited = [a for a in actions if a.mine not in (None, a.base, a.generated) and a.role is not Role.IMPORT]
+    # what the branches contradict each other about is told as a conflict, until the user takes what is generated
+    told = {a.origin or a.path for a in edited if a.is_conflict or a.choice is Choice.TAKE} & files.meanings.keys()
     for key in dict.fromkeys((*(action.origin or action.path for action in edited), *orders)):
         found = find_markers(files.text(key) or "")
-        if found and key not in conflicts:
+        if found and key not in told:
             message, hint = "unresolved merge markers", "settle them in the file, then build again"
             file = shown(files.path(key))
             errors.append(Diagnostic(Severity.ERROR, "merge-markers", message, file, found[0][1], hint=hint))
