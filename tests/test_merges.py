@@ -27,7 +27,12 @@ from urdfsync.state.record import Choice
 pytestmark = NEEDS_GIT
 
 CASES = Path(__file__).with_name("merges")
-WAYS = {"merge": "merge -q theirs", "rebase": "rebase -q theirs", "cherry-pick": "cherry-pick theirs"}
+WAYS = {
+    "merge": "merge -q theirs",
+    "squash": "merge -q --squash theirs",
+    "rebase": "rebase -q theirs",
+    "cherry-pick": "cherry-pick theirs",
+}
 STYLES = ["merge", "diff3", "driver"]
 
 Stop = Callable[..., None]
@@ -97,18 +102,34 @@ def first_conflict(text: str) -> str:
     return str(conflict)
 
 
-@pytest.mark.parametrize("case", ["renamed-by-both", "edits-in-two-conflicts"])
-@pytest.mark.parametrize("side", ["ours", "theirs", "both", "neither"])
-def test_markers_that_somebody_has_half_settled_stay(stop: Stop, project: Path, case: str, side: str) -> None:
-    """Of the two conflicts in the model, one is settled."""
+@pytest.mark.parametrize(
+    ("case", "path"),
+    [
+        ("renamed-by-both", MODEL),
+        ("renamed-by-both", f"{LADDER}/Elements/ShuntParameters.mo"),
+        ("renamed-by-both", f"{LADDER}/Elements/package.order"),
+        ("edits-in-two-conflicts", MODEL),
+    ],
+)
+@pytest.mark.parametrize("side", ["ours", "theirs", "both", "neither", "line"])
+def test_markers_that_somebody_has_half_settled_stay(
+    stop: Stop, project: Path, case: str, path: str, side: str
+) -> None:
+    """One conflict is settled, or a line is added in it; markers of another one are left."""
     stop(case)
-    conflict = first_conflict(text := Path(MODEL).read_text())
-    settled = {"ours": read_sides(conflict)[0], "theirs": read_sides(conflict)[1], "both": join_sides(conflict)}
-    Path(MODEL).write_text(text.replace(conflict, settled.get(side, "")))
-    assert find_markers(Path(MODEL).read_text())
+    conflict = first_conflict(text := Path(path).read_text())
+    ours, theirs = read_sides(conflict)
+    settled = {
+        "ours": ours,
+        "theirs": theirs,
+        "both": join_sides(conflict),
+        "line": conflict.replace("\n", "\nmine\n", 1),
+    }
+    text = text.replace(conflict, settled.get(side, ""))
+    Path(path).write_text(text if find_markers(text) else f"{text}\n{conflict}")
     with unchanged(project):
         assert "unresolved merge markers" in failure()
-        assert "unresolved merge markers" in failure(choices={MODEL: Choice.MERGE})
+        assert "unresolved merge markers" in failure(choices={path: Choice.MERGE})
 
 
 @pytest.mark.parametrize("case", ["both-add-an-element", "edits-of-both", "renamed-by-both"])

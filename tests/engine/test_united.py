@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 import subprocess
 from collections.abc import Callable
 from pathlib import Path
@@ -147,3 +148,21 @@ def test_sides_are_known_as_long_as_git_has_them(unite: Unite, tmp_path: Path) -
     assert find_sides(file, LEFT) == SIDES, "the last commit"
     subprocess.run([*git, "commit", "-qm", "next", "--allow-empty"], cwd=tmp_path, check=True)
     assert find_sides(file, LEFT) is None, "an older one"
+
+
+@pytest.mark.parametrize("damage", ["index", "objects", "HEAD"])
+def test_a_repository_that_is_damaged_tells_nothing(unite: Unite, tmp_path: Path, damage: str) -> None:
+    file = unite()
+    if damage == "objects":
+        shutil.rmtree(tmp_path / ".git/objects")
+    else:
+        (tmp_path / ".git" / damage).write_bytes(b"DIRC\0\0")
+    assert find_sides(file, file.read_text()) is None
+
+
+def test_a_shallow_clone_of_a_merge_tells_nothing(unite: Unite, tmp_path: Path) -> None:
+    unite(OURS, BASE.replace("\n27\n", "\n"))
+    clone = tmp_path / "clone"
+    subprocess.run(["git", "clone", "-q", "--depth=1", tmp_path.as_uri(), str(clone)], check=True)
+    file = clone / "models/a.mo"
+    assert find_sides(file, file.read_text()) is None

@@ -158,7 +158,7 @@ def _conflict(generation: Generation, action: Action, names: Mapping[str, str]) 
         return Conflict(action.path, *texts, origin=action.origin, rejected=reason)
     if (meaning := files.meanings.get(key)) and meaning.contradictions:
         texts = bases[0] if bases else None, mine, generated, None
-        return Conflict(action.path, *texts, origin=action.origin, rejected=united.told(meaning))
+        return Conflict(action.path, *texts, origin=action.origin, rejected=united.describe(meaning))
     conflict = find_conflict(action, bases, mine, generated, {**former_names(generation, action), **names})
     if action.origin and action.path.endswith(".mo"):
         package = ".".join((generation.inputs.robot.target.package, *class_parts(path)))
@@ -337,7 +337,9 @@ def _decide_orders(
         text = old
         if old is not None and inputs.last.record.is_united:
             # the file may be that of one branch, with a class that the other one has renamed
-            owned, text = [*owned, *_dangling_lines(files, key, old)], join_sides(old)
+            owned = [*owned, *_dangling_lines(files, key, old)]
+        if old is not None and find_markers(old) and united.find_sides(files.path(key), old):
+            text = join_sides(old)
         if inputs.options.adopts and old is None:  # a new file would hide classes of the user's from tools
             users = _classes_beside(key, files.classes(key.removesuffix("package.order")))
             names = (*names, *(name for name in users if name not in names))

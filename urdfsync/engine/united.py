@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import itertools
 import os
+import re
 from collections import Counter
 from collections.abc import Container, Iterable, Iterator, Sequence
 from pathlib import Path
@@ -17,6 +19,7 @@ from urdfsync.engine.conflicts import over_bases
 from urdfsync.engine.inputs import Inputs
 from urdfsync.engine.last_build import LastBuild
 from urdfsync.engine.package_files import Meaning, PackageFiles, text_hash
+from urdfsync.engine.rules import NEVER_WRITTEN
 from urdfsync.merge.lines import compare, find_regions
 from urdfsync.revisions import Revision
 
@@ -48,7 +51,7 @@ def find_meaning(inputs: Inputs, key: str) -> Meaning | None:
     """
     last, file, text = inputs.last, inputs.files.path(key), inputs.files.any_text(key)
     has_markers = bool(markers.find_markers(text))
-    if not has_markers and not last.record.is_united:
+    if not has_markers and not last.files.get(key, NEVER_WRITTEN).is_ambiguous:
         return None
     sides = find_sides(file, text)
     if sides is None and has_markers:
@@ -78,7 +81,7 @@ def _merge_edits(last: LastBuild, key: str, sides: Sides) -> Meaning:
     return Meaning(None, contradictions) if contradictions else Meaning(merged)
 
 
-def told(meaning: Meaning) -> str:
+def describe(meaning: Meaning) -> str:
     """Say what two branches contradict each other about, as a clause."""
     elements = [element for element in dict.fromkeys(meaning.contradictions) if element]
     return f"git's markers are in it, since both branches changed {' and '.join(elements) or 'the same lines'}"
@@ -113,19 +116,22 @@ def find_sides(file: Path, text: str) -> Sides | None:
 
     None if there are no such versions, or if somebody has changed the file since.
     """
+    import pygit2
+
     dependencies.mark_incomplete()  # a commit changes the answer, and no file
     text = _plain(text)
     try:
         repository = Revision(file.parent, "HEAD").repository
-        path = Path(os.path.realpath(file.parent), file.name).relative_to(os.path.realpath(repository.workdir))
-    except (SourceError, ValueError):
-        return None
-    candidates = (*_staged(repository, file, path.as_posix(), text), *_committed(repository, file))
-    return next((sides for sides in candidates if sides.ours == sides.theirs or _is_untouched(text, sides)), None)
+        candidates = itertools.chain(_staged(repository, file, text), _committed(repository, file))
+        return next((sides for sides in candidates if sides.ours == sides.theirs or _is_untouched(text, sides)), None)
+    except (SourceError, pygit2.GitError, KeyError, OSError, ValueError):
+        return None  # as without a repository: one that is damaged, or lacks commits, tells no versions
 
 
-def _staged(repository: pygit2.Repository, file: Path, path: str, text: str) -> Iterator[Sides]:
+def _staged(repository: pygit2.Repository, file: Path, text: str) -> Iterator[Sides]:
     """Yield the versions in the index, if git stopped at the file."""
+    folder = Path(os.path.realpath(file.parent)).relative_to(os.path.realpath(repository.workdir))
+    path, label = (folder / file.name).as_posix(), re.search(r"(?m)^>{7,} ([^\s:]+)", text)
     for base, ours, theirs in repository.index.conflicts or ():
         entries = [entry for entry in (ours, theirs) if entry and entry.path == path]
         blobs = (repository[entry.id].read_raw() if entry else b"" for entry in (base, ours, theirs))
@@ -134,7 +140,7 @@ def _staged(repository: pygit2.Repository, file: Path, path: str, text: str) -> 
             yield Sides(*texts)
         elif entries and text in texts[1:]:
             # of a file that both renamed, git puts its merge at either path: it is each branch's own version there
-            for name in ("HEAD",) if ours else _UNDER_WAY:
+            for name in ("HEAD",) if ours else (*_UNDER_WAY, label[1] if label else ""):
                 if (own := _read(name, file)) is not None:
                     yield Sides(own, own, own)
 
@@ -148,7 +154,7 @@ def _committed(repository: pygit2.Repository, file: Path) -> Iterator[Sides]:
         if ours is None or theirs is None:
             continue
         commits = [repository.revparse_single(name).peel(pygit2.Commit) for name in names]
-        ancestor = repository.merge_base(*(commit.id for commit in commits))
+        ancestor = repository.merge_base(commits[0].id, commits[1].id)
         # a merge begins where the branches part, a commit that is picked at the one before it
         for base in dict.fromkeys([str(ancestor or ""), f"{names[1]}^"]):
             yield Sides(_read(base, file) or "", ours, theirs)
@@ -174,16 +180,15 @@ def _is_untouched(text: str, sides: Sides) -> bool:
     """
     from urdfsync.merge.texts import merge_file
 
+    readings = markers.read_sides(text)
+    if not any(map(markers.find_markers, readings)):  # else some are left over
+        is_merged = readings[0] == text
+        ours, theirs = (_changes(sides.base, side) for side in sides[1:]) if is_merged else _apart(sides)
+        if _changes(sides.ours, readings[0]) <= theirs and _changes(sides.theirs, readings[1]) <= ours:
+            return True
     first, middle, last = markers.signs(text)
     driven, _ = merge_file(*sides, ((first, "mine"), (middle, "generated"), (last, "")))
-    if driven == markers.without_labels(text):
-        return True
-    readings = markers.read_sides(text)
-    if any(map(markers.find_markers, readings)):
-        return False  # some are left over
-    is_merged = readings[0] == text
-    ours, theirs = (_changes(sides.base, side) for side in sides[1:]) if is_merged else _apart(sides)
-    return _changes(sides.ours, readings[0]) <= theirs and _changes(sides.theirs, readings[1]) <= ours
+    return driven == markers.without_labels(text)
 
 
 def _changes(old: str, new: str) -> _Changes:
