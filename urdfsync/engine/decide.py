@@ -338,7 +338,7 @@ def _decide_orders(
         if old is not None and inputs.last.record.is_united:
             # the file may be that of one branch, with a class that the other one has renamed
             owned = [*owned, *_dangling_lines(files, key, old)]
-        if old is not None and find_markers(old) and united.find_sides(files.path(key), old):
+        if old is not None and find_markers(old) and united.can_join(files.path(key), old):
             text = join_sides(old)
         if inputs.options.adopts and old is None:  # a new file would hide classes of the user's from tools
             users = _classes_beside(key, files.classes(key.removesuffix("package.order")))

@@ -111,6 +111,15 @@ def _are_generated(last: LastBuild, texts: Iterable[str]) -> bool:
     return all(sha256 in recorded or last.base(sha256) is not None for sha256 in map(text_hash, texts))
 
 
+def can_join(file: Path, text: str) -> bool:
+    """Return whether the lines of both sides of a list of names may be joined: it is as git left it, or git is gone."""
+    try:
+        Revision(file.parent, "HEAD")
+    except SourceError:
+        return True
+    return find_sides(file, text) is not None
+
+
 def find_sides(file: Path, text: str) -> Sides | None:
     """Return the versions of which git made a file: in what it is at work on, or in the last merge.
 
