@@ -35,6 +35,10 @@ def test_markers_begin_a_line() -> None:
     assert find_markers(text) == [("<<<<<<<", 1), (">>>>>>>>", 6), ("<<<<<<<", 8), (">>>>>>>", 9)]
 
 
+def test_other_signs_are_found_if_they_are_asked_for() -> None:
+    assert find_markers("<<<<<<< a\n|||||||\n=======\n ======= \n", "|=") == [("|||||||", 2), ("=======", 3)]
+
+
 def test_labels_do_not_count() -> None:
     assert without_labels(MERGE) == MERGE.replace(" HEAD", "").replace(" theirs", "")
     assert without_labels("a < b\n") == "a < b\n"

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import re
 
-_MARKER = re.compile(r"^(<{7,}|>{7,})(?=\s|\Z)", re.MULTILINE)
-"""The first or the last line of a conflict: `=======` alone is also a rule of a comment."""
+_MARKER = re.compile(r"^(<{7,}|\|{7,}|={7,}|>{7,})(?=\s|\Z)", re.MULTILINE)
 
 
-def find_markers(text: str) -> list[tuple[str, int]]:
-    """Return the signs that begin and end conflicts, each with its line, from 1."""
-    return [(marker[1], text.count("\n", 0, marker.start()) + 1) for marker in _MARKER.finditer(text)]
+def find_markers(text: str, signs: str = "<>") -> list[tuple[str, int]]:
+    """Return the markers of these signs, each with its line, from 1: `=======` alone is also a rule of a comment."""
+    found = (marker for marker in _MARKER.finditer(text) if marker[1][0] in signs)
+    return [(marker[1], text.count("\n", 0, marker.start()) + 1) for marker in found]
 
 
 def read_sides(text: str) -> tuple[str, str]:
@@ -37,7 +37,7 @@ def signs(text: str) -> tuple[str, str, str]:
 
 def _size(text: str) -> int:
     """Return the length of the outermost markers."""
-    return min((len(marker[1]) for marker in _MARKER.finditer(text)), default=7)
+    return min((len(sign) for sign, _ in find_markers(text)), default=7)
 
 
 def _conflict(size: int) -> re.Pattern[str]:

@@ -58,8 +58,10 @@ def perform(steps: str, build: Callable[[], object] = lambda: None) -> None:
     for verb, *words in lines:
         if verb == "set":
             set_value(words[0], float(words[1]))
+        elif verb == "rename":
+            rename(*words)
         elif verb not in _NOTES:
-            {"add": add, "drop": drop, "rename": rename}[verb](*words)
+            {"add": add, "drop": drop}[verb](*words)
     build()
     for verb, *words in lines:
         if verb in _NOTES:

@@ -130,7 +130,7 @@ def lex(text: str) -> tuple[list[Token], list[Fault]]:
 
 def find_markers(text: str) -> list[Fault]:
     """Return the lines that look like conflict markers; they may also stand in a documentation."""
-    return [Fault(f"has the conflict marker `{sign}`", line) for sign, line in markers.find_markers(text)]
+    return [Fault(f"has the conflict marker `{sign}`", line) for sign, line in markers.find_markers(text, "<|=>")]
 
 
 def is_number(token: str) -> bool:
