@@ -8,9 +8,9 @@ import re
 import subprocess
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Any
 
 import pytest
+from support.branches import add, drop, export, note, set_value
 from support.commands import Execute
 from support.files import fresh_models, models
 from support.git import NEEDS_GIT, Repository
@@ -19,42 +19,6 @@ from support.networks import C1, MODEL, R2, RECORD, configure, edit, kinds, run
 from urdfsync.engine.actions import Choice, Reason
 
 pytestmark = NEEDS_GIT
-
-
-def elements() -> list[dict[str, Any]]:
-    network: list[dict[str, Any]] = json.loads(Path("ladder.json").read_text())["elements"]
-    return network
-
-
-def export(change: Callable[[list[dict[str, Any]]], object]) -> None:
-    """Change the elements of the source, which has a blank line between two of them, so that git merges it."""
-    network = json.loads(Path("ladder.json").read_text())
-    change(network["elements"])
-    lines = ",\n\n".join(json.dumps(element) for element in network["elements"])
-    head = json.dumps({**network, "elements": []}).removesuffix("]}")
-    Path("ladder.json").write_text(f"{head}\n\n{lines}\n\n]}}\n")
-
-
-def set_value(name: str, value: float) -> None:
-    def change(found: list[dict[str, Any]]) -> None:
-        (element,) = (one for one in found if one["name"] == name)
-        element["ohm" if "ohm" in element else "farad"] = value
-
-    export(change)
-
-
-def drop(name: str) -> None:
-    export(lambda found: found.remove(next(one for one in found if one["name"] == name)))
-
-
-def add(name: str) -> None:
-    export(lambda found: found.append({"name": name, "between": ["in", "ground"], "ohm": 5}))
-
-
-def note(path: str, text: str) -> None:
-    """An edit: a line before the end of a class."""
-    found = Path(path).read_text()
-    Path(path).write_text(re.sub(r"\nend (\w+);\n$", rf"\n  // {text}\nend \1;\n", found))
 
 
 @pytest.fixture
@@ -180,15 +144,6 @@ def test_an_edit_of_what_git_merged_stays(repository: Repository, execute: Execu
     assert kinds(run())[MODEL] is Reason.MERGE
     assert "// mine" in Path(MODEL).read_text()
     assert without_notes(models()) == fresh_models(tmp_path / "fresh")
-
-
-def test_markers_in_an_edited_file_are_settled_by_who_edited_it(repository: Repository, execute: Execute) -> None:
-    configure('on_conflict = "merge"\n')
-    note(MODEL, "mine")
-    unite_two_elements(repository, execute, "lines")
-    before = models()
-    assert "unresolved merge markers" in execute("build", code=2).words
-    assert models() == before
 
 
 def test_an_edit_with_an_ambiguous_base_is_never_kept_in_silence(repository: Repository) -> None:

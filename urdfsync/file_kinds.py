@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 from typing import NamedTuple
 
+from urdfsync.markers import find_markers
+
 _BEGINNING = 20_000
 """So many bytes tell what a file is that has a robot inside."""
 _TAR = slice(257, 262)
@@ -27,7 +29,6 @@ _OTHERS = (
     ),
 )
 """Codes, how the files begin, messages."""
-_CONFLICT_MARKER = r"(?m)^(?:<{7,}|>{7,})(?= |$)"
 HINTS = {
     "compressed": "unpack it, and name what is in it",
     "lfs-pointer": "run `git lfs pull`",
@@ -61,7 +62,6 @@ def find_kind(content: bytes) -> FileKind | None:
 
 def find_conflict(text: str) -> FileKind | None:
     """Return where the first marker of a merge conflict is, if there is one; line ends are unified."""
-    if (marker := re.search(_CONFLICT_MARKER, text)) is None:
-        return None
-    code, line = "merge-conflict", text.count("\n", 0, marker.start()) + 1
-    return FileKind(code, "the file has merge conflict markers", HINTS[code], line)
+    for _, line in find_markers(text):
+        return FileKind("merge-conflict", "the file has merge conflict markers", HINTS["merge-conflict"], line)
+    return None

@@ -61,6 +61,7 @@ class Revision:
         if (repository := open_repository(folder)) is None:
             message = f"there is no file {name!r}, and no git repository around {folder} that has it as a revision"
             raise SourceError.of("no-repository", message, hint=_HINT)
+        self.repository = repository
         self._top = Path(os.path.realpath(repository.workdir))
         try:
             self._tree = repository.revparse_single(name).peel(pygit2.Commit).tree

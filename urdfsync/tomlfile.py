@@ -10,6 +10,7 @@ from typing import Any
 import tomli
 
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
+from urdfsync.markers import find_markers
 
 DEEPEST = 50
 """Tables and lists within each other; nothing that urdfsync reads needs more than a few."""
@@ -19,7 +20,6 @@ _KEY = r"""(?:"(?:[^"\\]|\\.)*"|'[^']*'|[A-Za-z0-9_-]+)"""
 _LINE = re.compile(rf"\s*(\[\[?)?\s*({_KEY}(?:\s*\.\s*{_KEY})*)\s*[=\]]")
 """A line that opens a table, or sets a key."""
 _QUOTED = r"'([^']*)'"
-_MARKER = r"^(<{7,}|={7}|>{7,})(\s|$)"
 
 
 def parse(text: str, file: str, error: type[UrdfsyncError]) -> dict[str, Any]:
@@ -37,8 +37,8 @@ def parse(text: str, file: str, error: type[UrdfsyncError]) -> dict[str, Any]:
         pass  # that is the message
     except tomli.TOMLDecodeError as problem:
         message = str(problem)
-        if marker := re.search(_MARKER, text, re.MULTILINE):
-            line = text.count("\n", 0, marker.start()) + 1
+        if found := find_markers(text):
+            line = found[0][1]
             message, hint = "unresolved merge markers", "settle the merge"
         elif place := re.search(_PLACE, message):
             line, column = int(place[1] or text.rstrip().count("\n") + 1), int(place[2] or 0)

@@ -104,6 +104,7 @@ def clone(folder: Path, monkeypatch: pytest.MonkeyPatch, execute: Execute) -> Re
     printed = execute("merge-driver", "--install")
     assert printed.lines == [f"git merges with urdfsync in {folder}"]
     assert printed.err == ""
+    assert (folder / ".gitattributes").read_text() == ATTRIBUTES
     return repository
 
 
@@ -128,11 +129,23 @@ def test_git_says_what_it_could_not_merge(clone: Repository) -> None:
 
 
 @NEEDS_GIT
-def test_the_line_that_is_missing_is_told(clone: Repository, execute: Execute) -> None:
-    clone.git("rm", "-q", ".gitattributes")
-    error = execute("merge-driver", "--install").err
-    assert error.startswith(".gitattributes: note: it does not say which files these are; ")
-    assert ATTRIBUTES.strip() in error
+@pytest.mark.parametrize("before", [None, b"", b"*.png binary", b"*.png binary\n"])
+def test_the_line_that_is_missing_is_written(clone: Repository, execute: Execute, before: bytes | None) -> None:
+    file = clone.folder / ".gitattributes"
+    clone.git("rm", "-q", file.name)
+    if before is not None:
+        file.write_bytes(before)
+    assert execute("merge-driver", "--install").lines[1] == ".gitattributes written: commit it"
+    assert file.read_text() == ("*.png binary\n" if before and before.strip() else "") + ATTRIBUTES
+    assert clone.git("check-attr", "merge", "--", "models/any.mo").endswith(": urdfsync\n")
+
+
+@NEEDS_GIT
+def test_attributes_that_cannot_be_written_are_told(clone: Repository, execute: Execute) -> None:
+    (clone.folder / ".gitattributes").unlink()
+    (clone.folder / ".gitattributes").mkdir()
+    printed = execute("merge-driver", "--install", code=2)
+    assert ".gitattributes: error: `*.mo merge=urdfsync` can't be added: " in printed.err
 
 
 @NEEDS_GIT

@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from support.commands import Execute
+from support.commands import Execute, Terminal
 from support.crashes import Operation, before_each
 from support.files import unchanged
 from support.old_names import CELL, COMMAND, CONFIG, FILES, RENAMED, make_user, texts, write_source
@@ -15,21 +15,6 @@ from support.old_names import CELL, COMMAND, CONFIG, FILES, RENAMED, make_user, 
 @pytest.fixture
 def user(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, execute: Execute) -> Path:
     return make_user(tmp_path, monkeypatch, execute)
-
-
-class Terminal:
-    """Somebody who answers, and saves one of the files before."""
-
-    def __init__(self, words: str, meanwhile: str = "") -> None:
-        self._words, self._meanwhile = words, meanwhile
-
-    def isatty(self) -> bool:
-        return True
-
-    def readline(self) -> str:
-        if self._meanwhile:
-            Path(self._meanwhile).write_text("saved")
-        return self._words
 
 
 @pytest.mark.parametrize("options", [(), ("--json",), ("--dry-run",)])

@@ -180,7 +180,7 @@ def test_merge_markers_are_never_taken_for_an_edit(project: Path, path: str, len
     merging()
     run()
     text = Path(path).read_text()
-    Path(path).write_text(f"{'<' * length} HEAD\n{text}{'=' * length}\n{text}{'>' * length} theirs\n")
+    Path(path).write_text(f"{'<' * length} HEAD\n{text}{'=' * length}\n{text}// mine\n{'>' * length} theirs\n")
     resistor(150)
     with unchanged(project):
         for request in ({}, {"dry": True}, {"choices": {path: Choice.MERGE}}):

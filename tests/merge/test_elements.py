@@ -1,8 +1,9 @@
 """Merges of classes: a catalogue of cases, random edits of real generated files, and files that editors saved again.
 
 A case is a folder below `catalogue/` with `base.mo`, `mine.mo`, `generated.mo`, `about.txt` (a sentence), and
-`expected.mo` or `contradictions.txt`. `pytest -k NAME` runs one; `python tests/merge/test_elements.py NAME …` prints
-what git's own merge makes of it.
+`expected.mo` or `contradictions.txt`. One with `other.mo` for `generated.mo` is a merge between two people, as git's
+driver makes it: `expected.mo` has its markers. `pytest -k NAME` runs one; `python tests/merge/test_elements.py NAME …`
+prints what git's own merge makes of it.
 """
 
 from __future__ import annotations
@@ -25,6 +26,7 @@ from support.printer import STYLES, Style, resaved
 from support.statements import KINDS, Editor, statements
 
 from urdfsync.merge import Merge, merge
+from urdfsync.merge.texts import merge_file
 from urdfsync.modelica.lexer import lex
 from urdfsync.modelica.parser import parse
 
@@ -47,7 +49,20 @@ def merged(name: str, *texts: str) -> Merge:
     return merge(base, mine, generated, is_modelica=True)
 
 
-@pytest.mark.parametrize("name", sorted(folder.name for folder in CATALOGUE.iterdir()))
+TWO_PEOPLE = sorted(file.parent.name for file in CATALOGUE.glob("*/other.mo"))
+MARKERS = ("<<<<<<< mine", "mine"), ("=======", "generated"), (">>>>>>> other", "")
+
+
+@pytest.mark.parametrize("name", TWO_PEOPLE)
+def test_two_people(name: str) -> None:
+    texts = (CATALOGUE / name / f"{text}.mo" for text in ("base", "mine", "other", "expected"))
+    base, mine, other, expected = (text.read_text("utf-8") for text in texts)
+    merged, conflicts = merge_file(base, mine, other, MARKERS)
+    assert merged == expected
+    assert len(conflicts) == expected.count("=======\n") == len(merge_file(base, other, mine, MARKERS)[1])
+
+
+@pytest.mark.parametrize("name", sorted(folder.name for folder in CATALOGUE.iterdir() if folder.name not in TWO_PEOPLE))
 def test_catalogue(name: str) -> None:
     found, swapped = merged(name, "base", "mine", "generated"), merged(name, "base", "generated", "mine")
     contradictions = CATALOGUE / name / "contradictions.txt"
@@ -130,14 +145,14 @@ def test_any_edits(random: Random, mine: list[str], generated: list[str]) -> Non
     assert merge(base, found.text, theirs, is_modelica=True).text == found.text
 
 
-def commented(text: str, random: Random) -> str:
-    """The text with comments of the user's between any two words."""
+def commented(text: str, random: Random, name: str = "mine") -> str:
+    """The text with comments of somebody's between any two words."""
     tokens, _ = lex(text)
     for number, token in enumerate(
         sorted(random.sample(tokens[5:], min(len(tokens) - 5, 12)), key=lambda one: -one.start)
     ):
-        note = random.choice(["/* mine{} */", " /* mine{} */ ", "// mine{}\n", "\n  // mine{}\n  ", " // mine{}\r\n"])
-        text = f"{text[: token.start]}{note.format(number)}{text[token.start :]}"
+        note = random.choice(["/* {} */", " /* {} */ ", "// {}\n", "\n  // {}\n  ", " // {}\r\n"])
+        text = f"{text[: token.start]}{note.format(name + str(number))}{text[token.start :]}"
     return text
 
 
@@ -152,6 +167,20 @@ def test_comments_stay_wherever_they_are(random: Random, kinds: list[str]) -> No
     assert said(found.text) == said(theirs)
     assert parse(found.text).faults == []
     assert merge(base, found.text, theirs, is_modelica=True).text == found.text
+
+
+@often(25)
+@given(random=seeds, mine=edits, other=edits)
+def test_of_two_people_no_comment_is_lost(random: Random, mine: list[str], other: list[str]) -> None:
+    base = random.choice(simple_files())
+    ours = commented(edited(base, Editor("my", random), mine), random)
+    theirs = commented(edited(base, Editor("your", random), other), random, "other")
+    merged, conflicts = merge_file(base, ours, theirs, MARKERS)
+    assert {*re.findall(r"(?:mine|other)\d+", ours + theirs)} <= {*re.findall(r"(?:mine|other)\d+", merged)}
+    swapped, as_many = merge_file(base, theirs, ours, MARKERS)
+    assert bool(conflicts) == bool(as_many) == ("<<<<<<< mine" in swapped)
+    assert merge_file(base, ours, base, MARKERS) == (ours, ())
+    assert merge_file(base, base, ours, MARKERS) == (ours.replace("\r\n", "\n"), ())
 
 
 def read_by_pymoca(text: str) -> tuple[set[str], int]:

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from urdfsync.modelica.lexer import Lexer, find_markers, is_name, is_number, lex, words_in
+from urdfsync.modelica.lexer import Lexer, is_name, is_number, lex, words_in
 
 TOKENS = {
     "\ufeffReal x=.5e-3*1.;": ["Real", "x", "=", ".5e-3", "*", "1.", ";"],
@@ -43,13 +43,6 @@ def test_escapes_without_a_meaning() -> None:
     words = "has the escape `{}`, which Modelica does not know"
     assert [(one.reason, one.line) for one in lexer.strange_escapes()] == [
         (words.format("\\e"), 3), (words.format("\\z"), 3),
-    ]  # fmt: skip
-
-
-def test_marks_of_a_conflict_begin_a_line() -> None:
-    text = "<<<<<<< mine\na\n|||||||\n=======\n======== \n >>>>>>> b\n>>>>>>>> theirs\n<<<<<<<a\n"
-    assert [(one.reason.split("`")[1], one.line) for one in find_markers(text)] == [
-        ("<<<<<<<", 1), ("|||||||", 3), ("=======", 4), (">>>>>>>>", 7),
     ]  # fmt: skip
 
 

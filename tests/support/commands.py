@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any, NamedTuple
 
 from support.documents import is_described
@@ -39,6 +40,21 @@ class Printed(NamedTuple):
         if command := document.get("command"):
             assert is_described(document, command)
         return document
+
+
+class Terminal:
+    """Somebody who answers, and saves one of the files before."""
+
+    def __init__(self, words: str, meanwhile: str = "") -> None:
+        self._words, self._meanwhile = words, meanwhile
+
+    def isatty(self) -> bool:
+        return True
+
+    def readline(self) -> str:
+        if self._meanwhile:
+            Path(self._meanwhile).write_text("saved")
+        return self._words
 
 
 Execute = Callable[..., Printed]

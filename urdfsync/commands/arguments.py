@@ -219,9 +219,14 @@ def _may_be_xacro(source: Path) -> bool:
         return True
 
 
+def can_ask(console: Console) -> bool:
+    """Return whether somebody is there to answer."""
+    return not console.is_document and sys.stdin is not None and sys.stdin.isatty()
+
+
 def is_confirmed(question: str, done: str, console: Console) -> bool:
     """Ask the user whether something is to be `done`. Raises UrdfsyncError if nobody is there to answer."""
-    if console.is_document or sys.stdin is None or not sys.stdin.isatty():
+    if not can_ask(console):
         message, hint = f"nothing was {done}: there is no terminal to ask on", "look at what is shown, then give --yes"
         raise UrdfsyncError.of("not-confirmed", message, hint=hint)
     sys.stdout.write(f"{question} [y/N] ")

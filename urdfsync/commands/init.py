@@ -15,7 +15,7 @@ import msgspec
 import tomli_w
 
 from urdfsync import config, registry
-from urdfsync.commands import arguments
+from urdfsync.commands import arguments, merge_driver
 from urdfsync.config import schema
 from urdfsync.config.load import in_words
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError
@@ -70,6 +70,8 @@ def add(commands: arguments.Commands) -> None:
     parser.add_argument("sources", nargs="*", metavar="SOURCE", help=sources)
     merge = "let builds merge changes into files that you edited, unless they contradict your edits"
     parser.add_argument("--merge", action="store_true", help=merge)
+    driver = "let git merge models by their elements in this clone, as `urdfsync merge-driver --install`"
+    parser.add_argument("--merge-driver", action="store_true", help=driver)
     parser.add_argument("--domain", default="urdf", metavar="NAME", help="format of the sources (default: %(default)s)")
 
 
@@ -80,10 +82,22 @@ def run(args: argparse.Namespace, console: Console) -> int:
     domain = registry.domain(args.domain)
     named, given = arguments.split_sources(args.sources, args.parser)
     guesses, warnings = guess_robots(domain, file.parent, named, given)
+    is_clone = merge_driver.can_install(file.parent)
+    question = "Let git merge these models by their elements, in this clone?"
+    is_asked = is_clone and not args.merge_driver and arguments.can_ask(console)
+    installs = args.merge_driver or (is_asked and arguments.is_confirmed(question, "installed", console))
+    if installs:
+        merge_driver.install(file.parent, console)
     _refuse_existing(file)
     with write_errors(file):
         write_schema(file.parent)  # first: with a configuration, `init` could not be run again
         put(file, configuration_text(domain, guesses, merges=args.merge).encode())
+    if is_clone and not (is_asked or installs):
+        message, hint = (
+            "git merges models line by line in this clone",
+            "for elements, `urdfsync merge-driver --install`",
+        )
+        warnings.append(Diagnostic(Severity.NOTE, "no-merge-driver", message, hint=hint))
     console.warnings(warnings)
     return show_guesses(console, file, "written", guesses)
 

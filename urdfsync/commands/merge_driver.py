@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 import shlex
 import sys
 from pathlib import Path
@@ -11,12 +12,14 @@ from urdfsync import git
 from urdfsync.commands import arguments
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.engine.result import Exit
-from urdfsync.files import shown
+from urdfsync.files import put, shown
 from urdfsync.output.console import Console, line
 from urdfsync.spelling import counted
 
 _MARKER_SIZE = 7
 """Length of markers, unless another one is given."""
+_ATTRIBUTE = b"*.mo merge=urdfsync\n"
+"""The line that says for which files git calls the driver."""
 _PLACEHOLDERS = "--path=%P --marker-size=%L --ours=%X --theirs=%Y %O %A %B"
 
 
@@ -27,12 +30,13 @@ def add(commands: arguments.Commands) -> None:
         "merge-driver",
         help="let git merge Modelica files by their elements",
         description="Let git merge Modelica files by the elements of their classes, in merges, rebases and "
-        "cherry-picks. With --install, tell git in this clone. Without, git calls it: what changed from BASE to OTHER "
-        "is brought into MINE, and what both changed is put between markers.",
+        "cherry-picks. With --install, tell git in this clone, and write into .gitattributes of the working folder for "
+        "which files. Without, git calls it: what changed from BASE to OTHER is brought into MINE, and what both "
+        "changed is put between markers.",
         epilog="example: urdfsync merge-driver --install\n\nexit codes: 0 merged or installed, "
         "1 conflicts, 255 error (2 by --install)",
     )
-    parser.add_argument("--install", action="store_true", help="enter it into the settings of the clone around")
+    parser.add_argument("--install", action="store_true", help="set it up in the clone around")
     for name, words in (
         ("base", "the common ancestor (%%O of git)"),
         ("mine", "the version of this side, to which the result is written (%%A)"),
@@ -51,29 +55,58 @@ def run(args: argparse.Namespace, console: Console) -> int:
     if args.install == bool(args.other):
         raise arguments.UsageError(args.parser, "either --install or BASE MINE OTHER is needed")
     if args.install:
-        return _install(console)
+        install(Path.cwd(), console)
+        return console.end(Exit.IN_STEP)
     conflict = _merge(args)
     return console.end(1 if conflict else 0, conflict)
 
 
-def _install(console: Console) -> int:
-    """Enter the command into the settings of the clone, and say which line `.gitattributes` needs, if it does.
+def can_install(folder: Path) -> bool:
+    """Return whether a folder is in a clone in which git does not merge its models by their elements yet."""
+    try:
+        git.run("-C", str(folder), "rev-parse", "--show-toplevel")
+    except git.GitError:
+        return False
+    return not (_is_named(folder) and _has_settings(folder))
+
+
+def _has_settings(folder: Path) -> bool:
+    """Return whether the settings of a clone have the command."""
+    try:
+        return bool(git.run("-C", str(folder), "config", "--get", "merge.urdfsync.driver"))
+    except git.GitError:  # there is no such setting
+        return False
+
+
+def _is_named(folder: Path) -> bool:
+    """Return whether the attributes of models name the driver. Raises GitError."""
+    return git.run("-C", str(folder), "check-attr", "-z", "merge", "--", "any.mo").split("\0")[2] == "urdfsync"
+
+
+def install(folder: Path, console: Console) -> None:
+    """Enter the command into the settings of the clone, and into `.gitattributes` of the folder, if no line has it.
 
     Raises UrdfsyncError if that can't be.
     """
     # git starts it in the top folder of the clone: without -P, Python would import a folder `urdfsync` from there
     command = f"{shlex.quote(sys.executable)} -P -m urdfsync merge-driver".replace("%", "%%")
+    inside, file = ("-C", str(folder)), folder / ".gitattributes"
     try:
-        top = git.run("rev-parse", "--show-toplevel").removesuffix("\n")
-        git.run("config", "--local", "merge.urdfsync.name", "Modelica by elements")
-        git.run("config", "--local", "merge.urdfsync.driver", f"{command} {_PLACEHOLDERS}")
-        attribute = git.run("check-attr", "-z", "merge", "--", "any.mo").split("\0")[2]
+        top = git.run(*inside, "rev-parse", "--show-toplevel").removesuffix("\n")
+        git.run(*inside, "config", "--local", "merge.urdfsync.name", "Modelica by elements")
+        git.run(*inside, "config", "--local", "merge.urdfsync.driver", f"{command} {_PLACEHOLDERS}")
+        is_named = _is_named(folder)
     except git.GitError as error:
         raise UrdfsyncError.of("git", str(error), hint="run it in a clone") from None
     console.tell([line((f"git merges with urdfsync in {top}", ""))])
-    hint, file = "add the line `*.mo merge=urdfsync` to it, and commit it", shown(Path(top, ".gitattributes"))
-    note = Diagnostic(Severity.NOTE, "no-attribute", "it does not say which files these are", file, hint=hint)
-    return console.end(Exit.IN_STEP, [note] if attribute != "urdfsync" else [])
+    if not is_named:
+        try:
+            old = file.read_bytes() if os.path.lexists(file) else b""
+            put(file, (old if old.endswith(b"\n") or not old else old + b"\n") + _ATTRIBUTE)
+        except OSError as error:
+            message = f"`{_ATTRIBUTE.decode().strip()}` can't be added: {error.strerror}"
+            raise UrdfsyncError.of("git", message, shown(file), hint="add this line, and commit it") from None
+        console.tell([line((f"{shown(file)} written: commit it", ""))])
 
 
 def _merge(args: argparse.Namespace) -> list[Diagnostic]:
@@ -93,7 +126,7 @@ def _merge(args: argparse.Namespace) -> list[Diagnostic]:
     merged, conflicts = merge_file(base, mine, other, markers)
     if merged != mine:
         args.mine.write_bytes(merged.encode())  # a temporary file of git's
-    message, hint = f"{counted(conflicts, 'conflict')} between markers", "settle them in the file"
+    message, hint = f"{counted(len(conflicts), 'conflict')} between markers", "settle them in the file"
     return [Diagnostic(Severity.WARNING, "conflict", message, file, hint=hint)] if conflicts else []
 
 

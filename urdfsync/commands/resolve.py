@@ -133,7 +133,7 @@ def _find_named(planned: Sequence[Result], text: str, choice: Choice) -> Iterato
         is_found = False
         for action in result.actions:
             files = {Path(os.path.normpath(root / key)) for key in (action.origin or action.path, action.path)}
-            is_user = action.is_conflict or action.reason in USERS or action.choice is not None
+            is_user = action.is_conflict or action.reason in USERS or action.is_left_by_git or action.choice
             is_named = not places.isdisjoint(files) and (is_user or choice is Choice.UNDO)
             is_below = action.is_conflict and any(not places.isdisjoint(file.parents) for file in files)
             if is_named or is_below:
@@ -178,7 +178,7 @@ def _compare(
         elif reason := next((one.refused.get(choice) for one in result.conflict_texts if one.path == path), None):
             hint = "prefer the other side, or use --edit"
             problems.append(Diagnostic(Severity.WARNING, "no-merge", reason, place, hint=hint))
-        elif not before.is_conflict:
+        elif not (before.is_conflict or before.is_left_by_git):
             problems.append(_without_effect(choice, before, place))
     return accepted, problems
 

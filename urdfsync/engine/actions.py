@@ -155,11 +155,13 @@ class Action(msgspec.Struct, frozen=True):
     """Hash of the file on disk; None if there is none."""
     is_waiting: bool = False
     """Waits until the robot's other conflicts are resolved."""
+    is_left_by_git: bool = False
+    """Whether git left another text in the file, such as one with markers: `mine` is what it stands for."""
 
     @property
     def kind(self) -> Kind:
         """The effect on the file, once it waits for nothing."""
-        return self.reason.kind
+        return Kind.WRITE if self.is_left_by_git and self.reason.kind is Kind.LEAVE else self.reason.kind
 
     @property
     def status(self) -> FileStatus | None:
@@ -167,12 +169,17 @@ class Action(msgspec.Struct, frozen=True):
         return self.reason.status
 
     @property
+    def replaces(self) -> str:
+        """Say that it takes the place of what git has made of two versions, as a clause; empty if it does not."""
+        return "in the place of what git left there" if self.is_left_by_git and self.kind is not Kind.CONFLICT else ""
+
+    @property
     def text(self) -> str:
         """Why it happens, and what it waits for, as the end of a sentence that begins with the path; for scripts.
 
         People read `output.phrases.reason`.
         """
-        return "; ".join(filter(None, (self.reason.text, self.waits_for)))
+        return "; ".join(filter(None, (self.reason.text, self.replaces, self.waits_for)))
 
     @property
     def writes(self) -> bool:

@@ -50,12 +50,12 @@ def put_aside(
             is_other = conflict is not None and encode(conflict.kept) != contents[key]
             if conflict is not None and is_other and action.origin not in settled.before:
                 add(key, encode(conflict.kept), *known_bases(conflict.kept_base))
-        elif action.reason is not Reason.MOVED_AWAY and (before_ := on_disk.read(key)) not in (None, contents[key]):
-            if on_disk.hash(key, action.role) in inputs.last.notes.written:
+        elif action.reason is not Reason.MOVED_AWAY and (former := on_disk.read(key)) not in (None, contents[key]):
+            if state_of(former or b"").text_sha256 in inputs.last.notes.written:
                 continue
             record = inputs.last.files.get(key, FileRecord())
             bases: Mapping[str, str] = inputs.last.bases(record)
             if action.reason is Reason.MERGE and inputs.always_merges:  # else the next build would merge it again
                 record, bases = known_bases(generation.package.content(inputs.folder.path(key)).decode())
-            add(key, before_ or b"", record, bases)
+            add(key, former or b"", record, bases)
     return index, texts

@@ -11,15 +11,16 @@ from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.domain import ChangeClass, Role
 from urdfsync.engine import united
 from urdfsync.engine.actions import DISPUTED, ORPHANS, Action, Actions, Choice, Reason
-from urdfsync.engine.conflicts import PREFERENCES, Conflict, find_conflict, over_bases, resolve
+from urdfsync.engine.conflicts import PREFERENCES, Conflict, find_conflict, resolve
 from urdfsync.engine.fit import Misfit, Package, find_misfits
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.needed import keep_needed
-from urdfsync.engine.package_files import PackageFiles, text_hash
+from urdfsync.engine.package_files import PackageFiles
 from urdfsync.engine.package_names import names_of, renamed_names
 from urdfsync.engine.parents import SharedFile, merge_order
-from urdfsync.engine.rules import NEVER_WRITTEN, File, decide, put_off
+from urdfsync.engine.rules import File, decide, put_off
 from urdfsync.files import shown
+from urdfsync.markers import find_markers, join_sides
 from urdfsync.modelica.files import class_parts
 from urdfsync.modelica.layout import with_within
 from urdfsync.modelica.lexer import words_in
@@ -65,10 +66,11 @@ def decide_package(generation: Generation) -> Decision:
     conflicts = {one.path: _conflict(generation, one, names) for one in disputed}
     conflicts = _without_misfits(generation, actions, conflicts)
     actions, merged = resolve(actions, conflicts, merging=inputs.robot.on_conflict == "merge")
-    actions = keep_needed(generation, actions, merged)
+    actions = tuple(united.settle(action) for action in keep_needed(generation, actions, merged))
+    merged |= united.settled_texts(files, actions, merged)
 
     order_actions, orders, shared = _decide_orders(generation, actions)
-    _refuse_markers(files, actions, (key for key, text in orders.items() if re.search(united.MARKER, text)))
+    _refuse_markers(files, actions, (key for key, text in orders.items() if find_markers(text)))
     has_conflicts = any(action.is_conflict for action in actions)
     numbers = _renumbered(generation, actions, merged, conflicts) if has_conflicts else ()
     origins = set(generation.moves.values())
@@ -96,7 +98,13 @@ def _find_files(generation: Generation) -> dict[str, File]:
 
     def add(key: str, role: Role, owner: str, generated: str | None) -> None:
         on_disk = inputs.files.on_disk(key, role)
-        files[key] = File(role, owner, last.file(key, role, on_disk, generated), on_disk, generated)
+        record = last.file(key, role, on_disk, generated)
+        is_edited = isinstance(on_disk, str) and on_disk not in (generated, *record.hashes)
+        if is_edited and role is not Role.IMPORT and (meaning := united.find_meaning(inputs, key)):
+            inputs.files.meanings[key] = meaning
+            on_disk = inputs.files.on_disk(key, role)
+            record = last.file(key, role, on_disk, generated)
+        files[key] = File(role, owner, record, on_disk, generated)
 
     for path, artifact in generation.package.artifacts.items():
         add(inputs.folder.key(path), artifact.role, artifact.owner, generation.package.hash(path))
@@ -113,6 +121,11 @@ def _find_files(generation: Generation) -> dict[str, File]:
 def _adjust(generation: Generation, action: Action) -> Action:
     """Return the action that contents and options lead to, beyond what hashes say."""
     inputs = generation.inputs
+    meaning = inputs.files.meanings.get(action.path)
+    if meaning and meaning.contradictions and action.reason is Reason.KEEP:
+        return msgspec.structs.replace(action, reason=Reason.CONFLICT)
+    if meaning and not meaning.contradictions:
+        action = msgspec.structs.replace(action, is_left_by_git=True)
     if action.reason is Reason.DELETE and action.mine is not None:
         package = generation.package
         is_generated = any(package.hash(path) == action.mine for path in package.artifacts)
@@ -120,27 +133,7 @@ def _adjust(generation: Generation, action: Action) -> Action:
             return msgspec.structs.replace(action, reason=Reason.ORPHAN)
     if action.reason is Reason.UNOWNED and inputs.options.adopts:
         return msgspec.structs.replace(action, reason=Reason.KEEP, base=action.generated)
-    if action.reason is Reason.CONFLICT and _is_merged_by_git(generation, action):
-        return msgspec.structs.replace(action, reason=Reason.UPDATE, base=action.mine)
     return action
-
-
-def _is_merged_by_git(generation: Generation, action: Action) -> bool:
-    """Return whether git alone made a file, of the texts that two branches recorded."""
-    inputs = generation.inputs
-    record = inputs.last.files.get(action.path, NEVER_WRITTEN)
-    if not record.is_ambiguous or action.role is Role.IMPORT:
-        return False
-    versions = united.find_versions(inputs.files.path(action.path))
-    if not versions or not {text_hash(version) for version in versions} <= {*record.hashes}:
-        return False
-    text, is_modelica = inputs.files.text(action.path) or "", action.path.endswith(".mo")
-    generated = generation.package.content(inputs.folder.path(action.path)).decode()
-    if united.lacks(text, versions, generated):
-        return False
-    if united.is_merge_by_lines(text, versions):
-        return True
-    return any(version == edited for version, edited in over_bases(versions, text, is_modelica=is_modelica))
 
 
 def _renamed(generation: Generation) -> Mapping[str, str]:
@@ -157,13 +150,16 @@ def _conflict(generation: Generation, action: Action, names: Mapping[str, str]) 
     mine, generated = files.text(key), generation.package.content(path).decode()
     record = last.files.get(key)
     hashes = record.hashes if record and action.base in record.hashes else (action.base,)
-    texts = [generated if sha256 == action.generated else last.base(sha256) for sha256 in hashes]
+    known = [generated if sha256 == action.generated else last.base(sha256) for sha256 in hashes]
     # each base counts: of one that is lost nobody knows what is new
-    bases = [text for text in texts if text is not None] if None not in texts else []
+    bases = [text for text in known if text is not None] if None not in known else []
     if mine is None:
         package = files.text(f"{key.removesuffix('.mo')}/package.mo") or ""
         reason, base = "you made a folder of the class", bases[0] if bases else None
         return Conflict(action.path, base, package, generated, None, origin=action.origin, rejected=reason)
+    if (meaning := files.meanings.get(key)) and meaning.contradictions:
+        texts = bases[0] if bases else None, mine, generated, None
+        return Conflict(action.path, *texts, origin=action.origin, rejected=united.describe(meaning))
     if not names and bases:  # a choice was undone after the build that brought new names
         names = names_of(generation, last.notes.renamed, frozenset(words_in(bases[0])))
     conflict = find_conflict(action, bases, mine, generated, names)
@@ -248,13 +244,14 @@ def _refuse_markers(files: PackageFiles, actions: Iterable[Action], orders: Iter
     """Refuse files in which version control left its merge markers. Raises OutputError."""
     errors = []
     edited = [a for a in actions if a.mine not in (None, a.base, a.generated) and a.role is not Role.IMPORT]
+    # what the branches contradict each other about is told as a conflict
+    told = {action.origin or action.path for action in edited if action.is_conflict} & files.meanings.keys()
     for key in dict.fromkeys((*(action.origin or action.path for action in edited), *orders)):
-        text = files.text(key)
-        if text and (match := re.search(united.MARKER, text)):
-            line = text.count("\n", 0, match.start()) + 1
+        found = find_markers(files.text(key) or "")
+        if found and key not in told:
             message, hint = "unresolved merge markers", "settle them in the file, then build again"
             file = shown(files.path(key))
-            errors.append(Diagnostic(Severity.ERROR, "merge-markers", message, file, line, hint=hint))
+            errors.append(Diagnostic(Severity.ERROR, "merge-markers", message, file, found[0][1], hint=hint))
     if errors:
         raise OutputError(*errors)
 
@@ -328,7 +325,8 @@ def _decide_orders(
     for key in sorted(recorded.keys() | desired.keys()):
         old, names, owned, text = files.text(key), desired.get(key, ()), list[str](), None
         if old is not None:
-            text = united.join_sides(old) if inputs.last.record.is_united else old
+            is_joined = find_markers(old) and united.can_join(files.path(key), old)
+            text = join_sides(old) if is_joined else old
             written = recorded.get(key, ())
             removable = _removable_lines(generation, key, text, written, actions)
             owned = [*(name for name in written if name in names), *removable]

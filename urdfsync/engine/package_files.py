@@ -30,6 +30,15 @@ class Folder(str):
         return key.removeprefix(f"{self}/")
 
 
+class Meaning(NamedTuple):
+    """What a file stands for that is as git left it, of the versions of two branches."""
+
+    text: str | None
+    """None if the branches contradict each other."""
+    contradictions: tuple[str, ...] = ()
+    """The element that each is about; empty for lines, which have no names."""
+
+
 class FileState(NamedTuple):
     """A file at the moment of reading."""
 
@@ -78,6 +87,8 @@ class PackageFiles:
         self._tree_of: dict[str, Tree | None] = {}  # by folder
         self._states: dict[str, FileState | None] = {}
         """State of each file that was looked at, by absolute path."""
+        self.meanings: dict[str, Meaning] = {}
+        """Files that are as git left them, by key, and what they stand for: their texts count instead."""
 
     def key(self, path: Path) -> str:
         """Return the key of a file."""
@@ -100,7 +111,12 @@ class PackageFiles:
         return tree.read(path) if tree else None
 
     def text(self, key: str) -> str | None:
-        """Return a file as text. Raises OutputError as `read`, and for what is not UTF-8."""
+        """Return a file as text; of one that git left, what it stands for. Raises OutputError as `text_on_disk`."""
+        meaning = self.meanings.get(key)
+        return meaning.text if meaning and meaning.text is not None else self.text_on_disk(key)
+
+    def text_on_disk(self, key: str) -> str | None:
+        """Return a file as text, as it is. Raises OutputError as `read`, and for what is not UTF-8."""
         content = self.read(key)
         self._states.setdefault(self._place(key), None if content is None else state_of(content))
         try:
@@ -150,6 +166,8 @@ class PackageFiles:
 
     def hash(self, key: str, role: Role) -> str | None:
         """Return the hash of a file: of an imported one of its bytes, of others of their text; None for no file."""
+        if key in self.meanings:
+            return text_hash(self.text(key) or "")
         state = self.state(key)
         if state is None:
             return None

@@ -126,6 +126,7 @@ def with_choices(generation: Generation, settled: Settled) -> Generation:
     record = msgspec.structs.replace(
         inputs.last.record, files={key: file for key, file in recorded.items() if file.hashes}
     )
+    files.meanings.update((key, text) for key, text in inputs.files.meanings.items() if key not in settled.contents)
     last = msgspec.structs.replace(inputs.last, record=record, _files=files)
     return msgspec.structs.replace(generation, inputs=msgspec.structs.replace(inputs, files=files, last=last))
 

@@ -1,65 +1,229 @@
-"""What git has made of a file that two branches wrote."""
+"""What git has made of a file that two branches changed: the versions that it had, and what the file stands for."""
 
 from __future__ import annotations
 
+import itertools
+import os
 import re
-from collections.abc import Iterable
+from collections import Counter
+from collections.abc import Container, Iterable, Iterator, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
-from urdfsync import dependencies
+import msgspec
+
+from urdfsync import dependencies, markers
 from urdfsync.diagnostics import SourceError
-from urdfsync.modelica.tree import SyntaxTree, read_tree
+from urdfsync.engine.actions import ORPHANS, Action, Reason
+from urdfsync.engine.conflicts import over_bases
+from urdfsync.engine.inputs import Inputs
+from urdfsync.engine.last_build import LastBuild
+from urdfsync.engine.package_files import Meaning, PackageFiles, text_hash
+from urdfsync.engine.rules import NEVER_WRITTEN
+from urdfsync.merge.lines import compare, find_regions
 from urdfsync.revisions import Revision
 
-MARKER = r"(?m)^(?:<{7,}|>{7,}) "
-"""A merge marker of git. `=======` alone is also a rule of a comment."""
+if TYPE_CHECKING:
+    import pygit2
+
 _UNDER_WAY = "MERGE_HEAD", "CHERRY_PICK_HEAD", "REBASE_HEAD"
-"""What git calls the commit that it is bringing to HEAD."""
-_BETWEEN_MARKERS = re.compile(
-    r"(?ms)^<{7} [^\n]*\n(?P<ours>.*?)(?:^\|{7}[^\n]*\n.*?)?^={7}\r?\n(?P<theirs>.*?)^>{7} [^\n]*(?:\n|\Z)"
-)
+"""Names of the commit that git is bringing to HEAD."""
+
+_IN_STEP = frozenset({Reason.UNCHANGED, Reason.KEEP, Reason.INCLUDED})
+"""Reasons that leave a file as it is that is still generated."""
+_Changes: TypeAlias = Counter[tuple[tuple[str, ...], tuple[str, ...]]]
+"""Lines and what is in their place; of lines without their order, since an added block can be cut in several ways."""
 
 
-def join_sides(text: str) -> str:
-    """Return the text with the lines of both sides, and without git's markers."""
-    return _BETWEEN_MARKERS.sub(r"\g<ours>\g<theirs>", text)
+class Sides(NamedTuple):
+    """The versions of a file of which git made one text; lines end with line feeds."""
+
+    base: str
+    """Empty if the sides have none in common."""
+    ours: str
+    theirs: str
 
 
-def lacks(text: str, versions: Iterable[str], generated: str) -> bool:
-    """Return whether a class lacks an element that its versions share, or that one of them and the generated one have.
+def find_meaning(inputs: Inputs, key: str) -> Meaning | None:
+    """Return what a file stands for if it still is what git made of the versions of two branches; None for any other.
 
-    In another text lines count for elements. One with markers is on its way.
+    Of versions that nobody edited that is one of them. Of edits it is their merge by elements.
     """
-    if join_sides(text) != text:
-        return False
-    of_sides = [_elements(version) for version in versions]
-    wanted = set.intersection(*of_sides) | (set.union(*of_sides) & _elements(generated))
-    return not wanted <= _elements(text)
+    last, file, text = inputs.last, inputs.files.path(key), inputs.files.any_text(key)
+    has_markers = bool(markers.find_markers(text))
+    if not has_markers and not last.files.get(key, NEVER_WRITTEN).is_ambiguous:
+        return None
+    sides = find_sides(file, text)
+    if sides is None and has_markers:
+        ours, theirs = markers.read_sides(_plain(text))
+        # they are what two builds wrote, so that nobody can have settled anything
+        return Meaning(ours) if _are_generated(last, (ours, theirs)) else None
+    if sides and _are_generated(last, (sides.ours, sides.theirs)):
+        return Meaning(sides.ours)
+    if sides is None or not has_markers:
+        return None
+    return _merge_edits(last, key, sides)
 
 
-def is_merge_by_lines(text: str, versions: Iterable[str]) -> bool:
-    """Return whether a text has all lines that its versions share, and none that no version has."""
-    lines, sides = {*join_sides(text).splitlines()}, [{*version.splitlines()} for version in versions]
-    return set.intersection(*sides) <= lines <= set.union(*sides)
+def _merge_edits(last: LastBuild, key: str, sides: Sides) -> Meaning:
+    """Merge two versions by their elements: as they are, or else as edits of one generated text.
 
-
-def _elements(text: str) -> set[str]:
-    tree = read_tree(text)
-    body = tree.find("body") if tree else None
-    if body is None or not isinstance(body.node, SyntaxTree):
-        return {*text.splitlines()}
-    return {part.key for part in body.node.parts}
-
-
-def find_versions(file: Path) -> list[str]:
-    """Return a text file as the two commits have it that git unites: now, in a merge or a rebase, or in the last merge.
-
-    Nothing if there is no such merge, or if a commit has no such text.
+    What two exports say otherwise is no contradiction of people.
     """
+    from urdfsync.merge.texts import merge_file  # imports the parser
+
+    recorded = last.files[key].hashes if key in last.files else ()
+    bases = [base for sha256 in recorded if (base := last.base(sha256)) is not None]
+    ours, theirs = (dict(over_bases(bases, side, is_modelica=True)) for side in sides[1:])
+    pairs = [sides[1:], *((ours[base], theirs[base]) for base in ours if base in theirs)]
+    merges = [merge_file(sides.base, *pair, ()) for pair in pairs]
+    merged, contradictions = next((merge for merge in merges if not merge[1]), merges[0])
+    return Meaning(None, contradictions) if contradictions else Meaning(merged)
+
+
+def describe(meaning: Meaning) -> str:
+    """Say what two branches contradict each other about, as a clause."""
+    elements = [element for element in dict.fromkeys(meaning.contradictions) if element]
+    return f"git's markers are in it, since both branches changed {' and '.join(elements) or 'the same lines'}"
+
+
+def settle(action: Action) -> Action:
+    """Return the action after which a file has what it stands for, if git left another text there."""
+    if not action.is_left_by_git or action.reason not in _IN_STEP:
+        return action
+    reason = Reason.UPDATE if action.reason is Reason.UNCHANGED else Reason.MERGE
+    return msgspec.structs.replace(action, reason=reason)
+
+
+def settled_texts(files: PackageFiles, actions: Iterable[Action], merged: Container[str]) -> dict[str, str]:
+    """Return what files stand for that get it, by key, but for those that are `merged` with what is new."""
+    is_settled = (Reason.MERGE, *ORPHANS, Reason.FORGET)
+    return {
+        action.path: files.text(action.path) or ""
+        for action in actions
+        if action.is_left_by_git and action.reason in is_settled and action.path not in merged
+    }
+
+
+def _are_generated(last: LastBuild, texts: Iterable[str]) -> bool:
+    """Return whether builds wrote all of these texts."""
+    recorded = {sha256 for record in last.files.values() for sha256 in record.hashes}
+    return all(sha256 in recorded or last.base(sha256) is not None for sha256 in map(text_hash, texts))
+
+
+def can_join(file: Path, text: str) -> bool:
+    """Return whether the lines of both sides of a list of names may be joined: it is as git left it, or git is gone."""
+    try:
+        Revision(file.parent, "HEAD")
+    except SourceError:
+        return True
+    return find_sides(file, text) is not None
+
+
+def find_sides(file: Path, text: str) -> Sides | None:
+    """Return the versions of which git made a file: in what it is at work on, or in the last merge.
+
+    None if there are no such versions, or if somebody has changed the file since.
+    """
+    import pygit2
+
     dependencies.mark_incomplete()  # a commit changes the answer, and no file
+    text = _plain(text)
+    try:
+        repository = Revision(file.parent, "HEAD").repository
+        candidates = itertools.chain(_staged(repository, file, text), _committed(repository, file))
+        return next((sides for sides in candidates if sides.ours == sides.theirs or _is_untouched(text, sides)), None)
+    except (SourceError, pygit2.GitError, KeyError, OSError, ValueError):
+        return None  # as without a repository: one that is damaged, or lacks commits, tells no versions
+
+
+def _staged(repository: pygit2.Repository, file: Path, text: str) -> Iterator[Sides]:
+    """Yield the versions in the index, if git stopped at the file."""
+    folder = Path(os.path.realpath(file.parent)).relative_to(os.path.realpath(repository.workdir))
+    path, label = (folder / file.name).as_posix(), re.search(r"(?m)^>{7,} ([^\s:]+)", text)
+    for base, ours, theirs in repository.index.conflicts or ():
+        entries = [entry for entry in (ours, theirs) if entry and entry.path == path]
+        blobs = (repository[entry.id].read_raw() if entry else b"" for entry in (base, ours, theirs))
+        texts = [_plain(blob.decode(errors="replace")) for blob in blobs]
+        if ours and theirs and entries:
+            yield Sides(*texts)
+        elif entries and text in texts[1:]:
+            # of a file that both renamed, git puts its merge at either path: it is each branch's own version there
+            for name in ("HEAD",) if ours else (*_UNDER_WAY, label[1] if label else ""):
+                if (own := _read(name, file)) is not None:
+                    yield Sides(own, own, own)
+
+
+def _committed(repository: pygit2.Repository, file: Path) -> Iterator[Sides]:
+    """Yield the versions of the two commits that git unites, and of the parents of a merge."""
+    import pygit2
+
     for names in (*(("HEAD", name) for name in _UNDER_WAY), ("HEAD^1", "HEAD^2")):
-        try:
-            return [Revision(file.parent, name).read(file).decode() for name in names]
-        except (SourceError, UnicodeDecodeError):
+        ours, theirs = (_read(name, file) for name in names)
+        if ours is None or theirs is None:
             continue
-    return []
+        commits = [repository.revparse_single(name).peel(pygit2.Commit) for name in names]
+        ancestor = repository.merge_base(commits[0].id, commits[1].id)
+        # a merge begins where the branches part, a commit that is picked at the one before it
+        for base in dict.fromkeys([str(ancestor or ""), f"{names[1]}^"]):
+            yield Sides(_read(base, file) or "", ours, theirs)
+
+
+def _read(revision: str, file: Path) -> str | None:
+    """Return a file as a commit has it."""
+    try:
+        return _plain(Revision(file.parent, revision).read(file).decode())
+    except (SourceError, UnicodeDecodeError):
+        return None
+
+
+def _plain(text: str) -> str:
+    return text.replace("\r\n", "\n")
+
+
+def _is_untouched(text: str, sides: Sides) -> bool:
+    """Return whether a text is what git makes of two versions, with the driver or by lines.
+
+    By lines, each side of it has all of this version, and of the other one the changes that touch none of its own. So
+    it does not matter how git compared them. Without markers it also has both sides of a conflict.
+    """
+    from urdfsync.merge.texts import merge_file
+
+    readings = markers.read_sides(text)
+    if not any(map(markers.find_markers, readings)):  # else some are left over
+        is_merged = readings[0] == text
+        ours, theirs = (_changes(sides.base, side) for side in sides[1:]) if is_merged else _apart(sides)
+        if _changes(sides.ours, readings[0]) <= theirs and _changes(sides.theirs, readings[1]) <= ours:
+            return True
+    first, middle, last = markers.signs(text)
+    driven, _ = merge_file(*sides, ((first, "mine"), (middle, "generated"), (last, "")))
+    return driven == markers.without_labels(text)
+
+
+def _changes(old: str, new: str) -> _Changes:
+    lines, new_lines = _lines(old), _lines(new)
+    return Counter(
+        _change(lines[change.start : change.stop], new_lines[change.new_start : change.new_stop])
+        for change in compare(lines, new_lines)
+    )
+
+
+def _apart(sides: Sides) -> tuple[_Changes, _Changes]:
+    """Return the changes of either side that touch none of the other one."""
+    lines = [_lines(text) for text in sides]
+    ours, theirs = _Changes(), _Changes()
+    for region in find_regions(*lines):
+        if not region.is_generated:
+            ours[_change(lines[0][region.base], lines[1][region.mine])] += 1
+        elif not region.is_mine:
+            theirs[_change(lines[0][region.base], lines[2][region.generated])] += 1
+    return ours, theirs
+
+
+def _lines(text: str) -> list[str]:
+    """Return the lines of a text, whether the last one has an end or not: a merge gives it one before a marker."""
+    return text.removesuffix("\n").split("\n")
+
+
+def _change(old: Sequence[str], new: Sequence[str]) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    return tuple(sorted(old)), tuple(sorted(new))

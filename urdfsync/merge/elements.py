@@ -9,6 +9,8 @@ A thing is an element, an equation, a modifier or a part of one (`urdfsync.model
 - Of blanks and comments, the user's stay where he changed them.
 - Rounding by the export is no change, where the user changed the number.
 - Layout is the user's where he changed some of it (`urdfsync.merge.layout`).
+
+Between two people, comments and layout are content: what one side changed is taken, of comments by statement.
 """
 
 from __future__ import annotations
@@ -37,6 +39,7 @@ from urdfsync.modelica.tree import (
     is_section,
     section_name,
 )
+from urdfsync.spelling import same_count
 
 ROUNDING = 1e-6
 """Numbers that differ by less, relative to the larger one, are the same number written with other digits."""
@@ -53,22 +56,29 @@ _MOVABLE = frozenset({"arguments", "annotation"})
 
 
 Path: TypeAlias = tuple[str, ...]
+Layout: TypeAlias = frozenset[str] | None
+"""The annotations in which the layout is the user's; None between two people, whose layout and comments all count."""
 
 
-def merge_trees(base: SyntaxTree, mine: SyntaxTree, generated: SyntaxTree) -> list[Piece]:
-    """Return the merged text of a class in pieces: texts, and where the sides contradict each other."""
-    return _merge((), base, mine, generated, frozenset())
+def merge_trees(base: SyntaxTree, mine: SyntaxTree, generated: SyntaxTree, *, is_export: bool) -> list[Piece]:
+    """Return the merged text of a class in pieces: texts, and where the sides contradict each other.
+
+    Unless `is_export`, `generated` is the version of another person.
+    """
+    return _merge((), base, mine, generated, frozenset() if is_export else None)
 
 
-def _merge(path: Path, base: Node | None, mine: Node, generated: Node, users_layout: frozenset[str]) -> list[Piece]:
-    """Merge a thing that both sides have; in the annotations `users_layout`, the layout is the user's."""
+def _merge(path: Path, base: Node | None, mine: Node, generated: Node, users_layout: Layout) -> list[Piece]:
+    """Merge a thing that both sides have."""
     if base and base.text == mine.text and not users_layout:
         return [generated.text]
-    if (base and is_same(base, generated)) or is_same(mine, generated):
+    is_two_people, key = users_layout is None, path[-1] if path else ""
+    is_class = is_two_people and any(map(_has_body, (mine, generated)))
+    if not is_class and ((base and is_same(base, generated)) or is_same(mine, generated)):
         return [mine.text]
-    is_picture, key = not users_layout.isdisjoint(PICTURES.intersection(path)), path[-1] if path else ""
-    if (key in users_layout and not is_picture) or (
-        not base and (key in LAYOUT or is_same(mine, generated, layout=False))
+    is_picture = bool(users_layout and users_layout & PICTURES.intersection(path))
+    if (users_layout and key in users_layout and not is_picture) or (
+        not base and not is_two_people and (key in LAYOUT or is_same(mine, generated, layout=False))
     ):
         return [mine.text]
     if any(isinstance(node, SyntaxTree) and node.kind is TreeKind.SUM for node in (base, mine, generated)):
@@ -81,6 +91,32 @@ def _merge(path: Path, base: Node | None, mine: Node, generated: Node, users_lay
     if is_picture and isinstance(mine, Leaf) and isinstance(generated, Leaf):
         return [mine.text]
     return _merge_whole(path, base, mine, generated)
+
+
+def _merge_statement(path: Path, base: Node | None, mine: Node, other: Node, users_layout: Layout) -> list[Piece]:
+    """Merge a part of a class of two people, with the comments in it: a merge keeps those of the side given first."""
+    merged = _merge_comments(base.text if base else "", mine.text, other.text)
+    if merged is None:
+        return [_contradiction(path, base, mine, other)]
+    if merged == mine.text:
+        return _merge(path, base, mine, other, users_layout)
+    pieces = _merge(path, base, other, mine, users_layout)
+    return [piece if isinstance(piece, str) else piece.swapped for piece in pieces]
+
+
+def _merge_comments(base: str, mine: str, other: str) -> str | None:
+    """Return the text with the comments that two people want; None if both changed them."""
+    if base == mine:
+        return other
+    old, own, new = map(comments, (base, mine, other))
+    if new in (old, own):
+        return mine
+    return other if own == old else None
+
+
+def _has_body(node: Node) -> bool:
+    """Whether a thing is a class, or what is in one."""
+    return isinstance(node, SyntaxTree) and (node.kind is TreeKind.BODY or node.find("body") is not None)
 
 
 def _merge_whole(path: Path, base: Node | None, mine: Node, generated: Node) -> list[Piece]:
@@ -109,6 +145,13 @@ def _has_lines(path: Path, node: Node) -> bool:
 def _contradiction(path: Path, base: Node | None, mine: Node | None, generated: Node | None) -> Contradiction:
     texts = [node.text if node else "" for node in (base, mine, generated)]
     return Contradiction(path, *texts)
+
+
+def _contradiction_of_lines(path: Path, texts: Sequence[str]) -> list[Piece]:
+    """Return a contradiction of texts with blanks around them, without the lines before it that they share."""
+    base, mine, other = texts
+    start = mine[: min(same_count(mine, base), same_count(mine, other))].rfind("\n") + 1
+    return [mine[:start], Contradiction(path, *(text[start:] for text in texts))]
 
 
 def _is_rounding(old: Node, new: Node) -> bool:
@@ -144,15 +187,16 @@ class _Item(msgspec.Struct, eq=False):
 
 
 def _merge_parts(
-    path: Path, base: SyntaxTree | None, mine: SyntaxTree, generated: SyntaxTree, users_layout: frozenset[str]
+    path: Path, base: SyntaxTree | None, mine: SyntaxTree, generated: SyntaxTree, users_layout: Layout
 ) -> list[Piece]:
     """Merge things that consist of others."""
     trees = base or SyntaxTree(mine.kind, ()), mine, generated
+    is_two_people, is_class = users_layout is None, _has_body(mine)
     if mine.kind is TreeKind.BODY:
-        users_layout = find_users_layout(*trees[:2])
+        users_layout = None if is_two_people else find_users_layout(*trees[:2])
         trees = pair(*trees) if base else trees
     base, mine, generated = trees
-    is_picture = not users_layout.isdisjoint(PICTURES.intersection(path))
+    is_picture = bool(users_layout and users_layout & PICTURES.intersection(path))
     has_sequence = mine.kind is TreeKind.BODY or (mine.kind is TreeKind.ARRAY and PICTURES.isdisjoint(path))
     sequence = _sequence(trees) if has_sequence else []
     items: dict[str, _Item] = {}
@@ -161,19 +205,24 @@ def _merge_parts(
         old, new, here = base.find(part.key), generated.find(part.key), (*path, part.key)
         pieces: list[Piece] = [part.node.text]
         if new and not is_section(part.key):
-            pieces = _merge(here, old.node if old else None, part.node, new.node, users_layout)
+            is_statement = is_two_people and is_class and not any(map(_has_body, (part.node, new.node)))
+            merge = _merge_statement if is_statement else _merge
+            pieces = merge(here, old.node if old else None, part.node, new.node, users_layout)
         elif is_section(part.key) or old is None:
             pass
-        elif (is_picture and mine.kind is TreeKind.ARRAY) or _is_unchanged(part.key, base, mine):
+        elif (is_picture and mine.kind is TreeKind.ARRAY) or _is_unchanged(part.key, base, mine, users_layout):
             notes += _remaining_notes(part, old)
             continue
         elif part.key in _MOVABLE and isinstance(old.node, SyntaxTree) and isinstance(part.node, SyntaxTree):
             nothing = old.node.with_parts(())
             pieces = _merge(here, old.node, part.node, nothing, users_layout)
-        elif not is_picture and part.key not in users_layout:
+        elif not is_picture and part.key not in (users_layout or ()):
             pieces = [_contradiction(here, old.node, part.node, None)]
         # inside of an element, blanks depend on those beside them
-        before, after, remark = _blanks(old, part, new if mine.kind is TreeKind.BODY else None)
+        blanks = _blanks(old, part, new if mine.kind is TreeKind.BODY else None)
+        if is_two_people and is_class and new:
+            blanks, pieces = _merge_around(here, old, part, new, pieces)
+        before, after, remark = blanks
         items[part.key] = _Item(part.key, notes + before, pieces or [part.node.text], after, remark)
         notes = ""
     arranged = arrange(mine, generated, users_layout) if mine.kind is TreeKind.BODY and users_layout else {}
@@ -181,7 +230,8 @@ def _merge_parts(
         if part.key in items:
             continue
         old = base.find(part.key)
-        is_gone = old and (is_picture or part.key in LAYOUT or _is_unchanged(part.key, base, generated))
+        is_layout = is_picture or (part.key in LAYOUT and not is_two_people)
+        is_gone = old and (is_layout or _is_unchanged(part.key, base, generated, users_layout))
         if is_gone and not is_section(part.key):
             continue
         pieces = [arranged.get(part.key, part.node.text)]
@@ -193,7 +243,12 @@ def _merge_parts(
     if sequence is None or set(order) - items.keys() or [key for key in order if key in sequence] != sequence:
         place = (*path, "order") if mine.kind is TreeKind.BODY else path
         return [_contradiction(place, base, mine, generated)]
-    return _text_of(trees, [items[key] for key in order], notes)
+    closing: list[Piece] = []
+    if is_two_people and is_class:
+        closings = [tree.closing for tree in trees]
+        merged = _merge_comments(*closings)
+        closing = _contradiction_of_lines((), closings) if merged is None else [merged]
+    return _text_of(trees, [items[key] for key in order], notes, closing)
 
 
 def _sequence(trees: Sequence[SyntaxTree]) -> list[str] | None:
@@ -208,11 +263,31 @@ def _sequence(trees: Sequence[SyntaxTree]) -> list[str] | None:
     return None if has_repetitions else merge_sequences(base, mine, generated)
 
 
-def _is_unchanged(key: str, base: SyntaxTree, side: SyntaxTree) -> bool:
-    """Whether a side has a thing as base has it, in the same section; layout does not count."""
+def _is_unchanged(key: str, base: SyntaxTree, side: SyntaxTree, users_layout: Layout) -> bool:
+    """Whether a side has a thing as base has it, in the same section; layout and comments count of two people alone."""
     old, new = base.find(key), side.find(key)
-    is_in_place = old and new and section_name(base.sections[key]) == section_name(side.sections[key])
-    return bool(old and new and is_in_place and is_same(old.node, new.node, layout=False))
+    if not (old and new) or section_name(base.sections[key]) != section_name(side.sections[key]):
+        return False
+    is_two_people = users_layout is None
+    is_commented = is_two_people and comments(_with_blanks(old)) != comments(_with_blanks(new))
+    return is_same(old.node, new.node, layout=is_two_people) and not is_commented
+
+
+def _with_blanks(part: Part | None) -> str:
+    """Return a part with the blanks and comments around it."""
+    return f"{part.before}{part.node.text}{part.after}{part.remark}" if part else ""
+
+
+def _merge_around(
+    path: Path, base: Part | None, mine: Part, other: Part, pieces: list[Piece]
+) -> tuple[Sequence[str], list[Piece]]:
+    """Merge the comments of two people around a part; if both changed them, all of it is a contradiction."""
+    before = _merge_comments(base.before if base else "", mine.before, other.before)
+    remark = _merge_comments(base.remark if base else "", mine.remark, other.remark)
+    if before is None or remark is None:
+        texts = [_with_blanks(part) for part in (base, mine, other)]
+        return ("", "", ""), _contradiction_of_lines(path, texts)
+    return (before, mine.after, remark), pieces
 
 
 def _blanks(base: Part | None, mine: Part, generated: Part | None) -> Sequence[str]:
@@ -224,9 +299,9 @@ def _blanks(base: Part | None, mine: Part, generated: Part | None) -> Sequence[s
 
 def _remaining_notes(part: Part, old: Part) -> str:
     """Return the user's comments at a thing that is removed, each with the blanks before it."""
-    had = comments(f"{old.before}{old.node.text}{old.after}{old.remark}")
+    had = comments(_with_blanks(old))
     lead = next(iter(re.findall(r"\n[ \t]*(?=\S|\Z)", part.before)), " ")
-    notes = [note for note in comments(f"{part.before}{part.node.text}{part.after}{part.remark}") if note not in had]
+    notes = [note for note in comments(_with_blanks(part)) if note not in had]
     return "".join(f"{lead}{note}" for note in notes)
 
 
@@ -258,11 +333,11 @@ def _home(key: str, trees: Sequence[SyntaxTree]) -> str:
 # --- the text -----------------------------------------------------------------------------------------------------
 
 
-def _text_of(trees: Sequence[SyntaxTree], items: list[_Item], notes: str) -> list[Piece]:
-    """Return the text of the merged things, with the blanks and separators around them."""
+def _text_of(trees: Sequence[SyntaxTree], items: list[_Item], notes: str, end: list[Piece]) -> list[Piece]:
+    """Return the text of the merged things, with the blanks and separators around them; `end` is its merged closing."""
     base, mine, generated = trees
     empty = _empty_sections([[part.key for part in tree.parts] for tree in (mine, generated)], items)
-    items = [item for item in items if item.key not in empty]
+    items = [item for item in items if item.key not in empty or comments(item.before + item.remark)]
     if mine.separator:
         _space_items(mine, items)
     is_changed = mine.separator or mine.closing != base.closing
@@ -280,7 +355,7 @@ def _text_of(trees: Sequence[SyntaxTree], items: list[_Item], notes: str) -> lis
         blanks += item.remark
     has_bracket = mine.kind in (TreeKind.LIST, TreeKind.ARRAY)
     append_blanks(pieces, blanks + notes + (closing[:-1] if has_bracket else ""))
-    pieces.append(closing[-1:] if has_bracket else closing)
+    pieces += end or [closing[-1:] if has_bracket else closing]
     return [piece for piece in pieces if piece]
 
 

@@ -20,6 +20,11 @@ class Contradiction(NamedTuple):
     mine: str
     generated: str
 
+    @property
+    def swapped(self) -> Contradiction:
+        """The same with the sides in each other's place."""
+        return self._replace(mine=self.generated, generated=self.mine)
+
 
 Piece: TypeAlias = str | Contradiction
 
@@ -33,7 +38,7 @@ class Change(NamedTuple):
     new_stop: int
 
 
-class _Region(NamedTuple):
+class Region(NamedTuple):
     """A place where a side differs from base: the indices in the three sequences, and which sides differ."""
 
     base: slice
@@ -55,7 +60,7 @@ def merge_lines(base: str, mine: str, generated: str) -> list[Piece]:
     old, own, new = (split_lines(text.replace("\r\n", "\n")) for text in (base, mine, generated))
     pieces: list[Piece] = []
     place = 0
-    for region in _find_regions(old, own, new):
+    for region in find_regions(old, own, new):
         texts = ["".join(lines[part]) for lines, part in zip((old, own, new), region[:3], strict=True)]
         if not region.is_generated or texts[1] == texts[2]:
             continue
@@ -76,7 +81,7 @@ def merge_sequences(base: Sequence[str], mine: Sequence[str], generated: Sequenc
     """Merge sequences of different things; None if the sides changed one place, or moved one thing to two places."""
     merged: list[str] = []
     place = 0
-    for region in _find_regions(base, mine, generated):
+    for region in find_regions(base, mine, generated):
         own, new = mine[region.mine], generated[region.generated]
         if region.is_mine and region.is_generated and own != new:
             return None
@@ -129,7 +134,7 @@ def compare(old: Sequence[Hashable], new: Sequence[Hashable]) -> list[Change]:
     return changes
 
 
-def _find_regions(base: Sequence[str], mine: Sequence[str], generated: Sequence[str]) -> Iterator[_Region]:
+def find_regions(base: Sequence[str], mine: Sequence[str], generated: Sequence[str]) -> Iterator[Region]:
     """Yield the places where a side differs from base, in order; changes that overlap or touch are one."""
     changes = [(change, side) for side, text in enumerate((mine, generated)) for change in compare(base, text)]
     groups: list[list[tuple[Change, int]]] = []
@@ -147,4 +152,4 @@ def _find_regions(base: Sequence[str], mine: Sequence[str], generated: Sequence[
             shifts[side] = change.new_stop - change.stop
         ours, theirs = (slice(begin, stop + shift) for begin, shift in zip(starts, shifts, strict=True))
         sides = {side for _, side in group}
-        yield _Region(slice(start, stop), ours, theirs, 0 in sides, 1 in sides)
+        yield Region(slice(start, stop), ours, theirs, 0 in sides, 1 in sides)

@@ -12,7 +12,7 @@ from urdfsync.merge.elements import merge_trees
 from urdfsync.merge.lines import Contradiction, Piece, merge_lines
 from urdfsync.merge.pairs import TooManyPairsError
 from urdfsync.merge.renames import find_renamed, rename, without_clashes
-from urdfsync.merge.words import describe
+from urdfsync.merge.words import describe, place_of
 from urdfsync.modelica.lexer import find_markers
 from urdfsync.modelica.parser import parse
 from urdfsync.modelica.tree import KnownStatements, UnreadableError, find_faults, read_tree
@@ -81,18 +81,22 @@ def _preferring(side: str, pieces: Sequence[Piece], ending: str) -> str:
     return "".join(texts)
 
 
-def merge_file(base: str, mine: str, other: str, markers: Sequence[tuple[str, str]]) -> tuple[str, int]:
-    """Return a merge with markers in it, and the number of conflicts; by lines if that of elements has a flaw."""
+def merge_file(base: str, mine: str, other: str, markers: Sequence[tuple[str, str]]) -> tuple[str, tuple[str, ...]]:
+    """Merge the versions of two people: return the text with markers in it, and the element of each conflict.
+
+    It is a merge by lines if that of elements has a flaw. Lines have no element: their conflicts have an empty text.
+    """
     ending = _ending(mine)
-    merged, count = "", 0
+    merged, elements = "", tuple[str, ...]()
     ways: tuple[KnownStatements | None, ...] = {}, None
     for statements in ways:
-        pieces = _merge_pieces(base, mine, other, ending, statements)
+        pieces = _merge_pieces(base, mine, other, ending, statements, is_export=False)
         merged = _with_markers(pieces, ending, markers)
-        count = sum(isinstance(piece, Contradiction) for piece in pieces)
-        if count or not find_flaw(merged, (mine, other)):
+        conflicts = (piece for piece in pieces if isinstance(piece, Contradiction))
+        elements = tuple(place_of(conflict.path)[0] if conflict.path else "" for conflict in conflicts)
+        if elements or not find_flaw(merged, (mine, other)):
             break
-    return merged, count
+    return merged, elements
 
 
 def _ending(text: str) -> str:
@@ -105,7 +109,7 @@ def _with_ending(text: str, ending: str) -> str:
 
 
 def _merge_pieces(
-    base: str, mine: str, generated: str, ending: str, statements: KnownStatements | None
+    base: str, mine: str, generated: str, ending: str, statements: KnownStatements | None, *, is_export: bool = True
 ) -> Sequence[Piece]:
     """Return the merged text in pieces; new lines get the `ending`.
 
@@ -120,15 +124,16 @@ def _merge_pieces(
     if plain_base == plain_mine and not is_mixed:
         return [generated]
     texts = written if is_mixed else plain
-    pieces = None if statements is None else _merge_classes(texts[0], texts[1], texts[2], statements)
+    pieces = None if statements is None else _merge_classes(texts, statements, is_export=is_export)
     if pieces is None:
         return merge_lines(*written)
     return [piece.replace("\n", ending) if isinstance(piece, str) and not is_mixed else piece for piece in pieces]
 
 
-def _merge_classes(base: str, mine: str, generated: str, statements: KnownStatements) -> list[Piece] | None:
+def _merge_classes(texts: Sequence[str], statements: KnownStatements, *, is_export: bool) -> list[Piece] | None:
     """Merge texts that are one class each; None if one of them is not, or if too much of them differs."""
-    base_tree, mine_tree, generated_tree = (read_tree(text, statements) for text in (base, mine, generated))
+    base, _, generated = texts
+    base_tree, mine_tree, generated_tree = (read_tree(text, statements) for text in texts)
     if not (base_tree and mine_tree and generated_tree):
         return None
     try:
@@ -136,7 +141,9 @@ def _merge_classes(base: str, mine: str, generated: str, statements: KnownStatem
             base_tree, generated_tree = (
                 read_tree(text, statements) for text in rename(base, generated, names, modifiers=False)
             )
-        return merge_trees(base_tree, mine_tree, generated_tree) if base_tree and generated_tree else None
+        if not (base_tree and generated_tree):
+            return None
+        return merge_trees(base_tree, mine_tree, generated_tree, is_export=is_export)
     except (TooManyPairsError, UnreadableError):
         return None
 

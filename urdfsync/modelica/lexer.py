@@ -7,6 +7,7 @@ from bisect import bisect_left
 from functools import cached_property
 from typing import NamedTuple
 
+from urdfsync import markers
 from urdfsync.modelica.names import KEYWORDS
 
 _STRING = r'"(?:[^"\\]++|\\.)*+"'
@@ -32,7 +33,6 @@ STATEMENT = re.compile(
 """All up to the next semicolon, unless something before it has no end."""
 _ENDLESS_STRING = re.compile(r'"(?:[^"\\]++|\\.)*+\\?', re.DOTALL)
 _ESCAPE = re.compile(r"""\\(['"?\\abfnrtv]|(?P<meaningless>.))""", re.DOTALL)
-_MARKER = re.compile(r"(<{7,}|\|{7}|={7}|>{7,})(\s|$)")
 
 
 class Fault(NamedTuple):
@@ -130,11 +130,7 @@ def lex(text: str) -> tuple[list[Token], list[Fault]]:
 
 def find_markers(text: str) -> list[Fault]:
     """Return the lines that look like conflict markers; they may also stand in a documentation."""
-    return [
-        Fault(f"has the conflict marker `{marker[1]}`", number)
-        for number, line in enumerate(text.split("\n"), start=1)
-        if (marker := _MARKER.match(line))
-    ]
+    return [Fault(f"has the conflict marker `{sign}`", line) for sign, line in markers.find_markers(text, "<|=>")]
 
 
 def is_number(token: str) -> bool:

@@ -35,7 +35,7 @@ def reason(action: Action, changes: Changes | None, *, brief: bool = False) -> s
     Where the changes of the model tell, they are named: `link forearm: mass 1.2 → 1.4 kg (+16.7 %)`. If `brief`, their
     elements are, `link forearm`: the changes are listed beside it.
     """
-    return "; ".join(filter(None, [_cause(action, changes, brief=brief), action.waits_for]))
+    return "; ".join(filter(None, [_cause(action, changes, brief=brief), action.replaces, action.waits_for]))
 
 
 def _cause(action: Action, changes: Changes | None, *, brief: bool) -> str:

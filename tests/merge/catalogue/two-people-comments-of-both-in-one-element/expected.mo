@@ -1,0 +1,12 @@
+model A "An arm"
+  Body body(
+    m = 11.5,
+    r = 2) annotation (Placement(transformation(extent={{-10, -10}, {10, 10}})));
+<<<<<<< mine
+  Body tool(m = 3 /* mine */) annotation (Placement(transformation(extent={{30, -10}, {50, 10}})));
+=======
+  Body tool(m = 3 /* other */) annotation (Placement(transformation(extent={{30, -10}, {50, 10}})));
+>>>>>>> other
+equation
+  connect(body.b, tool.a);
+end A;
