@@ -13,6 +13,7 @@ from concurrent.futures import Executor, Future
 from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import Any
+from unittest import mock
 
 import pytest
 from support.networks import edit, run_all
@@ -20,7 +21,7 @@ from support.replay import contents
 
 from urdfsync import config
 from urdfsync.dependencies import Dependencies
-from urdfsync.diagnostics import ConfigError
+from urdfsync.diagnostics import ConfigError, UrdfsyncError
 from urdfsync.engine import pool
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
@@ -166,3 +167,12 @@ def test_a_save_while_the_others_plan_is_seen(robots: Path) -> None:
             edit(record, "220.5", "221")
     assert [each.action.path for each in results[5].conflicts] == [record.relative_to(robots).as_posix()]
     assert "221" in record.read_text()
+
+
+def test_a_mistake_in_a_worker_is_told_as_one(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """And not as the end of the worker, which takes the other robots with it."""
+    monkeypatch.setattr(pool, "plan_robot", mock.Mock(side_effect=RecursionError("too deep")))
+    loaded = config.load(Path("urdfsync.toml"))
+    with pytest.raises(UrdfsyncError, match="RecursionError") as raised:
+        pool.plan_in_worker(loaded, loaded.robots[0], BuildOptions())
+    assert [finding.code for finding in raised.value.diagnostics] == ["internal"]

@@ -12,7 +12,7 @@ import msgspec
 from urdfsync import dependencies, machine
 from urdfsync.config import Config, RobotConfig
 from urdfsync.dependencies import Dependencies
-from urdfsync.diagnostics import OutputError, UrdfsyncError
+from urdfsync.diagnostics import OutputError, UrdfsyncError, findings_of
 from urdfsync.engine.options import BuildOptions, no_progress
 from urdfsync.engine.plan import plan_robot
 from urdfsync.engine.stage import Plan
@@ -74,6 +74,11 @@ class Pool:
 def plan_in_worker(config: Config, robot: RobotConfig, options: BuildOptions) -> tuple[Plan, Dependencies]:
     """Plan in a worker; also what that has read. Raises UrdfsyncError."""
     with Dependencies() as reads:
-        plan = plan_robot(config, robot, options)
+        try:
+            plan = plan_robot(config, robot, options)
+        except UrdfsyncError:
+            raise
+        except Exception as error:  # noqa: BLE001 - else it were taken for the end of a worker
+            raise UrdfsyncError(*findings_of(error)) from None
     reads.add_modules()
     return plan, reads

@@ -81,7 +81,7 @@ def _compose(content: bytes) -> Any:
     """Return the root node of a YAML, None if it is empty. Raises YAMLError, ValueError and `_LoopsError`."""
     import yaml
 
-    class Loader(yaml.SafeLoader):
+    class Loader(yaml.SafeLoader):  # type: ignore[misc] # PyYAML has no types
         depth = 0
 
         def compose_node(self, parent: Any, index: Any) -> Any:
