@@ -20,11 +20,14 @@ from support.networks import edit, run_all
 from support.replay import contents
 
 from urdfsync import config
+from urdfsync.config import Config, RobotConfig
 from urdfsync.dependencies import Dependencies
 from urdfsync.diagnostics import ConfigError, UrdfsyncError
 from urdfsync.engine import pool
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
+from urdfsync.engine.pool import plan_in_worker
+from urdfsync.engine.stage import Plan
 from urdfsync.workers import Workers, workers
 
 COUNT = 8
@@ -117,17 +120,20 @@ def test_progress_is_told_in_robots_that_have_been_read(robots: Path, monkeypatc
     assert told == [(number, COUNT) for number in range(COUNT)]
 
 
-def test_a_process_that_dies_is_an_error_in_words(robots: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(pool, "plan_in_worker", _die)
-    results = run_all(jobs=2)
-    assert all(result.failed for result in results)
-    (found,) = results[0].diagnostics
+@pytest.mark.slow
+def test_a_process_that_dies_is_the_error_of_its_robot(robots: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(pool, "plan_in_worker", _die_of_one)
+    results = {result.robot: result for result in run_all(jobs=2)}
+    assert {name for name, result in results.items() if result.failed} == {"n2", "n5"}
+    (found,) = results["n5"].diagnostics
     assert "ended unexpectedly" in found.message
     assert "--jobs 1" in found.hint
 
 
-def _die(*_: object) -> None:
-    os.kill(os.getpid(), signal.SIGKILL)
+def _die_of_one(config: Config, robot: RobotConfig, options: BuildOptions) -> tuple[Plan, Dependencies]:
+    if robot.name == "n5":
+        os.kill(os.getpid(), signal.SIGKILL)
+    return plan_in_worker(config, robot, options)
 
 
 @pytest.mark.slow

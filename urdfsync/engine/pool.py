@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 from collections import deque
 from collections.abc import Iterator, Sequence
-from concurrent.futures import Future, wait
+from concurrent.futures import BrokenExecutor, Future, wait
 
 import msgspec
 
@@ -50,25 +50,33 @@ class Pool:
             return plan_robot(self._config, robot, self._options)
         options = msgspec.structs.replace(self._options, progress=no_progress, executor="")
         try:
-            while self._waiting and (len(self._futures) < self._most or robot in self._waiting):
-                ahead = self._waiting[0]
-                self._futures[ahead.name] = self._workers.submit(plan_in_worker, self._config, ahead, options)
-                self._waiting.popleft()
-            future = self._futures.pop(robot.name)
-            while wait([future], _PAUSE).not_done:
-                remaining = len(self._waiting) + sum(not other.done() for other in self._futures.values()) + 1
-                self._options.progress("reading", self._total - remaining, self._total)
-            plan, reads = future.result()
+            try:
+                plan, reads = self._plan_ahead(robot, options)
+            except BrokenExecutor:  # a robot has ended its worker, and with it all others: this one need not be the one
+                with workers(1) as alone:
+                    plan, reads = alone.submit(plan_in_worker, self._config, robot, options).result()
         except UrdfsyncError:
             dependencies.mark_incomplete()
             raise
-        except Exception as error:  # the workers are lost, in one of many ways
+        except Exception as error:  # the worker is lost, in one of many ways
             reason = "a process that planned it ended unexpectedly, perhaps because memory ran out"
             raise OutputError.of(
                 "lost-process", f"robot `{robot.name}`: {reason}", hint="try again with `--jobs 1`"
             ) from error
         dependencies.include(reads)
         return plan
+
+    def _plan_ahead(self, robot: RobotConfig, options: BuildOptions) -> tuple[Plan, Dependencies]:
+        """Let the workers plan robots, and return the plan of one."""
+        while self._waiting and (len(self._futures) < self._most or robot in self._waiting):
+            ahead = self._waiting[0]
+            self._futures[ahead.name] = self._workers.submit(plan_in_worker, self._config, ahead, options)
+            self._waiting.popleft()
+        future = self._futures.pop(robot.name)
+        while wait([future], _PAUSE).not_done:
+            remaining = len(self._waiting) + sum(not other.done() for other in self._futures.values()) + 1
+            self._options.progress("reading", self._total - remaining, self._total)
+        return future.result()
 
 
 def plan_in_worker(config: Config, robot: RobotConfig, options: BuildOptions) -> tuple[Plan, Dependencies]:
