@@ -35,6 +35,16 @@ def test_sarif_has_all_results(project: Path, execute: Execute, file: str) -> No
     assert file.replace(NAME, "b%FFd") in uris
 
 
+def test_a_model_of_the_users_may_use_a_robot_beside_others(project: Path, execute: Execute) -> None:
+    execute("build", "--quiet")
+    for file in (f"{NAME}.mo", "Bench.mo"):
+        Path(file).write_text("model X\n  One.Nothing nothing;\nend X;\n")
+    execute("build", "--quiet")
+    Path("Words.mo").write_text("model Words\nend Words;\n")
+    said = execute("build").errors
+    assert [line.partition(":")[0] for line in said] == ["Bench.mo", "b\\udcffd.mo"]
+
+
 def test_a_template_is_stray_and_nothing_else(project: Path, execute: Execute) -> None:
     Path("templates").mkdir()
     Path(f"templates/{NAME}.jinja").write_text("")

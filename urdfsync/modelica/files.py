@@ -242,7 +242,7 @@ def replace_words(content: bytes, words: Mapping[int, tuple[str, str]]) -> bytes
 
 
 def _is_used(name: str, content: bytes) -> bool:
-    word = name.encode()
+    word = name.encode(errors="surrogateescape")
     return has_word(content, word) and has_word(code_of(content), word)
 
 
