@@ -81,6 +81,9 @@ def test_joints_are_those_of_the_recorded_state(folder: Path) -> None:
     assert names("simulate", "--set", "robot.el") == ["robot.elbow.parameters."]
     assert names("simulate", "arm", "--variable", "robot.el") == ["robot.elbow."]
     assert names("resolve", "--rename-uses", "elb") == ["elbow="]
+    with Path(".urdfsync/robots/arm.state").open("ab") as state:
+        state.truncate(50_000_000)  # a stranger's
+    assert names("resolve", "--rename-uses", "elb") == []
 
 
 HOSTILE = {

@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import contextlib
+import json
 import os
 import signal
 import subprocess
 import sys
+from collections.abc import Callable
+from concurrent.futures import Future
 from pathlib import Path
+from typing import Any
 from unittest import mock
 
 import pytest
@@ -14,7 +19,8 @@ from support.commands import Execute
 from support.git import NEEDS_GIT, Repository
 from support.workplace import changes, contents
 
-from urdfsync import cli, config
+from urdfsync import cli, config, diagnostics
+from urdfsync.domain import Reading
 from urdfsync.state.lock import Lock
 from urdfsync.urdf.domain import UrdfDomain
 
@@ -36,6 +42,7 @@ def traces(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     folder = tmp_path / "temporary"
     folder.mkdir()
     monkeypatch.setattr("tempfile.tempdir", str(folder))
+    diagnostics._save_traceback.cache_clear()
     return folder
 
 
@@ -89,9 +96,8 @@ def test_a_source_that_is_too_much_for_the_machine_ends_in_2(
     capsys.readouterr()
     monkeypatch.setattr(UrdfDomain, "read", mock.Mock(side_effect=error))
     said = execute(*command, code=2).err
-    assert len([line for line in said.splitlines() if "error: " in line]) == 1, said
+    assert len([line for line in said.splitlines() if "[internal]" in line]) == 1, said
     assert "there is not enough memory; " in said or "RecursionError in " in said
-    assert "[internal]" in said
     assert "Traceback" not in said
     changed = changes(before, contents(repository.folder))
     assert [name for name in changed if not name.startswith((".urdfsync/lock", ".git/index"))] == []
@@ -138,3 +144,54 @@ def test_what_fails_while_an_interruption_is_cleared_away_is_that_interruption(
 
     monkeypatch.setattr("urdfsync.commands.status.run", run)
     assert execute("status", code=130).err.startswith("error: interrupted; ")
+
+
+@NEEDS_GIT
+@pytest.mark.parametrize("command", [
+    "build --json", "build --check --json", "status --json", "diff --json", "diff --against HEAD --json",
+    "diff --edits", "check --json --jobs 1", "hook check", "hook build",
+])  # fmt: skip
+def test_a_mistake_that_one_robot_meets_leaves_the_others_alone(
+    execute: Execute, tmp_path: Path, traces: Path, monkeypatch: pytest.MonkeyPatch, command: str
+) -> None:
+    repository = Repository(tmp_path / "project", monkeypatch)
+    monkeypatch.chdir(repository.folder)
+    robots = ("one", "other")
+    tables = [f'[robots.{name}]\nsource = "{name}.urdf"\npackage = "{name.title()}"\n' for name in robots]
+    Path("urdfsync.toml").write_text("".join(tables))
+    for name in robots:
+        Path(f"{name}.urdf").write_text(URDF)
+    execute("build", "--quiet")
+    repository.commit()
+    for name in robots:
+        Path(f"{name}.urdf").write_text(URDF.replace("1 1 1", f"1 1 {len(name)}"))
+    repository.git("add", ".")
+    read = UrdfDomain.read
+
+    def fail(self: UrdfDomain, content: bytes, file: str, options: Any) -> Reading:
+        if file.endswith("one.urdf"):
+            raise RecursionError("too deep")
+        return read(self, content, file, options)
+
+    monkeypatch.setattr(UrdfDomain, "read", fail)
+    if command.startswith("check"):
+        monkeypatch.setattr("urdfsync.checks.run.workers", lambda *_: contextlib.nullcontext(Inline()))
+    said = execute(*command.split(), code=2)
+    if "--json" not in command:
+        assert "[internal]" in said.err
+        assert "other" in said.words
+        return
+    assert [json.dumps(result).count('"internal"') for result in said.json["results"]] == [1, 0]
+    assert [file.read_text().endswith("RecursionError: too deep\n") for file in traces.glob("*.txt")] == [True]
+
+
+class Inline:
+    """Workers that do each job at once, in this process."""
+
+    def submit(self, job: Callable[..., Any], *arguments: Any) -> Future[Any]:
+        done = Future[Any]()
+        done.set_result(job(*arguments))
+        return done
+
+    def steps(self) -> list[str]:
+        return []

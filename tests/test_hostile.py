@@ -37,7 +37,7 @@ OF_SOURCES = (["record", "arm.urdf"], ["init", "--config", "new.toml"])
 SOURCES = ("source", "chain", "entities", "numbers", "terminal", "meshes")
 """Words of the attacks that those commands can meet."""
 LARGE = ("a long chain", "200 MB", "meshes")
-READ = (".urdfsync/stamp", ".urdfsync/lock", ".git/index", "page.html")
+READ = (".urdfsync/stamp", ".urdfsync/notes/", ".urdfsync/lock", ".git/index", "page.html")
 """What commands that read may change in the project; a link is changed only where it leads, which is outside."""
 WRITTEN = (*READ, "modelica/Arm", ".urdfsync", "new.toml", "modelica/package.order")
 

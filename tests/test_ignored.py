@@ -16,6 +16,7 @@ from urdfsync.urdf.domain import WARNINGS
 REPOSITORY = Path(__file__).parents[1]
 UNRELATED = {
     "changed-meanwhile",
+    "no-merge",
     "conflict",
     "conflicts-first",
     "edit-left",

@@ -21,8 +21,8 @@ from support.files import fresh_models, models, unchanged
 from support.git import NEEDS_GIT, Repository
 from support.networks import LADDER, MODEL, configure, failure, run
 
-from urdfsync.markers import find_markers, join_sides, read_sides
 from urdfsync.engine.actions import Choice
+from urdfsync.markers import find_markers, join_sides, read_sides
 
 pytestmark = NEEDS_GIT
 

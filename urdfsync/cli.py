@@ -12,12 +12,10 @@ import threading
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
-import msgspec
-
 from urdfsync import __version__, streams, uptodate
 from urdfsync.commands import arguments
 from urdfsync.dependencies import Dependencies
-from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError, findings_of, internal_error
+from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError, findings_of
 from urdfsync.engine.result import Exit
 from urdfsync.output.console import Console
 from urdfsync.spelling import nearest
@@ -48,7 +46,7 @@ def main(given: Sequence[str] | None = None) -> int:
             answer = [text for entry in transcript if entry[1] for text in entry]
             uptodate.save_answer(config_file, given[0], key, answer, dependencies)
     except Exception as error:  # noqa: BLE001 - of what looks for answers and saves them
-        return Console().end(Exit.ERROR, [_unforeseen(error)])
+        return Console().end(Exit.ERROR, findings_of(error))
     return code
 
 
@@ -82,13 +80,11 @@ def _main(given: list[str]) -> int:
         problems, code = error.diagnostics, Exit.ERROR
     except UrdfsyncError as error:
         problems, code = error.diagnostics, Exit.LOCKED if error.is_locked else Exit.ERROR
-    except OSError as error:
-        problems, code = findings_of(error), Exit.ERROR
     except KeyboardInterrupt:
         message = "interrupted; run the command again to finish the work"
         problems, code = (Diagnostic(Severity.ERROR, "interrupted", message),), Exit.INTERRUPTED
     except Exception as error:  # noqa: BLE001 - Python would exit with 1, which says that a package is out of step
-        problems, code = (_unforeseen(error),), Exit.ERROR
+        problems, code = findings_of(error), Exit.ERROR
     return console.end(_for_git(given, code), problems)
 
 
@@ -129,21 +125,6 @@ def _for_git(given: Sequence[str], error: int) -> int:
 
 def _command(given: Sequence[str]) -> str:
     return next((argument for argument in given if argument in _COMMANDS), "")
-
-
-def _unforeseen(error: Exception) -> Diagnostic:
-    """Return the finding for an exception that nothing was prepared for; its traceback goes to a temporary file."""
-    import tempfile
-    import traceback
-
-    bug = internal_error(error)
-    try:
-        number, path = tempfile.mkstemp(prefix="urdfsync-", suffix=".traceback.txt")
-        with open(number, "w", encoding="utf-8", errors="backslashreplace") as file:  # noqa: PTH123 - open already
-            file.writelines(traceback.format_exception(error))
-    except OSError:
-        return bug
-    return msgspec.structs.replace(bug, hint=f"{bug.hint} with the traceback in {path}")
 
 
 @contextlib.contextmanager

@@ -19,6 +19,8 @@ _SHELLS = os.path.join(os.path.dirname(__file__), "shells")
 _STATE = ".urdfsync/robots"
 _LARGEST = 500_000
 """Bytes of a configuration that are read in a fifth of a second; hundreds of robots have fewer."""
+_LARGEST_STATES = 10_000_000
+"""Bytes of recorded states that are read in a fifth of a second: those of robots with 10,000 links."""
 _SAFE = frozenset("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.-")
 
 
@@ -80,8 +82,13 @@ def _joints(words: list[str]) -> list[str]:
     try:
         states = sorted(os.listdir(folder))
         states = [name for name in states if name.removesuffix(".state") in words] or states
-        text = "".join(read_unrecorded(os.path.join(folder, name)).decode() for name in states)
+        size, texts = 0, list[str]()
+        for path in (os.path.join(folder, name) for name in states):
+            size += os.stat(path).st_size
+            if size > _LARGEST_STATES:
+                break
+            texts.append(read_unrecorded(path).decode())
     except (OSError, ValueError):
         return []
-    names = (line.partition('"')[0] for line in text.split('["joints","')[1:])
+    names = (line.partition('"')[0] for text in texts for line in text.split('["joints","')[1:])
     return [name for name in names if name.isidentifier() and name.isascii()]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import enum
+import functools
 import os
 from typing import Self
 
@@ -78,7 +79,7 @@ class Diagnostic(msgspec.Struct, frozen=True):
 
 
 def internal_error(error: Exception, what: str = "") -> Diagnostic:
-    """Return the finding for a mistake in urdfsync, with the place where the exception was raised."""
+    """Return the finding for a mistake in urdfsync: where it was raised, and the file that has its traceback."""
     import traceback  # 4 ms, and hardly ever needed
 
     frame = traceback.extract_tb(error.__traceback__)[-1]
@@ -86,8 +87,23 @@ def internal_error(error: Exception, what: str = "") -> Diagnostic:
     message = f"{what}{type(error).__name__} in {place}: {error}".rstrip(": ")
     if isinstance(error, MemoryError):
         message = f"{what}there is not enough memory"
-    hint = "this is a bug in urdfsync: please report it"
+    file = _save_traceback("".join(traceback.format_exception(error)))
+    hint = f"this is a bug in urdfsync: please report it{file and f' with the traceback in {file}'}"
     return Diagnostic(Severity.ERROR, "internal", message, hint=hint)
+
+
+@functools.lru_cache(maxsize=16)  # the daemon may meet the same mistake at each build
+def _save_traceback(text: str) -> str:
+    """Write a traceback to a temporary file, and return its path; empty if that can't be."""
+    import tempfile
+
+    try:
+        number, path = tempfile.mkstemp(prefix="urdfsync-", suffix=".traceback.txt")
+        with open(number, "w", encoding="utf-8", errors="backslashreplace") as file:  # noqa: PTH123 - open already
+            file.write(text)
+    except OSError:
+        return ""
+    return path
 
 
 class UrdfsyncError(Exception):
@@ -126,9 +142,14 @@ class OutputError(UrdfsyncError):
     """The outputs can't be written where the configuration wants them."""
 
 
-def findings_of(error: UrdfsyncError | OSError) -> tuple[Diagnostic, ...]:
-    """Return the findings of an error, also of one by the system."""
+def findings_of(error: Exception) -> tuple[Diagnostic, ...]:
+    """Return the findings of whatever stopped the work on one robot, or a command: also of a mistake in urdfsync.
+
+    So one robot never ends the others: those who work on several catch every exception, and ask this.
+    """
     if isinstance(error, UrdfsyncError):
         return error.diagnostics
+    if not isinstance(error, OSError):
+        return (internal_error(error),)
     place = os.fsdecode(error.filename or "")
     return (Diagnostic(Severity.ERROR, "system", error.strerror or str(error), place),)

@@ -88,7 +88,7 @@ def templates_digest(folders: Sequence[Path]) -> str:
                 if not name.rpartition("/")[2].startswith("."):
                     templates[name] = text_digest(read_file(path))
     lines = [f"{name}\0{content}\n" for name, content in sorted(templates.items())]
-    return digest("".join(lines).encode())
+    return digest("".join(lines).encode(errors="surrogateescape"))
 
 
 def failure(error: OSError, path: Path, what: str = "it can't be written") -> OutputError:

@@ -6,6 +6,7 @@ import os
 import shutil
 from collections.abc import Callable
 from pathlib import Path
+from unittest import mock
 
 import pytest
 from support.networks import RC_FOLDER, edit
@@ -121,4 +122,10 @@ def test_a_library_with_a_link_to_a_folder_is_not_known_whole(project: Path, tmp
 
 def test_what_can_not_be_read_has_none(project: Path) -> None:
     Path("ladder.json").unlink()
+    assert now() is None
+
+
+def test_a_mistake_that_a_source_meets_is_left_to_the_check(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Keys of all robots are asked for before the first one is checked."""
+    monkeypatch.setattr("urdfsync.engine.source.read_source", mock.Mock(side_effect=RecursionError("too deep")))
     assert now() is None

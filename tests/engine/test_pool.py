@@ -13,17 +13,20 @@ from concurrent.futures import Executor, Future
 from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import Any
+from unittest import mock
 
 import pytest
 from support.networks import edit, run_all
 from support.replay import contents
 
 from urdfsync import config
+from urdfsync.config import Config, RobotConfig
 from urdfsync.dependencies import STAT, Dependencies
-from urdfsync.diagnostics import ConfigError
+from urdfsync.diagnostics import ConfigError, UrdfsyncError
 from urdfsync.engine import pool
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
+from urdfsync.engine.pool import plan_in_worker
 from urdfsync.workers import Workers, workers
 
 COUNT = 8
@@ -116,17 +119,20 @@ def test_progress_is_told_in_robots_that_have_been_read(robots: Path, monkeypatc
     assert told == [(number, COUNT) for number in range(COUNT)]
 
 
-def test_a_process_that_dies_is_an_error_in_words(robots: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(pool, "plan_in_worker", _die)
-    results = run_all(jobs=2)
-    assert all(result.failed for result in results)
-    (found,) = results[0].diagnostics
+@pytest.mark.slow
+def test_a_process_that_dies_is_the_error_of_its_robot(robots: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(pool, "plan_in_worker", _die_of_one)
+    results = {result.robot: result for result in run_all(jobs=2)}
+    assert {name for name, result in results.items() if result.failed} == {"n2", "n5"}
+    (found,) = results["n5"].diagnostics
     assert "ended unexpectedly" in found.message
     assert "--jobs 1" in found.hint
 
 
-def _die(*_: object) -> None:
-    os.kill(os.getpid(), signal.SIGKILL)
+def _die_of_one(config: Config, robot: RobotConfig, options: BuildOptions) -> object:
+    if robot.name == "n5":
+        os.kill(os.getpid(), signal.SIGKILL)
+    return plan_in_worker(config, robot, options)
 
 
 @pytest.mark.slow
@@ -166,3 +172,12 @@ def test_a_save_while_the_others_plan_is_seen(robots: Path) -> None:
             edit(record, "220.5", "221")
     assert [each.action.path for each in results[5].conflicts] == [record.relative_to(robots).as_posix()]
     assert "221" in record.read_text()
+
+
+def test_a_mistake_in_a_worker_is_told_as_one(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """And not as the end of the worker, which takes the other robots with it."""
+    monkeypatch.setattr(pool, "plan_robot", mock.Mock(side_effect=RecursionError("too deep")))
+    loaded = config.load(Path("urdfsync.toml"))
+    with pytest.raises(UrdfsyncError, match="RecursionError") as raised:
+        pool.plan_in_worker(loaded, loaded.robots[0], BuildOptions())
+    assert [finding.code for finding in raised.value.diagnostics] == ["internal"]

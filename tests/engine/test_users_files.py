@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import tracemalloc
 from collections.abc import Mapping
 from pathlib import Path
 
 import pytest
 from support.networks import C1, configure, drop, rename, run
 
+from urdfsync import config
 from urdfsync.dependencies import Dependencies
 from urdfsync.engine import users_files
 from urdfsync.engine.result import Result
@@ -115,6 +117,22 @@ def test_of_a_text_without_end_no_names_are_looked_at(project: Path) -> None:
     edited = Path("modelica/Ladder/Ladder.mo")
     edited.write_text(edited.read_text().replace("\nequation", f"\n  // {'long ' * 200_000}\n\nequation"))
     assert [one.file for one in run().diagnostics] == ["Bench.mo", str(edited)]
+
+
+def test_large_files_are_looked_at_one_after_the_other(project: Path) -> None:
+    loaded = config.load(Path("urdfsync.toml"))
+    write({"Bench.mo": model("Bench"), "Above.mo": model("Above", body="  Bench bench;\n")})
+    for number in range(40):
+        with Path(f"Large{number}.mo").open("wb") as file:
+            file.truncate(5_000_000)
+    tracemalloc.start()
+    try:
+        found = users_files.find_users_files(loaded, loaded.robots[0], ["Ladder"])
+        peak = tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+    assert [path.name for path in found.mentioning] == ["Above.mo", "Bench.mo"]
+    assert peak < 100_000_000
 
 
 def test_of_classes_with_one_name_nobody_knows_which_is_meant() -> None:

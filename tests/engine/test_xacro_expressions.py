@@ -71,8 +71,8 @@ def test_an_expression_gets_at_nothing_but_values(folder: Path, call: str) -> No
         ("xacro.load_yaml('unit.yaml')", "the attribute `__class__` is not allowed"),
         ("xacro.load_yaml('string.yaml')", "not allowed in an expression: JoinedStr"),
         ("xacro.load_yaml(0)", "expected str, bytes or os.PathLike object, not int"),
-        ("'\\ud800'", "it works with text that is not Unicode"),
-        ("xacro.message('\\ud800')", "it works with text that is not Unicode"),
+        ("'\\ud800'", "a text or a path that it works with is not UTF-8"),
+        ("xacro.message('\\ud800')", "a text or a path that it works with is not UTF-8"),
         pytest.param("'a' * 1000 * 1000 * 200", "it expands to more than 100,000,000 bytes", marks=pytest.mark.slow),
     ],
 )

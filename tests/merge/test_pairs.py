@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import time
+
 import pytest
 
 from urdfsync.merge import merge
+from urdfsync.merge.pairs import pair
+from urdfsync.modelica.tree import SyntaxTree, read_tree
 
 CLASS = "model A\n  extends {};\nequation\n  {}\n  0 = a;\n  0 = 2 * a;\nend A;\n"
 """Of several equations for one variable, or number, none is named by it."""
@@ -65,3 +69,21 @@ def test_equations_too_many_to_compare_each_with_each_merge_by_lines() -> None:
     texts = ("".join(f"  x{i} + {n} = y*{i + n};\n" for i in range(1_000)) for n in range(3))
     base, mine, generated = (f"model A\nequation\n{text}end A;\n" for text in texts)
     assert merge(base, mine, generated, is_modelica=True).contradictions == ("",), "all lines"
+
+
+@pytest.mark.parametrize("statement", ["extends {}{};", "equation connect(hub, {}{});"], ids=["extends", "connect"])
+def test_the_time_grows_with_the_number_of_things_that_both_sides_replaced(statement: str) -> None:
+    """And not with its square, which is seconds here."""
+    bodies = [body("\n".join(statement.format(name, k) for k in range(3000))) for name in "abc"]
+    begin = time.thread_time()
+    _, mine, generated = pair(*bodies)
+    assert time.thread_time() - begin < 0.5
+    assert [part.key for part in mine.parts] == [part.key for part in generated.parts]
+
+
+def body(statements: str) -> SyntaxTree:
+    tree = read_tree(f"model A\n{statements}\nend A;\n")
+    part = tree.find("body") if tree else None
+    assert part
+    assert isinstance(part.node, SyntaxTree)
+    return part.node

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+import msgspec
 import pytest
 
 from urdfsync.domain import Role
@@ -48,8 +49,17 @@ def seen(*found: Conflict, kind: Reason = Reason.CONFLICT, dry: bool = False, **
     return seen_of(actions, found, dry, **options)
 
 
+def files_of(conflict: Conflict) -> dict[str, str]:
+    """Where a build saves the versions."""
+    name, merge = Path(conflict.path).name.removesuffix(".mo"), conflict.merge
+    base = {} if conflict.base is None else {"base": f"{name}.base.mo"}
+    merged = {} if merge is None else {"merge": f"{name}.merge{'.txt' if merge.text is None else '.mo'}"}
+    return base | {"generated": f"{name}.generated.mo"} | merged
+
+
 def seen_of(actions: Actions, texts: tuple[Conflict, ...] = (), dry: bool = False, **options: Any) -> list[str]:
     package = Path(actions[0].path).parent.absolute()
+    texts = tuple(msgspec.structs.replace(one, files=files_of(one)) for one in texts)
     result = Result("arm", "Arm", package, Path.cwd(), actions, dry=dry, conflict_texts=texts)
     return [str(line).rstrip() for line in conflict_lines(result, Console(**options))]
 

@@ -11,22 +11,18 @@ from urdfsync import api
 
 
 def snapshot(folder: Path) -> dict[str, tuple[int, bytes]]:
-    """Time of change and content of every file below a folder."""
-    files = sorted(path for path in folder.rglob("*") if path.is_file())
-    return {path.relative_to(folder).as_posix(): (path.stat().st_mtime_ns, path.read_bytes()) for path in files}
+    """Time of change and content of every file below a folder, but for the notes of this machine, which are its own."""
+    files = {path.relative_to(folder).as_posix(): path for path in sorted(folder.rglob("*")) if path.is_file()}
+    files = {name: path for name, path in files.items() if not name.startswith(".urdfsync/notes/")}
+    return {name: (path.stat().st_mtime_ns, path.read_bytes()) for name, path in files.items()}
 
 
 @contextlib.contextmanager
 def unchanged(folder: Path, but: str = "") -> Iterator[None]:
-    """What happens within writes no file below a folder, but for one, and for what this machine notes."""
-    before = {**without_notes(folder), but: None}
+    """What happens within writes no file below a folder, but for one."""
+    before = {**snapshot(folder), but: None}
     yield
-    assert {**without_notes(folder), but: None} == before
-
-
-def without_notes(folder: Path) -> dict[str, tuple[int, bytes] | None]:
-    """The contents of all files below a folder, but for the notes of this machine, which are its own."""
-    return {path: content for path, content in snapshot(folder).items() if not path.startswith(".urdfsync/notes/")}
+    assert {**snapshot(folder), but: None} == before
 
 
 def models() -> dict[str, str]:

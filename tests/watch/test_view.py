@@ -6,6 +6,7 @@ import html
 import http.client
 import json
 import math
+import socket
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -63,6 +64,11 @@ def ask(view: View, path: str = "/bot-1/", method: str = "GET", **headers: str) 
     return answer.status, answer.read().decode(), dict(answer.getheaders())
 
 
+def connect(view: View) -> socket.socket:
+    host, _, port = view.hosts[0].partition(":")
+    return socket.create_connection((host, int(port)), timeout=30)
+
+
 def data_of(text: str) -> Any:
     return json.loads(text.partition('id="data">')[2].partition("</script>")[0])
 
@@ -108,6 +114,22 @@ def test_another_host_or_origin_is_refused(view: View, path: str, headers: dict[
 
 def test_it_listens_on_the_loopback_alone(view: View) -> None:
     assert view._server.server_address[0] == "127.0.0.1"
+
+
+def test_a_connection_that_asks_nothing_is_closed(view: View, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("urdfsync.watch.view._Handler.timeout", 0.1)
+    with connect(view) as idle:
+        assert idle.recv(1) == b""
+
+
+def test_connections_that_are_too_many_are_refused(view: View) -> None:
+    places = [connect(view) for _ in range(50)]
+    status, text, _ = ask(view)
+    assert (status, text) == (503, "There are 50 connections: close a page.\n")
+    places.pop().close()
+    until(lambda: ask(view)[0] == 200)
+    for place in places:
+        place.close()
 
 
 def test_what_changed_since_the_picture_before_is_told_until_the_next_change(view: View, source: Path) -> None:

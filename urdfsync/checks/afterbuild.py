@@ -15,7 +15,7 @@ from urdfsync.checks.cache import UserCache
 from urdfsync.checks.fingerprint import fingerprint
 from urdfsync.checks.results import CheckOptions, CheckResult
 from urdfsync.config import Config, RobotConfig
-from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError, findings_of
+from urdfsync.diagnostics import Diagnostic, Severity, findings_of
 from urdfsync.engine.options import BuildOptions, Progress
 from urdfsync.engine.result import Checked, Result
 
@@ -65,7 +65,7 @@ class BuildChecker:
         for robot in robots:
             try:
                 yield earlier[robot.name] or trouble or _judge(next(results))
-            except (UrdfsyncError, OSError) as error:
+            except Exception as error:  # noqa: BLE001 - the builds are told all the same
                 trouble = BuildCheck(Checked.WRONG, findings_of(error))
                 yield trouble
 

@@ -38,7 +38,7 @@ from urdfsync.checks.results import (
     TrialTime,
     listed,
 )
-from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError, findings_of
+from urdfsync.diagnostics import Diagnostic, Severity, findings_of
 from urdfsync.domain import Compared, Deviation, Experiment, Trial
 from urdfsync.engine.generation import generated_texts
 from urdfsync.files import shown
@@ -204,7 +204,7 @@ class Compilation:
             for label, future in futures.items():
                 try:
                     done[label] = future.result()
-                except (UrdfsyncError, OSError) as error:
+                except Exception as error:  # noqa: BLE001 - of one job
                     done[label], faults = [], findings_of(error)
                     if label == _USERS:  # the package itself may be right
                         self.gaps.append(f"your models were not compiled: {faults[0].sentence}")

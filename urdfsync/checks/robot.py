@@ -69,7 +69,7 @@ def check_robot(config: Config, robot: RobotConfig, options: CheckOptions, folde
         result = earlier or result
         result.folder, result.strict = shown(robot.folder), options.strict  # of this check, whichever was before
         result.add(texts.missing_resources(package))  # files that no fingerprint knows of
-    except (UrdfsyncError, OSError) as error:
+    except Exception as error:  # noqa: BLE001 - of one robot
         result.add(findings_of(error))
     result.diagnostics = robot.without_ignored(result.diagnostics)
     result.seconds = time.monotonic() - begin

@@ -19,7 +19,7 @@ from urdfsync import git, hook, uptodate
 from urdfsync.commands import arguments
 from urdfsync.config import FILE_NAME, STATE_FOLDER, Config, RobotConfig
 from urdfsync.dependencies import LISTINGS, LSTAT, VARIABLE, Dependencies
-from urdfsync.diagnostics import Diagnostic, Severity, SourceError, UrdfsyncError
+from urdfsync.diagnostics import Diagnostic, Severity, SourceError, findings_of
 from urdfsync.engine import parents
 from urdfsync.engine.actions import ORPHANS, Reason
 from urdfsync.engine.build import build
@@ -73,9 +73,11 @@ def run(args: argparse.Namespace, console: Console) -> int:
             try:
                 if not hook.passes(commit.index, path):
                     faults += _find_faults(commit, path, arguments.request(args, console), args.mode == "build")
-            except UrdfsyncError as error:
+            except git.GitError:
+                raise
+            except Exception as error:  # noqa: BLE001 - of one configuration
                 if any(file.startswith(path.removesuffix(PurePosixPath(path).name)) for file in commit.touched):
-                    errors += error.diagnostics
+                    errors += findings_of(error)
     except git.GitError as error:
         raise SourceError.of("git", str(error), hint="without a repository, use `urdfsync build --check`") from None
     results = [fault.result for fault in faults if fault.result]

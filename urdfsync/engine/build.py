@@ -23,7 +23,6 @@ from urdfsync.diagnostics import (
     Severity,
     SourceError,
     StateError,
-    UrdfsyncError,
     findings_of,
 )
 from urdfsync.engine.findings import orphaned_state
@@ -84,9 +83,9 @@ class _Builder:
         try:
             untrusted = None if self._options.trusted else find_untrusted_output(self._config, robot)
             if untrusted and not self._options.dry:
-                raise ConfigError(untrusted)
+                raise ConfigError(untrusted)  # noqa: TRY301 - it is told as all else is
             result = self._plan_and_write(robot)
-        except (UrdfsyncError, OSError) as error:
+        except Exception as error:  # noqa: BLE001 - it is this robot's: the next one reads all from the disk
             return Result(
                 robot.name,
                 robot.target.package,

@@ -9,7 +9,7 @@ from pathlib import Path
 import msgspec
 
 from urdfsync.config import Config, RobotConfig, working_folder
-from urdfsync.diagnostics import ConfigError, Diagnostic, UrdfsyncError
+from urdfsync.diagnostics import ConfigError, Diagnostic, findings_of
 from urdfsync.domain import Role
 from urdfsync.engine.actions import Action, Reason
 from urdfsync.engine.decide import decide_package
@@ -85,8 +85,8 @@ def find_edits(
             continue
         try:
             files = tuple(find_edited(generate_robot(inspect(config, robot, options))))
-        except UrdfsyncError as error:
-            yield RobotEdits(robot.name, config.root, diagnostics=error.diagnostics, failed=True)
+        except Exception as error:  # noqa: BLE001 - of one robot
+            yield RobotEdits(robot.name, config.root, diagnostics=findings_of(error), failed=True)
             continue
         if named:
             files = tuple(

@@ -19,7 +19,7 @@ from urdfsync.config import Config, RobotConfig
 from urdfsync.dependencies import is_file, read_file, read_variable
 from urdfsync.diagnostics import SourceError
 from urdfsync.engine import ros_packages
-from urdfsync.engine.xacro_worker import Answer, Problem, Request, find_matches
+from urdfsync.engine.xacro_worker import NOT_UNICODE, Answer, Problem, Request, find_matches
 from urdfsync.extras import install_command
 from urdfsync.files import digest, shown, text_digest
 from urdfsync.processes import exit_cause, importable, python_module
@@ -176,9 +176,13 @@ def _ask(request: Request) -> Answer:
     """Have a file expanded by another process."""
     limits = Answer(problem=Problem("xacro-limits", ""))
     try:
+        question = msgspec.json.encode(request)
+    except UnicodeEncodeError:
+        return Answer(problem=NOT_UNICODE)
+    try:
         done = subprocess.run(  # noqa: S603 - a command of ours
             python_module("urdfsync.engine.xacro_worker"),
-            input=msgspec.json.encode(request),
+            input=question,
             capture_output=True,
             timeout=WALL_SECONDS,
             env={**os.environ, **importable(), "PYTHONHASHSEED": "0"},  # the same text each time

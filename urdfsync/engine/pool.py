@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 from collections import deque
 from collections.abc import Iterator, Sequence
-from concurrent.futures import Future, wait
+from concurrent.futures import BrokenExecutor, Future, wait
 from typing import TypeAlias
 
 import msgspec
@@ -13,7 +13,7 @@ import msgspec
 from urdfsync import dependencies, machine
 from urdfsync.config import Config, RobotConfig
 from urdfsync.dependencies import Dependencies
-from urdfsync.diagnostics import OutputError, UrdfsyncError
+from urdfsync.diagnostics import OutputError, UrdfsyncError, findings_of
 from urdfsync.engine.options import BuildOptions, no_progress
 from urdfsync.engine.plan import plan_robot
 from urdfsync.engine.stage import Plan
@@ -53,16 +53,12 @@ class Pool:
             return plan_robot(self._config, robot, self._options)
         options = msgspec.structs.replace(self._options, progress=no_progress, executor="")
         try:
-            while self._waiting and (len(self._futures) < self._most or robot in self._waiting):
-                ahead = self._waiting[0]
-                self._futures[ahead.name] = self._workers.submit(plan_in_worker, self._config, ahead, options)
-                self._waiting.popleft()
-            future = self._futures.pop(robot.name)
-            while wait([future], _PAUSE).not_done:
-                remaining = len(self._waiting) + sum(not other.done() for other in self._futures.values()) + 1
-                self._options.progress("reading", self._total - remaining, self._total)
-            plan, reads = future.result()
-        except Exception as error:  # the workers are lost, in one of many ways
+            try:
+                plan, reads = self._plan_ahead(robot, options)
+            except BrokenExecutor:  # a robot has ended its worker, and with it all others: this one need not be the one
+                with workers(1) as alone:
+                    plan, reads = alone.submit(plan_in_worker, self._config, robot, options).result()
+        except Exception as error:  # the worker is lost, in one of many ways
             reason = "a process that planned it ended unexpectedly, perhaps because memory ran out"
             raise OutputError.of(
                 "lost-process", f"robot `{robot.name}`: {reason}", hint="try again with `--jobs 1`"
@@ -72,6 +68,18 @@ class Pool:
             raise plan
         return plan
 
+    def _plan_ahead(self, robot: RobotConfig, options: BuildOptions) -> _Planned:
+        """Let the workers plan robots, and return the plan of one."""
+        while self._waiting and (len(self._futures) < self._most or robot in self._waiting):
+            ahead = self._waiting[0]
+            self._futures[ahead.name] = self._workers.submit(plan_in_worker, self._config, ahead, options)
+            self._waiting.popleft()
+        future = self._futures.pop(robot.name)
+        while wait([future], _PAUSE).not_done:
+            remaining = len(self._waiting) + sum(not other.done() for other in self._futures.values()) + 1
+            self._options.progress("reading", self._total - remaining, self._total)
+        return future.result()
+
 
 def plan_in_worker(config: Config, robot: RobotConfig, options: BuildOptions) -> _Planned:
     """Plan in a worker; also what that has read."""
@@ -80,5 +88,7 @@ def plan_in_worker(config: Config, robot: RobotConfig, options: BuildOptions) ->
             plan: Plan | UrdfsyncError | OSError = plan_robot(config, robot, options)
         except (UrdfsyncError, OSError) as error:
             plan = error
+        except Exception as error:  # noqa: BLE001 - else it were taken for the end of a worker
+            plan = UrdfsyncError(*findings_of(error))
     reads.add_modules()
     return plan, reads

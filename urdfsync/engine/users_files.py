@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import contextlib
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from functools import cached_property
 from pathlib import Path
 
@@ -19,6 +18,35 @@ _NOT_USERS = (FILE_NAME, "pyvenv.cfg")
 
 _MOST = 20_000
 """Folders that are looked through, in a second: a stranger's configuration may name the whole disk."""
+
+
+_MOST_KEPT = 50_000_000
+"""Bytes of files that are kept in memory; more are read again when they are looked at again."""
+
+
+class _Files(Mapping[Path, bytes]):
+    """Files that are read one after the other, when they are looked at. One that can't be read is empty."""
+
+    def __init__(self, paths: Iterable[Path]) -> None:
+        self._paths, self._kept, self._size = dict.fromkeys(paths), dict[Path, bytes](), 0
+
+    def __getitem__(self, path: Path) -> bytes:
+        if path in self._kept:
+            return self._kept[path]
+        try:
+            content = dependencies.read_file(path)
+        except OSError:
+            return b""
+        if self._size + len(content) <= _MOST_KEPT:
+            self._kept[path] = content
+            self._size += len(content)
+        return content
+
+    def __iter__(self) -> Iterator[Path]:
+        return iter(self._paths)
+
+    def __len__(self) -> int:
+        return len(self._paths)
 
 
 class UsersFiles(msgspec.Struct, frozen=True, dict=True):
@@ -51,15 +79,12 @@ def find_users_files(
     of which `former_folder` may be one, other projects, virtual environments, and what can't be read.
     """
     packages = {str(configured.folder) for configured in config.robots} | {str(former_folder)}
-    contents = dict[Path, bytes]()
     places = (config.root, robot.output, *robot.users)
     folders = (place for place in places if place.suffix != ".mo")
     try:
         below = [*map(Path, modelica_files(*folders, others=_NOT_USERS, left_out=packages, most=_MOST))]
     except TooManyFoldersError:
         return UsersFiles({}, {}, is_too_wide=True)
-    for path in (*below, *(place for place in places if place.suffix == ".mo")):
-        if not any(str(parent) in packages for parent in path.parents):
-            with contextlib.suppress(OSError):
-                contents[path] = dependencies.read_file(path)
-    return UsersFiles(contents, files_that_use(contents, names))
+    paths = (*below, *(place for place in places if place.suffix == ".mo"))
+    files = _Files(path for path in paths if not any(str(parent) in packages for parent in path.parents))
+    return UsersFiles(files, files_that_use(files, names))

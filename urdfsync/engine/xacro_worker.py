@@ -70,6 +70,13 @@ class Problem(msgspec.Struct, frozen=True):
     """Better advice than that of the code."""
 
 
+NOT_UNICODE = Problem(
+    "xacro",
+    "a text or a path that it works with is not UTF-8",
+    hint="give its folders and files other names, or correct the text, then build again",
+)
+
+
 class TimeLimitError(Exception):
     """The CPU time is over."""
 
@@ -365,7 +372,7 @@ def _encode(answer: Answer) -> bytes:
     try:
         content = msgspec.json.encode(answer)
     except UnicodeEncodeError:
-        return msgspec.json.encode(Answer(problem=Problem("xacro", "it works with text that is not Unicode")))
+        return msgspec.json.encode(Answer(problem=NOT_UNICODE))
     if len(content) > MAX_FILE:
         too_large = f"it expands to more than {MAX_FILE:,} bytes"
         return msgspec.json.encode(Answer(problem=Problem("xacro", too_large)))

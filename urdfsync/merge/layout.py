@@ -11,6 +11,7 @@ import functools
 import itertools
 import math
 import re
+from collections import defaultdict
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import TypeAlias
 
@@ -93,10 +94,16 @@ def _shifts(
     boxes = {part.key: box for part in mine.parts if (box := _box(part, place))}
     planned = {part.key: box for part in generated.parts if (box := _box(part, place))}
     shifts = {key: sum(boxes[key]) / 2 - sum(planned[key]) / 2 for key in planned.keys() & boxes.keys()}
-    comparisons = _MOST_COMPARISONS
+    neighbours = defaultdict[str, list[str]](list)
+    for first, second in lines.values():
+        neighbours[first].append(second)
+        neighbours[second].append(first)
+    comparisons, previous = _MOST_COMPARISONS, ""
     for key, (low, high) in planned.items():
         if not mine.find(key):
-            wanted = _shift_of_neighbour(key, planned, shifts, lines)
+            # as far as the part that it hangs on, else as the one before it
+            neighbour = next((other for other in neighbours[key] if other != key and other in shifts), previous)
+            wanted = shifts.get(neighbour, 0)
             shifts[key] = wanted
             for way in _steps()[: comparisons // max(len(boxes), 1)]:
                 comparisons -= len(boxes)
@@ -105,17 +112,8 @@ def _shifts(
                     shifts[key] = shift
                     break
             boxes[key] = low + shifts[key], high + shifts[key]
+        previous = key if key in shifts else previous
     return shifts
-
-
-def _shift_of_neighbour(
-    key: str, planned: Mapping[str, Box], shifts: Mapping[str, complex], lines: Mapping[str, tuple[str, str]]
-) -> complex:
-    """Return how far the part that a new one hangs on is from its generated place; else that of the one before it."""
-    around = (other for ends in lines.values() if key in ends for other in ends if other != key and other in shifts)
-    earlier = (other for other in itertools.takewhile(key.__ne__, planned) if other in shifts)
-    neighbour = next(around, None) or max(enumerate(earlier), default=(0, ""))[1]
-    return shifts.get(neighbour, 0)
 
 
 def _touch(box: Box, other: Box) -> bool:

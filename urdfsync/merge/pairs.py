@@ -6,8 +6,8 @@ stands there instead is its new version: else both new ones would stay, side by 
 
 from __future__ import annotations
 
-from collections import defaultdict
-from collections.abc import Container, Mapping, Sequence
+from collections import defaultdict, deque
+from collections.abc import Mapping, Sequence
 
 import msgspec
 
@@ -30,37 +30,44 @@ def pair(base: SyntaxTree, mine: SyntaxTree, generated: SyntaxTree) -> tuple[Syn
     new = [[part for part in side.parts if not base.find(part.key)] for side in sides]
     if sum(map(is_equation, removed)) * max(sum(map(is_equation, parts)) for parts in new) > _MOST_COMPARISONS:
         raise TooManyPairsError
-    added = [*map(_by_words, new)]
-    # the keys in base of new versions, by the keys that they have in each side
-    keys: list[dict[str, str]] = [{}, {}]
+    added = [*map(_Candidates, new)]
     for part in removed:
-        versions = [_find_version(part, parts, taken) for parts, taken in zip(added, keys, strict=True)]
+        versions = [candidates.find_version(part) for candidates in added]
         if all(versions) or (any(versions) and is_equation(part)):
-            for version, taken in zip(versions, keys, strict=True):
-                taken.update({version.key: part.key} if version else {})
-    mine, generated = (_renamed(side, taken) for side, taken in zip(sides, keys, strict=True))
+            for version, candidates in zip(versions, added, strict=True):
+                candidates.taken.update({version.key: part.key} if version else {})
+    mine, generated = (_renamed(side, candidates.taken) for side, candidates in zip(sides, added, strict=True))
     return base, mine, generated
 
 
-def _by_words(parts: Sequence[Part]) -> Mapping[str, Sequence[Part]]:
-    """Return things by the first words of their keys, connections also by each of their ends."""
-    parts_by_word = defaultdict[str, list[Part]](list)
-    for part in parts:
+class _Candidates:
+    """The new things of one side, each of which may be the version of one thing in base."""
+
+    def __init__(self, parts: Sequence[Part]) -> None:
+        self.taken: dict[str, str] = {}
+        """The keys in base of new versions, by the keys that they have in the side."""
+        self._by_word = defaultdict[tuple[str, str], deque[Part]](deque)
+        self._words = {part.key: _words(part) for part in parts if is_equation(part)}
+        for part in parts:
+            kind, *ends = part.key.split()
+            for word in set(ends) if kind == "connect" else (kind,):
+                self._by_word[kind, word].append(part)
+
+    def find_version(self, part: Part) -> Part | None:
+        """Return the thing that the side has instead of one of base."""
         kind, *ends = part.key.split()
-        for name in (kind, *set(ends)) if kind == "connect" else (kind,):
-            parts_by_word[name].append(part)
-    return parts_by_word
-
-
-def _find_version(part: Part, added: Mapping[str, Sequence[Part]], taken: Container[str]) -> Part | None:
-    """Return the part that a side has instead of a part of base."""
-    kind, *ends = part.key.split()
-    words = ends if kind == "connect" else [kind] if is_equation(part) or kind == "extends" else []
-    free = [candidate for word in words for candidate in added.get(word, ()) if candidate.key not in taken]
-    if not is_equation(part):
-        return next((candidate for candidate in free if candidate.key.startswith(kind)), None)
-    best = max(free, key=lambda candidate: _likeness(part, candidate), default=None)
-    return best if best and _likeness(part, best) >= _ALIKE else None
+        if is_equation(part):
+            words = _words(part)
+            free = [candidate for candidate in self._by_word[kind, kind] if candidate.key not in self.taken]
+            alike = [_likeness(words, self._words[candidate.key]) for candidate in free]
+            return free[alike.index(max(alike))] if max(alike, default=0) >= _ALIKE else None
+        for word in ends if kind == "connect" else [kind] if kind == "extends" else []:
+            candidates = self._by_word[kind, word]
+            while candidates and candidates[0].key in self.taken:
+                candidates.popleft()
+            if candidates:
+                return candidates[0]
+        return None
 
 
 def _renamed(side: SyntaxTree, keys: Mapping[str, str]) -> SyntaxTree:
@@ -69,8 +76,7 @@ def _renamed(side: SyntaxTree, keys: Mapping[str, str]) -> SyntaxTree:
     return side.with_parts([msgspec.structs.replace(part, key=keys.get(part.key, part.key)) for part in side.parts])
 
 
-def _likeness(part: Part, other: Part) -> float:
-    words, others = map(_words, (part, other))
+def _likeness(words: set[object], others: set[object]) -> float:
     return len(words & others) / max(len(words | others), 1)
 
 

@@ -205,12 +205,13 @@ def files_that_use(files: Mapping[Path, bytes], names: Iterable[str]) -> dict[Pa
 
     Strings and comments do not count: a library of words about robots is no user.
     """
-    waiting, words, users = dict(files), list(names), {}
+    users, words, known = dict[Path, bytes](), set(names), set[str]()
     while words:
-        word = words.pop()
-        for path in [path for path, content in waiting.items() if _is_used(word, content)]:
-            users[path] = waiting.pop(path)
-            words.append(class_of_file(path))
+        known |= words
+        for path, content in files.items():  # which may be read only now, each time
+            if path not in users and any(_is_used(word, content) for word in words):
+                users[path] = content
+        words = {*map(class_of_file, users)} - known
     return dict(sorted(users.items()))
 
 
@@ -241,7 +242,7 @@ def replace_words(content: bytes, words: Mapping[int, tuple[str, str]]) -> bytes
 
 
 def _is_used(name: str, content: bytes) -> bool:
-    word = name.encode()
+    word = name.encode(errors="surrogateescape")
     return has_word(content, word) and has_word(code_of(content), word)
 
 

@@ -73,5 +73,5 @@ def _location(finding: Diagnostic, top: Path) -> dict[str, Any]:
     file = Path(os.path.normpath(config.working_folder() / finding.file))
     if not file.is_relative_to(top):
         return {"artifactLocation": {"uri": file.as_uri()}, "region": region}
-    uri = quote(file.relative_to(top).as_posix())
+    uri = quote(os.fsencode(file.relative_to(top).as_posix()))
     return {"artifactLocation": {"uri": uri, "uriBaseId": "%SRCROOT%"}, "region": region}

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from urdfsync import machine
 from urdfsync.urdf.kinematics.loops import Assembly
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import FrictionLaw, Options
@@ -28,7 +29,8 @@ def assembly(tree: KinematicTree, options: Options) -> Assembly:
         return Assembly(tree=tree, driven=wanted)
     actuated = {joint.name for joint in tree.joints if joint.actuated}
     named = actuated.union(options.commands) if options.driven is None else options.driven
-    from urdfsync.urdf.kinematics.assemble import assemble  # 60 ms for numpy, which few robots need
+    with machine.single_thread():
+        from urdfsync.urdf.kinematics.assemble import assemble  # 60 ms for numpy, which few robots need
 
     return assemble(tree, wanted, frozenset(named))
 

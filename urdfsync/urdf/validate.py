@@ -78,6 +78,7 @@ _ERRORS = {
     "loop-rigid": "remove the loop, or give it joints that move",
     "loop-open": "correct its frames, or the start and limits of its joints",
     "loop-redundant": "remove one of them",
+    "loop-limit": "leave some out, and close these by hand: a robot has up to 200 loops with 1,000 joints",
     "loop-singular": "let its joints start elsewhere, by `start` in the configuration",
     # the tree
     "duplicate-link": "rename or remove one link",

@@ -18,7 +18,7 @@ import msgspec
 from urdfsync import changes, registry
 from urdfsync.changes import Changes
 from urdfsync.config import FILE_NAME, Config, RobotConfig
-from urdfsync.diagnostics import ConfigError, Diagnostic, SourceError, UrdfsyncError
+from urdfsync.diagnostics import ConfigError, Diagnostic, SourceError, findings_of
 from urdfsync.domain import ChangeClass, Domain, Effect, Lookup, Role, Target, Version
 from urdfsync.engine import imports
 from urdfsync.engine import source as source_files
@@ -156,8 +156,8 @@ def compare_sources(
                 yield _with_version(robot, against, config, options, folder)
             elif config is not None:
                 yield _with_last_build(robot, config, options)
-        except UrdfsyncError as error:
-            failed = msgspec.structs.replace(_result(robot, config), failed=True, diagnostics=error.diagnostics)
+        except Exception as error:  # noqa: BLE001 - of one robot
+            failed = msgspec.structs.replace(_result(robot, config), failed=True, diagnostics=findings_of(error))
             yield Comparison(failed, shown(robot.source), against)
 
 

@@ -29,6 +29,10 @@ from urdfsync.watch.daemon import WatchOptions
 
 _ALIVE = 10.0
 """Seconds after which something is sent, by which a browser that has gone is noticed."""
+_MOST = 50
+"""Connections at a time; each page that is open has one."""
+_IDLE = 15.0
+"""Seconds that a connection may take for its request, or for taking an answer."""
 _HEADERS = {"Cache-Control": "no-store", "X-Content-Type-Options": "nosniff", "X-Frame-Options": "DENY"}
 
 
@@ -53,7 +57,7 @@ class View:
         self._options = msgspec.structs.replace(options.build, progress=no_progress)
         self._news, self._making, self._is_closed = threading.Condition(), threading.Lock(), False
         try:
-            self._server = ThreadingHTTPServer(("127.0.0.1", port), functools.partial(_Handler, self))
+            self._server = _Server(("127.0.0.1", port), functools.partial(_Handler, self))
         except (OSError, OverflowError) as error:
             message = f"port {port} can't be used for the view: {getattr(error, 'strerror', error)}"
             raise OutputError.of("port-taken", message, hint="name another one with `--port`") from error
@@ -118,8 +122,38 @@ class View:
         return msgspec.json.encode([robot.build, robot.problem, others]) if robot else b""
 
 
+class _Server(ThreadingHTTPServer):
+    """Has a thread for each connection, and refuses those that are too many."""
+
+    request_queue_size = _MOST
+
+    def __init__(self, address: tuple[str, int], handler: Any) -> None:
+        self._free = threading.BoundedSemaphore(_MOST)
+        super().__init__(address, handler)
+
+    def process_request(self, request: Any, client_address: Any) -> None:
+        """Start a thread for a connection."""
+        if self._free.acquire(blocking=False):
+            super().process_request(request, client_address)
+            return
+        with contextlib.suppress(OSError):
+            request.sendall(
+                b"HTTP/1.0 503 Service Unavailable\r\n\r\nThere are %d connections: close a page.\n" % _MOST
+            )
+        self.shutdown_request(request)
+
+    def process_request_thread(self, request: Any, client_address: Any) -> None:
+        """Answer a connection, in its thread."""
+        try:
+            super().process_request_thread(request, client_address)
+        finally:
+            self._free.release()
+
+
 class _Handler(BaseHTTPRequestHandler):
     """Answers one request."""
+
+    timeout = _IDLE
 
     def __init__(self, view: View, *connection: Any) -> None:
         self._view = view

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import random
+import time
 from collections.abc import Mapping, Sequence
 from typing import Any, get_args
 
@@ -312,6 +313,34 @@ def test_a_random_loop_is_closed_and_has_the_freedoms_that_its_equations_leave(s
     found = assembled(robot)
     assert distances(robot, found) == pytest.approx([0], abs=1e-9)
     assert len(found.states) == len(robot.joints) - rank(robot, closed)
+
+
+def row_of_four_bars(count: int) -> KinematicTree:
+    """Four-bars, each on the rocker of the one before it."""
+    joints, loops, ground = list[Joint](), list[Loop](), "base"
+    for k in range(count):
+        joints += [
+            joint(f"crank{k}", "continuous", ground, f"c{k}", (0.1, 0, 0), start=1.2),
+            joint(f"pin{k}", "continuous", f"c{k}", f"d{k}", (0.2, 0, 0), start=-0.8),
+            joint(f"rocker{k}", "continuous", ground, f"r{k}", (0.6, 0, 0), start=1.5),
+        ]
+        loops.append(Loop(f"pin of {k}", "revolute", f"d{k}", f"r{k}", Origin((0.6, 0, 0)), Origin((0.4, 0, 0))))
+        ground = f"r{k}"
+    return tree(joints, *loops)
+
+
+@pytest.mark.slow
+def test_many_loops_are_closed_in_seconds() -> None:
+    robot, begin = row_of_four_bars(110), time.thread_time()
+    assert len(assembled(robot).states) == 110
+    assert time.thread_time() - begin < 15
+
+
+def test_more_loops_than_can_be_closed_are_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    (fault,) = assemble(row_of_four_bars(201), frozenset(), frozenset()).faults
+    assert (fault.code, fault.message) == ("loop-limit", "201 loops with 603 joints take too long to close")
+    monkeypatch.setattr("urdfsync.urdf.kinematics.assemble._MOST_WORK", 1000)
+    assert faults(row_of_four_bars(3)) == [("loop-limit", "pin of 0")]
 
 
 def test_a_four_bar_in_line_is_singular() -> None:

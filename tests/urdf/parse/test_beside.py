@@ -99,6 +99,13 @@ def test_another_yaml_says_nothing() -> None:
     (YAML.replace(b"[SPHERICAL]", b"[]"), 1, "it has 1 joint and 0 joint types"),
     (YAML.replace(b"[SPHERICAL]", b"[[X]]"), 5, "an item of `joint_type` is no name"),
     (YAML.replace(b"[SPHERICAL]", b"[BALL]"), 5, "the joint type 'BALL' is none of FIXED, SPHERICAL"),
+    (b"closed_loop: " + b"[" * 2_000, 1, "lists stand inside of one another 50 deep"),
+    (b"closed_loop:\n " + b"- " * 2_000, 2, "lists stand inside of one another 50 deep"),
+    (b"closed_loop: [" + b"[x, y], " * 20_000 + b"]", 1, "it has more than 100,000 bytes"),
+    (b"closed_loop: [&a [%b, y]%b]\ntype: [&k 6d%b]" % (b"x" * 30_000, b", *a" * 7_000, b", *k" * 7_000), 1,
+     "its elements have more than 10,000,000 characters"),
+    (b'closed_loop: [["\\UFFFFFFFF", y]]\ntype: [6d]', 1, "this is no list of loops"),
+    (b'closed_loop: [["\\uD800", y]]\ntype: [6d]', 1, "this is no list of loops"),
 ])  # fmt: skip
 def test_a_fault_is_one_line(yaml: bytes, line: int, words: str) -> None:
     with pytest.raises(SourceError) as raised:

@@ -15,8 +15,18 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 from msgspec.structs import replace
 
+from urdfsync.spelling import counted
 from urdfsync.urdf.kinematics.loops import Assembly, Closure, Gap
-from urdfsync.urdf.kinematics.mechanism import AXES, ORIGIN, Array, Equation, Mechanism, Rows, array_of
+from urdfsync.urdf.kinematics.mechanism import (
+    AXES,
+    ORIGIN,
+    Array,
+    Equation,
+    Mechanism,
+    Rows,
+    array_of,
+    joints_of_loops,
+)
 from urdfsync.urdf.kinematics.poses import across, own_range, position_ranges
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.robot import MOTION_KINDS, Joint, Loop, Vector
@@ -37,6 +47,9 @@ _STEPS = 16
 _SWEEP = {"rotational": 1.0, "translational": 0.1}
 """Longest way of a sweep in the library, in rad and m."""
 _SWEEP_MARGIN, _SWEEP_PERIOD = 0.9, 10.0
+_MOST_LOOPS, _MOST_JOINTS = 200, 1000
+_MOST_WORK = 6 * 10**10
+"""Products of matrices, in multiplications, that closing all loops may take: ten seconds. 110 four-bars take 10¹⁰."""
 
 
 class _Problem(Mechanism):
@@ -57,6 +70,7 @@ class _Problem(Mechanism):
         for k, joint in enumerate(self.independent):
             if joint.type == "prismatic":  # it moves the first of its loops by the size of that
                 self.units[k] = self.sizes[np.argmax(self.moves[:, k])]
+        self.work = 0
 
     def scaled(self, q: Array, rows: Rows) -> tuple[Array, Array]:
         """Return what the equations leave, and the derivatives of that, without units."""
@@ -75,12 +89,16 @@ class _Problem(Mechanism):
         """
         least = _INDEPENDENT**2 if rows is self.whole else 1e-12  # chosen ones are independent
         q, caution, lower, upper = start, 1.0, self.lower, self.upper
+        work = len(q) ** 2 * (len(q) + len(rows.loops))
         if not bounded:
             lower, upper = np.full(len(q), -math.inf), np.full(len(q), math.inf)
         gaps, jacobian = self.scaled(q, rows)
         for _ in range(60):
             movable = np.ones(len(q), bool) if free is None else free.copy()
             while True:  # without the joints that would leave their limits from where they end
+                self.work += work
+                if self.work > _MOST_WORK:
+                    raise _too_many(len(self.loops), len(self.joints), self.loops[0])
                 step = np.zeros(len(q))
                 squares, directions = _spectrum(jacobian[:, movable])
                 factors = (squares > least) / np.maximum(squares + caution * (gaps @ gaps), least)
@@ -132,6 +150,9 @@ def assemble(tree: KinematicTree, wanted: frozenset[str], named: frozenset[str])
 
 
 def _assemble(tree: KinematicTree, wanted: frozenset[str], named: frozenset[str]) -> Assembly:
+    count = len(joints_of_loops(tree))
+    if len(tree.loops) > _MOST_LOOPS or count > _MOST_JOINTS:
+        raise _too_many(len(tree.loops), count, tree.loops[0])
     problem = _Problem(tree)
     _check_joints(problem)
     names = [joint.name for joint in problem.independent]
@@ -311,7 +332,7 @@ def _refine(tree: KinematicTree, problem: _Problem, q: Array, rows: Rows, free: 
     exact_rows = rows.take(range(len(rows.loops)), object)
     inverse = np.linalg.inv(problem.evaluate(q, rows)[1][:, free])
     for _ in range(3):  # each step gains at least half the digits that a float has
-        at[free] = at[free] - array_of(inverse @ exact.evaluate(at, exact_rows)[0].astype(float), object)
+        at[free] = at[free] - array_of(inverse @ exact.left(at, exact_rows).astype(float), object)
     return np.where(free, [float(round(value, 12)) + 0.0 for value in at], q)
 
 
@@ -391,6 +412,11 @@ def _check_closed(problem: _Problem, q: Array, hint: str = "") -> None:
         faults.append(Finding("loop-open", f"loop {loop.name}", message, hint))
     if faults:
         raise _UnclosableError(*faults)
+
+
+def _too_many(loops: int, joints: int, first: Loop) -> _UnclosableError:
+    message = f"{counted(loops, 'loop')} with {counted(joints, 'joint')} take too long to close"
+    return _UnclosableError(Finding("loop-limit", f"loop {first.name}", message))
 
 
 def _singular(loop: Loop, reason: str) -> _UnclosableError:

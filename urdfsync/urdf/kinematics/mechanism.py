@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from decimal import Decimal
@@ -56,11 +57,10 @@ class Mechanism:
     """
 
     def __init__(self, tree: KinematicTree, dtype: type = float) -> None:
-        by_child = {joint.child: joint for joint in tree.joints}
+        by_child, on_paths = {joint.child: joint for joint in tree.joints}, joints_of_loops(tree)
         paths = [[{*_path(by_child, link)} for link in (loop.parent, loop.child)] for loop in tree.loops]
         self.paths = [parent ^ child for parent, child in paths]
         """Of each loop, the joints from frame to frame."""
-        on_paths = {name for pair in paths for path in pair for name in path}
         self.loops = tree.loops
         self.joints = [joint for joint in tree.joints if joint.name in on_paths]
         index = {joint.child: k for k, joint in enumerate(self.joints, 1)}
@@ -87,7 +87,7 @@ class Mechanism:
             if leader in column:
                 gears[k, column[leader]], offsets[k] = multiplier, offset
         self._gears, self._offsets = array_of(gears, dtype), array_of(offsets, dtype)
-        self.moves = self.signs @ self._gears != 0
+        self.moves = self.signs @ gears != 0
         """Of each loop, whether an independent joint moves it."""
         self.whole = Rows.of(map(_whole, tree.loops))
 
@@ -113,20 +113,28 @@ class Mechanism:
         turns = axes * self.turns
         return turns, axes * self.slides + _cross(poses[1:, :3, 3], turns)
 
+    def left(self, q: Array, rows: Rows) -> Array:
+        """Return what the equations leave, in m and without unit."""
+        return self._left(self.poses(q), rows)[0]
+
     def evaluate(self, q: Array, rows: Rows) -> tuple[Array, Array]:
-        """Return what the equations leave, in m and without unit, and the derivatives of that by positions."""
+        """Return what the equations leave, and the derivatives of that by positions."""
         poses = self.poses(q)
-        (a, b), (turns, moves) = self.frames(poses), self.twists(poses)
+        left, u, w = self._left(poses, rows)
+        turns, moves = self.twists(poses)
+        derivatives = ((u * rows.v[:, 3:]) @ moves.T + _cross(w, u) @ turns.T) * self.signs[rows.loops]
+        return left, derivatives @ self._gears
+
+    def _left(self, poses: Array, rows: Rows) -> tuple[Array, Array, Array]:
+        """Return what the equations leave, and the vectors u and T·v of each in the frame of the root."""
+        a, b = self.frames(poses)
         u = (a[rows.loops, :3, :3] @ rows.u[:, :, None])[:, :, 0]
         w = (b[rows.loops, :3] @ rows.v[:, :, None])[:, :, 0]
-        is_translation = rows.v[:, 3:]
-        left = (u * (w - is_translation * a[rows.loops, :3, 3])).sum(axis=1) - rows.products
-        derivatives = ((u * is_translation) @ moves.T + _cross(w, u) @ turns.T) * self.signs[rows.loops]
-        return left, derivatives @ self._gears
+        return (u * (w - rows.v[:, 3:] * a[rows.loops, :3, 3])).sum(axis=1) - rows.products, u, w
 
     def gaps(self, q: Array) -> list[Gap]:
         """Return how far a pose is from closing each loop as its kind demands."""
-        gaps, left = [], self.evaluate(q, self.whole)[0]
+        gaps, left = [], self.left(q, self.whole)
         for k, loop in enumerate(self.loops):
             x, y, z, *chords = left[self.whole.loops == k]
             chord = math.hypot(*chords) / {"fixed": math.sqrt(8), "revolute": 2}.get(loop.kind, 1)
@@ -188,6 +196,14 @@ def _poses(origins: Sequence[Origin], dtype: type) -> Array:
     for k in (2, 1, 0):
         poses[:, :3, :3] = poses[:, :3, :3] @ _turns(array_of([AXES[k]] * len(origins), dtype), angles[:, k])
     return poses
+
+
+def joints_of_loops(tree: KinematicTree) -> set[str]:
+    """Return the names of the joints between the root and the frames of all loops."""
+    by_child, names = {joint.child: joint for joint in tree.joints}, set[str]()
+    for link in {link for loop in tree.loops for link in (loop.parent, loop.child)}:
+        names.update(itertools.takewhile(lambda name: name not in names, _path(by_child, link)))
+    return names
 
 
 def _path(by_child: Mapping[str, Joint], link: str) -> Iterator[str]:

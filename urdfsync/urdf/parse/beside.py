@@ -29,6 +29,12 @@ _TYPES = {
     **{f"UJOINT_{a}{b}": f"{a}{b}".lower() for a in "XYZ" for b in "XYZ" if a != b},
 }
 _MARK = b"closed_loop"
+_LARGEST = 100_000
+"""Bytes of a YAML that is read: at the worst in 2 s with 60 MB, since PyYAML is slow. 10,000 loops have fewer."""
+_DEEPEST = 50
+"""Levels of lists in a YAML: PyYAML reads each by three more levels of recursion."""
+_MOST = 10_000_000
+"""Characters of all elements: aliases may repeat a long name 10,000 times."""
 _DIRECTIONS = {"x": "1 0 0", "y": "0 1 0", "z": "0 0 1"}
 
 
@@ -43,15 +49,15 @@ def join(content: bytes, other: bytes, file: str) -> tuple[bytes, Sequence[tuple
     import yaml  # 20 ms, and few robots need it
 
     try:
-        document = yaml.compose(other, yaml.SafeLoader)
-        elements = list(_elements(document)) if document else []
-    except (yaml.YAMLError, _LoopsError) as error:
+        document = _compose(other)
+        elements = _bounded(_elements(document)) if document else []
+        lines = "".join(f"\n{element}" for element, _ in elements).encode()
+    except (yaml.YAMLError, _LoopsError, ValueError, OverflowError) as error:  # the last two for `\UFFFFFFFF`, `\uD800`
         mark = getattr(error, "problem_mark", None)
         line = mark.line + 1 if mark else other.count(b"\n", 0, other.find(_MARK)) + 1
         message = f"this is no list of loops: {getattr(error, 'problem', None) or error}"
         hint = "write `closed_loop: [[FRAME, FRAME]]` and `type: [6d]`"
         raise SourceError.of("loops-file", message, file, line, hint=hint) from None
-    lines = "".join(f"\n{element}" for element, _ in elements).encode()
     first = content.count(b"\n", 0, end) + 2
     places = [(number, line) for number, (_, line) in enumerate(elements, first)]
     return content[:end] + lines + b"\n" + content[end:], places
@@ -68,6 +74,37 @@ class _LoopsError(Exception):
     def __init__(self, problem: str, node: Any = None) -> None:
         super().__init__(problem)
         self.problem, self.problem_mark = problem, node and node.start_mark
+
+
+def _compose(content: bytes) -> Any:
+    """Return the root node of a YAML, None if it is empty. Raises YAMLError, ValueError and `_LoopsError`."""
+    import yaml
+
+    class Loader(yaml.SafeLoader):  # type: ignore[misc] # PyYAML has no types
+        depth = 0
+
+        def compose_node(self, parent: Any, index: Any) -> Any:
+            if self.depth == _DEEPEST:
+                raise _LoopsError(f"lists stand inside of one another {_DEEPEST} deep", self.peek_event())
+            self.depth += 1
+            node = super().compose_node(parent, index)
+            self.depth -= 1
+            return node
+
+    if len(content) > _LARGEST:
+        raise _LoopsError(f"it has more than {_LARGEST:,} bytes")
+    return yaml.compose(content, Loader)
+
+
+def _bounded(elements: Iterator[tuple[str, int]]) -> list[tuple[str, int]]:
+    """Return the elements. Raises `_LoopsError` if they are too long."""
+    kept, size = list[tuple[str, int]](), 0
+    for element, line in elements:
+        kept.append((element, line))
+        size += len(element)
+        if size > _MOST:
+            raise _LoopsError(f"its elements have more than {_MOST:,} characters")
+    return kept
 
 
 def _items(parts: Mapping[str, Any], key: str) -> Sequence[Any]:
