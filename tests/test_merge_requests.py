@@ -190,7 +190,6 @@ def test_of_a_merge_commit_the_action_reports_what_the_pull_request_changes(
 
 @posix
 @NEEDS_GIT
-@pytest.mark.xfail(reason="a recorded state that git united is out of step")
 def test_the_action_passes_a_merge_commit(pull_request: Repository, monkeypatch: pytest.MonkeyPatch) -> None:
     check_out(pull_request, monkeypatch)
     code, outputs = report()

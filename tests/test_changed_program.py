@@ -1,0 +1,71 @@
+"""A change of the program is seen wherever it is: nobody has to announce it.
+
+One line of a template, of the reader or of the model is changed in a copy of the program, so that a text changes. Every
+verdict changes with it, though the source, the package and all that is recorded are as before.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from support.git import NEEDS_GIT, Repository
+from support.networks import edit
+from support.urdfs import ELBOW_ARM
+
+ROOT = Path(__file__).parents[1]
+CHANGES = {
+    "template": ("templates/urdf/link/record.mo.jinja", '("Numbers of " ~ title)', '("All numbers of " ~ title)'),
+    "reader": (
+        "urdfsync/urdf/parse/elements.py",
+        "        inertial = reader.read(part, place, Inertial, owner)\n",
+        "        inertial = None\n",
+    ),
+    "model": ("urdfsync/urdf/model/joint.py", "{joint.type} joint", "the {joint.type} joint"),
+}
+"""A file of the program, one of its lines, and another one."""
+
+
+@pytest.fixture(scope="module")
+def program(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A copy of the program."""
+    folder = tmp_path_factory.mktemp("program")
+    for name in ("urdfsync", "templates", "modelica", "docs"):
+        shutil.copytree(ROOT / name, folder / name, ignore=shutil.ignore_patterns("__pycache__"))
+    return folder
+
+
+def call(program: Path, *arguments: str) -> int:
+    environment = {**os.environ, "PYTHONPATH": str(program), "PYTHONSAFEPATH": "1"}
+    command = [sys.executable, "-m", "urdfsync", *arguments]
+    return subprocess.run(command, env=environment, capture_output=True, check=False).returncode
+
+
+@NEEDS_GIT
+@pytest.mark.slow
+@pytest.mark.parametrize("part", CHANGES)
+def test_every_verdict_sees_a_changed_line(
+    program: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, part: str
+) -> None:
+    repository = Repository(tmp_path / "project", monkeypatch)
+    monkeypatch.chdir(repository.folder)
+    Path("arm.urdf").write_text(ELBOW_ARM)
+    Path("urdfsync.toml").write_text('[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\n')
+    assert call(program, "build") == 0
+    repository.commit()
+    verdicts = (["status"], ["build", "--check"], ["hook", "check"])
+    assert [call(program, *command) for command in verdicts] == [0, 0, 0]
+    name, old, new = CHANGES[part]
+    before = (program / name).read_text()
+    edit(program / name, old, new)
+    try:
+        assert [call(program, *command) for command in verdicts] == [1, 1, 1]
+        assert call(program, "build") == 0
+        assert call(program, "build", "--check") == 0
+    finally:
+        (program / name).write_text(before)
+    assert call(program, "build", "--check") == 1
