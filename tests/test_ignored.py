@@ -17,6 +17,7 @@ REPOSITORY = Path(__file__).parents[1]
 UNRELATED = {
     "changed-meanwhile",
     "no-merge",
+    "no-merge-driver",
     "conflict",
     "conflicts-first",
     "edit-left",

@@ -11,9 +11,11 @@ from urdfsync import api
 
 
 def snapshot(folder: Path) -> dict[str, tuple[int, bytes]]:
-    """Time of change and content of every file below a folder, but for the notes of this machine, which are its own."""
+    """Time of change and content of every file below a folder, but for notes and saved answers of this machine."""
     files = {path.relative_to(folder).as_posix(): path for path in sorted(folder.rglob("*")) if path.is_file()}
-    files = {name: path for name, path in files.items() if not name.startswith(".urdfsync/notes/")}
+    files = {
+        name: path for name, path in files.items() if not name.startswith((".urdfsync/notes/", ".urdfsync/stamp-"))
+    }
     return {name: (path.stat().st_mtime_ns, path.read_bytes()) for name, path in files.items()}
 
 
@@ -22,7 +24,8 @@ def unchanged(folder: Path, but: str = "") -> Iterator[None]:
     """What happens within writes no file below a folder, but for one."""
     before = {**snapshot(folder), but: None}
     yield
-    assert {**snapshot(folder), but: None} == before
+    after = {**snapshot(folder), but: None}
+    assert after == before, [name for name in after.keys() | before.keys() if after.get(name) != before.get(name)]
 
 
 def models() -> dict[str, str]:

@@ -17,6 +17,7 @@ from urdfsync.checks.contents import package_texts
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.domain import Bench
+from urdfsync.engine.actions import Reason
 from urdfsync.engine.build import build
 from urdfsync.engine.generation import Generation, generate_robot, generated_texts
 from urdfsync.engine.inputs import inspect
@@ -109,7 +110,8 @@ def read_package(config: Config, robot: RobotConfig, options: BuildOptions) -> R
     shared = [path for path in sorted(generated.keys() & on_disk.keys()) if path.endswith(".mo")]
     edited = [path for path in shared if normalised(on_disk[path]) != generated[path]] if in_step else []
     # elements whose new names wait are on disk by their old ones
-    keys = (key for action in built.actions for key in (action.path, action.origin) if key)
+    known = [action for action in built.actions if action.reason is not Reason.UNKNOWN]
+    keys = (key for action in known for key in (action.path, action.origin) if key)
     written = {Path(os.path.normpath(config.root / key)) for key in keys}
     written.update(robot.folder / path for path in generated)
     own_files = {robot.folder / path: text for path, text in on_disk.items() if path.endswith(".mo")}

@@ -9,6 +9,7 @@ from pathlib import Path
 from urdfsync.api import load
 from urdfsync.commands import arguments
 from urdfsync.config import Config, RobotConfig
+from urdfsync.engine.actions import Reason
 from urdfsync.engine.build import build
 from urdfsync.engine.edits import find_edited
 from urdfsync.engine.generation import generate_robot
@@ -62,7 +63,7 @@ def _lines(
     """Yield the edited files with what is edited, then those that nothing generates."""
     for file in find_edited(generate_robot(inspect(configuration, robot, looking))):
         yield from edit_lines(file, result.root, verbose, _EDITS)
-    generated = {action.path for action in result.actions}
+    generated = {action.path for action in result.actions if action.reason is not Reason.UNKNOWN}
     for place in sorted(modelica_files(result.folder)):
         path = key_of(Path(place), result.root)
         if path not in generated:

@@ -34,7 +34,7 @@ _FEW = 4
 """So many files to add are named one by one."""
 _COMMITTED = (f"robots{os.sep}", f"bases{os.sep}", ".git")
 """Parts of the state that belong into version control."""
-_UNNEEDED = ORPHANS | {Reason.FORGET}
+_UNNEEDED = ORPHANS | {Reason.FORGET, Reason.UNKNOWN}
 """Actions on files that a clone can do without."""
 
 

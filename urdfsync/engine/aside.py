@@ -55,7 +55,8 @@ def put_aside(
                 continue
             record = inputs.last.files.get(key, FileRecord())
             bases: Mapping[str, str] = inputs.last.bases(record)
-            if action.reason is Reason.MERGE and inputs.always_merges:  # else the next build would merge it again
+            is_merge = action.reason is Reason.MERGE or action.is_left_by_git
+            if is_merge and action.generated and inputs.always_merges:  # else the next build would merge it again
                 record, bases = known_bases(generation.package.content(inputs.folder.path(key)).decode())
             add(key, former or b"", record, bases)
     return index, texts

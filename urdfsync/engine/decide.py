@@ -100,7 +100,8 @@ def _find_files(generation: Generation) -> dict[str, File]:
         on_disk = inputs.files.on_disk(key, role)
         record = last.file(key, role, on_disk, generated)
         is_edited = isinstance(on_disk, str) and on_disk not in (generated, *record.hashes)
-        if is_edited and role is not Role.IMPORT and (meaning := united.find_meaning(inputs, key)):
+        is_text = role is not Role.IMPORT and key not in inputs.files.chosen
+        if is_edited and is_text and (meaning := united.find_meaning(inputs, key)):
             inputs.files.meanings[key] = meaning
             on_disk = inputs.files.on_disk(key, role)
             record = last.file(key, role, on_disk, generated)
@@ -156,10 +157,12 @@ def _conflict(generation: Generation, action: Action, names: Mapping[str, str]) 
     if mine is None:
         package = files.text(f"{key.removesuffix('.mo')}/package.mo") or ""
         reason, base = "you made a folder of the class", bases[0] if bases else None
-        return Conflict(action.path, base, package, generated, None, origin=action.origin, rejected=reason)
+        return Conflict(
+            action.path, base, package, generated, None, origin=action.origin, kept=package, rejected=reason
+        )
     if (meaning := files.meanings.get(key)) and meaning.contradictions:
         texts = bases[0] if bases else None, mine, generated, None
-        return Conflict(action.path, *texts, origin=action.origin, rejected=united.describe(meaning))
+        return Conflict(action.path, *texts, origin=action.origin, kept=mine, rejected=united.describe(meaning))
     if not names and bases:  # a choice was undone after the build that brought new names
         names = names_of(generation, last.notes.renamed, frozenset(words_in(bases[0])))
     conflict = find_conflict(action, bases, mine, generated, names)
@@ -244,8 +247,9 @@ def _refuse_markers(files: PackageFiles, actions: Iterable[Action], orders: Iter
     """Refuse files in which version control left its merge markers. Raises OutputError."""
     errors = []
     edited = [a for a in actions if a.mine not in (None, a.base, a.generated) and a.role is not Role.IMPORT]
-    # what the branches contradict each other about is told as a conflict
+    # what the branches contradict each other about is told as a conflict; the user asked for what is given back
     told = {action.origin or action.path for action in edited if action.is_conflict} & files.meanings.keys()
+    told |= files.chosen.keys()
     for key in dict.fromkeys((*(action.origin or action.path for action in edited), *orders)):
         found = find_markers(files.text(key) or "")
         if found and key not in told:
@@ -325,7 +329,8 @@ def _decide_orders(
     for key in sorted(recorded.keys() | desired.keys()):
         old, names, owned, text = files.text(key), desired.get(key, ()), list[str](), None
         if old is not None:
-            is_joined = find_markers(old) and united.can_join(files.path(key), old)
+            is_united = inputs.last.record.is_united
+            is_joined = find_markers(old) and united.can_join(files.path(key), old, is_united=is_united)
             text = join_sides(old) if is_joined else old
             written = recorded.get(key, ())
             removable = _removable_lines(generation, key, text, written, actions)

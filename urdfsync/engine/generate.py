@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING, Any
 
@@ -33,11 +33,16 @@ class Package:
         self._templates, self._name = templates, name
         self._texts: dict[str, bytes] = {}
         self._hashes: dict[str, str] = {}
+        self._stored: Callable[[str], str | None] = lambda _: None
 
     def content(self, path: str) -> bytes:
         """Return the text of one file. Raises ConfigError for a template that can't be used."""
         if path not in self._texts:
-            self._texts[path] = _render(_renderer(self._templates), self.artifacts[path], self._name)
+            stored = self._stored(self._hashes[path]) if path in self._hashes else None
+            if stored is None:
+                self._texts[path] = _render(_renderer(self._templates), self.artifacts[path], self._name)
+            else:
+                self._texts[path] = stored.encode()
         return self._texts[path]
 
     def hash(self, path: str) -> str:
@@ -46,8 +51,12 @@ class Package:
             self._hashes[path] = text_digest(self.content(path))
         return self._hashes[path]
 
-    def skip(self, noted: Mapping[str, tuple[str, str]]) -> None:
-        """Take the hashes of texts that this program has rendered on this machine, as `notes` returned them."""
+    def skip(self, noted: Mapping[str, tuple[str, str]], stored: Callable[[str], str | None]) -> None:
+        """Take the hashes of texts that this program has rendered on this machine, as `notes` returned them.
+
+        `stored` returns a text that has a hash, whoever stored it; None if there is none.
+        """
+        self._stored = stored
         for path, artifact in self.artifacts.items():
             data_hash, text_hash = noted.get(path, ("", ""))
             if data_hash == _data_hash(artifact):

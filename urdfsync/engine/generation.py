@@ -130,7 +130,7 @@ def _generate(inputs: Inputs) -> Generation:
         findings.append(msgspec.structs.replace(finding, file=file, line=lines.get(key, 0)))
     package = generate(domain, snapshot, imported.imports, robot.target, robot.options, inputs.templates)
     if last.notes.program == inputs.program and not options.full:
-        package.skip(last.notes.texts)
+        package.skip(last.notes.texts, last.base)
     return Generation(inputs, Version(snapshot, imported.imports), reading.lines, tuple(findings), imported, package)
 
 

@@ -84,7 +84,7 @@ def inspect(config: Config, robot: RobotConfig, options: BuildOptions) -> Inputs
         name = next((name for name, place in orphaned_robots(store, config) if place == folder), name)
         record = store.load(name)[0] if name != robot.name else None
     notes = load_notes(store.folder, name)
-    if options.adopts and record and record.files:
+    if options.adopts and record and (record.snapshot is not None or record.is_united):
         message, hint = f"robot `{robot.name}` was built already", "`urdfsync resolve` settles its conflicts"
         place = shown(config.file), robot.lines[""]
         raise OutputError.of("already-built", message, *place, hint=hint)

@@ -66,13 +66,14 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
     def file(self, key: str, role: Role, on_disk: OnDisk, generated: str | None) -> FileRecord:
         """Return the record of a file as it is on disk.
 
-        A text in the bases is urdfsync's own, whatever is recorded: a build that a save overtook may have written it,
-        or git has put it back.
+        A text in the bases, or that this machine has generated, is urdfsync's own, whatever is recorded: a build that
+        a save overtook may have written it, git has put it back, or the state is lost.
         """
         record = self.files.get(key, NEVER_WRITTEN)
         if not isinstance(on_disk, str) or role is Role.IMPORT or on_disk in (generated, *record.hashes):
             return record
-        return record if self.base(on_disk) is None else FileRecord((on_disk,))
+        is_own = on_disk in self.notes.written or self.base(on_disk) is not None
+        return FileRecord((on_disk,)) if is_own else record
 
     @cached_property
     def options(self) -> Any:

@@ -81,7 +81,7 @@ class PackageFiles:
     ) -> None:
         """`chosen` are contents that count for those on disk, which are `replaced`; by key, None for no file."""
         self.root = config.root
-        self._chosen, self.replaced = chosen, replaced
+        self.chosen, self.replaced = chosen, replaced
         self._prefix = os.path.join(os.path.normpath(config.root), "")  # noqa: PTH118 - strings: there are thousands
         self._trees = [Tree(robot.output), Tree(config.root)]
         self._tree_of: dict[str, Tree | None] = {}  # by folder
@@ -104,8 +104,8 @@ class PackageFiles:
 
     def read(self, key: str) -> bytes | None:
         """Return a file's content, None if there is none. Raises OutputError for links, folders, unreadable files."""
-        if key in self._chosen:
-            return self._chosen[key]
+        if key in self.chosen:
+            return self.chosen[key]
         path = self._place(key)
         tree = self._tree(path.rpartition(os.sep)[0])
         return tree.read(path) if tree else None
@@ -145,9 +145,9 @@ class PackageFiles:
         """Return the state of a file when it was first seen, None if there was none. Raises OutputError as `read`."""
         path = self._place(key)
         if path not in self._states:
-            chosen = self._chosen.get(key)
+            chosen = self.chosen.get(key)
             state = state_of(chosen) if chosen is not None else None
-            self._states[path] = state if key in self._chosen else self._read_state(path)
+            self._states[path] = state if key in self.chosen else self._read_state(path)
         return self._states[path]
 
     def _read_state(self, path: str) -> FileState | None:
@@ -188,7 +188,7 @@ class PackageFiles:
 
     def has_classes(self, key: str, gone: Collection[str]) -> bool:
         """Return whether the folder of a `package.mo` holds classes other than it and those of the files in `gone`."""
-        folder, left = self.path(key).parent, {*gone, *(key for key, text in self._chosen.items() if text is None)}
+        folder, left = self.path(key).parent, {*gone, *(key for key, text in self.chosen.items() if text is None)}
         for path in map(folder.joinpath, dependencies.list_folder(folder)):
             package = path / "package.mo"
             if path.suffix == ".mo" and path.name != "package.mo" and dependencies.is_file(path):
@@ -205,14 +205,14 @@ class PackageFiles:
         folder = folder.removesuffix("/")
         place = str(self.path(folder))  # strings: there are thousands of files
         found = {folder + path[len(place) :].replace(os.sep, "/") for path in modelica_files(Path(place))}
-        chosen = {key for key in self._chosen if key.startswith(f"{folder}/") and key.endswith(".mo")}
-        return (found - chosen) | {key for key in chosen if self._chosen[key] is not None}
+        chosen = {key for key in self.chosen if key.startswith(f"{folder}/") and key.endswith(".mo")}
+        return (found - chosen) | {key for key in chosen if self.chosen[key] is not None}
 
     def has_class(self, folder: str, name: str) -> bool:
         """Whether a folder has a file or a folder for this class. `classes` leaves out links, which count here."""
         place, key = self.path(folder), f"{folder.rstrip('/')}/{name}.mo"
-        if key in self._chosen:
-            return self._chosen[key] is not None
+        if key in self.chosen:
+            return self.chosen[key] is not None
         return dependencies.is_file(place / f"{name}.mo") or dependencies.is_folder(place / name)
 
     def _place(self, key: str) -> str:

@@ -42,11 +42,11 @@ def save_versions(inputs: Inputs, conflicts: Sequence[Conflict]) -> Versions:
     for conflict in conflicts:
         path, merge = PurePosixPath(inputs.folder.path(conflict.path)), conflict.merge
         stem, suffix = path.with_suffix("").as_posix(), path.suffix
-        files = {"generated": f"{stem}.generated{suffix}"}
-        contents[files["generated"]] = encode(conflict.generated)
-        if conflict.base is not None:
-            files["base"] = f"{stem}.base{suffix}"
-            contents[files["base"]] = encode(conflict.base)
+        files = dict[str, str]()
+        for kind, text in (("base", conflict.base), ("generated", conflict.generated)):
+            if text is not None:
+                files[kind] = f"{stem}.{kind}{suffix}"
+                contents[files[kind]] = encode(text)
         if merge is not None:  # with markers in it, it is no Modelica
             ending, proposal = ".txt" if merge.text is None else suffix, encode(merge.proposal)
             sides = sides_hash(text_hash(conflict.mine), text_hash(conflict.generated))

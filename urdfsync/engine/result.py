@@ -174,7 +174,7 @@ class Result(msgspec.Struct, frozen=True):
     @property
     def effective_changes(self) -> Changes | None:
         """The changes of the model that a build writes, or that wait for a conflict; `diff` shows the others, too."""
-        return self.changes if self.writes or self.conflicts else None
+        return self.changes if self.writes or self.conflicts or self.settled else None
 
     @property
     def is_built(self) -> bool:
@@ -221,7 +221,7 @@ class Result(msgspec.Struct, frozen=True):
             phrases.insert(
                 0, f"{counted(given_back, 'file')} given back as you had {'it' if given_back == 1 else 'them'}"
             )
-        if self.renews and self.in_step and not (self.writes or self.dry):
+        if self.renews and self.in_step and not (self.writes or self.dry or self.settled):
             phrases.append("recorded state renewed: commit .urdfsync")
         if waiting := sum(action.is_waiting for action in self.actions.decided):
             what = "the conflict is" if reasons[Reason.CONFLICT] == 1 else "all conflicts are"

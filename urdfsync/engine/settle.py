@@ -11,11 +11,14 @@ from typing import TypeAlias
 
 import msgspec
 
+from urdfsync.diagnostics import OutputError
 from urdfsync.domain import Role
 from urdfsync.engine.actions import Action, Actions, Choice, Reason, UsersChoice
 from urdfsync.engine.decide import Decision
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.package_files import PackageFiles, encode, text_hash, with_line_ends
+from urdfsync.files import shown
+from urdfsync.markers import find_markers
 from urdfsync.state.record import FileRecord, role_of
 
 _EDITED = frozenset({Reason.KEEP, Reason.INCLUDED, Reason.MOVE, Reason.MERGE})
@@ -46,7 +49,8 @@ class Settled(msgspec.Struct):
 def settle(generation: Generation, decision: Decision) -> Settled:
     """Return what the choices of the options make of their files.
 
-    A choice is passed over if one of its two texts is another one now, and if it does not settle its file.
+    A choice is passed over if one of its two texts is another one now, and if it does not settle its file. Raises
+    OutputError for a file with markers of git that is to be kept.
     """
     settled = Settled()
     choices, folder = generation.inputs.options.choices, generation.inputs.folder
@@ -84,7 +88,10 @@ def _settle(generation: Generation, decision: Decision, action: Action, chosen: 
     elif not (action.is_conflict or conflict):
         return False
     elif choice is Choice.KEEP:
-        content = encode(conflict.kept) if conflict and action.origin else mine
+        content = encode(conflict.kept) if conflict and (action.origin or key in inputs.files.meanings) else mine
+        if markers := find_markers((content or b"").decode(errors="replace")):
+            message, hint = "unresolved merge markers", "settle them in the file, then build again"
+            raise OutputError.of("merge-markers", message, shown(inputs.files.path(key)), markers[0][1], hint=hint)
     elif choice is not Choice.TAKE and conflict:
         text = chosen.text if choice is Choice.EDIT else conflict.merged(choice)
         if text is None:

@@ -72,7 +72,8 @@ def stage(generation: Generation, decision: Decision, diagnostics: tuple[Diagnos
         changes += versions.changes
         changes += store.save_aside(robot.name, index, texts)
         state += _state_changes(generation, decision, record, index, settled, is_writing=is_writing or bool(state))
-        if decision.is_complete and not (is_writing or inputs.options.renews):
+        is_late = inputs.last.record.files and decision.is_complete
+        if is_late and not (is_writing or inputs.options.renews):
             state = []
     changes += state
     above = {inputs.files.path(inputs.last.folder).parent, store.folder}

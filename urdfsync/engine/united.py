@@ -111,12 +111,15 @@ def _are_generated(last: LastBuild, texts: Iterable[str]) -> bool:
     return all(sha256 in recorded or last.base(sha256) is not None for sha256 in map(text_hash, texts))
 
 
-def can_join(file: Path, text: str) -> bool:
-    """Return whether the lines of both sides of a list of names may be joined: it is as git left it, or git is gone."""
+def can_join(file: Path, text: str, *, is_united: bool) -> bool:
+    """Return whether the lines of both sides of a list of names may be joined: it is as git left it.
+
+    If git is gone, that is so where `is_united` says that git has united the recorded state.
+    """
     try:
         Revision(file.parent, "HEAD")
     except SourceError:
-        return True
+        return is_united
     return find_sides(file, text) is not None
 
 

@@ -112,7 +112,9 @@ def event_values(event: events.Event, time: datetime.datetime) -> dict[str, Any]
     values: dict[str, Any] = head | plain(event)
     if isinstance(event, events.Built | events.Failed):
         actions = values["result"]["actions"]
-        values["result"]["actions"] = [action for action in actions if action["reason"] != Reason.UNCHANGED]
+        values["result"]["actions"] = [
+            one for one in actions if one["reason"] not in (Reason.UNCHANGED, Reason.UNKNOWN)
+        ]
     return values
 
 
