@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import json
+import shutil
 from pathlib import Path
 
 import pytest
 from support.commands import Execute
 from support.files import unchanged
-from support.networks import LADDER, add_resistor, configure, conflicts, edit, resistor, run
+from support.networks import LADDER, RECORD, add_resistor, configure, conflicts, edit, resistor, run
 
 from urdfsync import config
 from urdfsync.engine.actions import Choice, UsersChoice, sides_hash
@@ -122,7 +123,7 @@ def test_a_merge_with_a_rename_that_was_undone_can_be_made_again(execute: Execut
 def test_a_file_that_was_saved_since_is_not_given_back(merged: Path, execute: Execute) -> None:
     edit(MODEL, "Real mine = 1", "Real mine = 2")
     with unchanged(merged, but=".urdfsync/lock"):
-        assert "or you saved the file since" in execute("resolve", MODEL, "--undo", code=2).err
+        assert "or the file has changed since" in execute("resolve", MODEL, "--undo", code=2).err
 
 
 def test_a_merge_that_another_export_goes_beyond_can_be_undone(merged: Path) -> None:
@@ -160,7 +161,7 @@ def test_nothing_is_undone_where_no_build_wrote_over_the_file(project: Path) -> 
 
 def test_what_a_stranger_put_beside_the_state_is_no_bug(merged: Path, execute: Execute) -> None:
     file = merged / ".urdfsync/aside/ladder/index.json"
-    for text in ("", "x", "[]", '{"../x.mo": {"after": "x"}}', "\ud800", "[" * 100_000):
+    for text in ("", "x", "[]", '{"x.mo": {"file": "../x.mo"}}', "\ud800", "[" * 100_000):
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_text(text, errors="surrogatepass")
         execute("build")
@@ -168,9 +169,9 @@ def test_what_a_stranger_put_beside_the_state_is_no_bug(merged: Path, execute: E
 
 def put_aside() -> list[str]:
     folder = Path(".urdfsync/aside/ladder")
-    listed = sorted(json.loads((folder / "index.json").read_text())) if folder.exists() else []
-    assert all((folder / path).is_file() for path in listed)
-    return listed
+    index = json.loads((folder / "index.json").read_text()) if (folder / "index.json").exists() else {}
+    assert all((folder / aside["file"]).is_file() for aside in index.values())
+    return sorted(index)
 
 
 def test_what_was_put_aside_goes_once_its_file_is_saved(merged: Path, execute: Execute) -> None:
@@ -194,3 +195,39 @@ def test_a_file_that_comes_after_the_look_is_not_written_over(deleted: Path) -> 
     choices = {path: UsersChoice(Choice.UNDO, sides_hash(None, None))}
     list(build(loaded, loaded.robots, BuildOptions(choices=choices)))
     assert deleted.read_text() == "model R2\nend R2;\n"
+
+
+def test_no_text_that_was_put_aside_is_ever_written_over(project: Path, execute: Execute) -> None:
+    execute("build")
+    for number in (1, 2):
+        edit(MODEL, "equation", f"  Real mine{number};\nequation")
+        execute("resolve", MODEL, "--take")
+    kept = "".join(path.read_text() for path in Path(".urdfsync/aside").rglob("*.mo"))
+    assert "mine1" in kept
+    assert "mine2" in kept
+
+
+def test_a_recorded_text_that_this_machine_did_not_generate_can_be_given_back(project: Path, execute: Execute) -> None:
+    """As in a clone, or where a stranger has recorded what a person wrote."""
+    execute("build")
+    shutil.rmtree(".urdfsync/notes")
+    before = Path(RECORD).read_text()
+    resistor(120)
+    assert "1 text that this machine did not generate is replaced" in execute("build", "--verbose").err
+    execute("resolve", RECORD, "--undo")
+    assert Path(RECORD).read_text() == before
+    execute("build", "--check")
+
+
+def test_a_choice_can_be_undone_after_its_file_has_moved(project: Path, execute: Execute) -> None:
+    execute("build")
+    edit(f"{LADDER}/Elements/R1.mo", "equation", "  Real mine;\nequation")
+    edit(MODEL, '"Element R1"', '"Element R1, 1 %"')
+    edit("ladder.json", '"R1"', '"R8"')
+    old, new = Path(f"{LADDER}/Elements/R1.mo"), Path(f"{LADDER}/Elements/R8.mo")
+    execute("resolve", str(old), "--take", code=3)
+    assert "Real mine;" not in old.read_text()
+    execute("resolve", MODEL, "--take")
+    assert not old.exists()
+    execute("resolve", str(new), "--undo", code=None)
+    assert "Real mine;" in new.read_text()

@@ -101,19 +101,19 @@ def test_what_was_never_written_is_none(tmp_path: Path) -> None:
 
 
 def test_what_was_put_aside_and_expanded_is_read_again(tmp_path: Path) -> None:
-    aside = {"Links/a.mo": Aside("0" * 64, ("1" * 64,), {"1" * 64: "base"})}
+    aside = {"Links/a.mo": Aside("Links/a.1.mo", "0" * 64, ("1" * 64,), {"1" * 64: "base"})}
     expanded = Expansion(source="arm.xacro", text="<robot/>")
     for change in (
-        *Store(tmp_path).save_aside("arm", aside, {"Links/a.mo": b"mine"}),
+        *Store(tmp_path).save_aside("arm", aside, {"Links/a.1.mo": b"mine"}),
         *Store(tmp_path).save(Store(tmp_path).expansion("arm"), dumps(expanded)),
     ):
         change.path.parent.mkdir(parents=True, exist_ok=True)
         change.path.write_bytes(change.content or b"")
     store = Store(tmp_path)
     assert store.aside("arm") == aside
-    assert store.aside_text("arm", "Links/a.mo") == b"mine"
+    assert store.aside_text("arm", "Links/a.1.mo") == b"mine"
     loaded = store.load_expansion("arm")
     assert loaded is not None
     assert (loaded.source, loaded.text) == ("arm.xacro", "<robot/>")
     assert store.save_aside("arm", aside, {}) == []
-    assert [change.content for change in store.save_aside("arm", {}, {})] == [None, None]
+    assert [change.content for change in store.save_aside("arm", {}, {})] == [None]

@@ -187,8 +187,8 @@ def _without_effect(choice: Choice, action: Action, place: str) -> Diagnostic:
     """Return why a choice changes nothing about a file that does not conflict."""
     code, message, hint = "no-conflict", "the file has no conflict", "see `urdfsync status`"
     if choice is Choice.UNDO:
-        code, hint = "no-undo", "to settle a conflict, use --keep, --take or --merge"
-        message = "nothing to undo: no build has replaced your text here, or you saved the file since"
+        code, hint = "no-undo", "texts that were replaced are below .urdfsync/aside"
+        message = "nothing to undo: nothing was replaced here, or the file has changed since"
     elif action.reason is Reason.ORPHAN:
         code, message = "no-merge", "the file is no longer generated: there is nothing to merge"
         hint = "make it yours with --keep, or delete it with --take"

@@ -1,12 +1,15 @@
 """Texts that builds and choices replace: each is a plain file below `.urdfsync/aside/`, and can be given back.
 
-Put aside is what a person wrote, and what this machine did not generate: that it is recorded is no proof. A text stays
-there until its file is saved again and another build writes.
+Put aside is what a person wrote, and what this machine did not generate: that it is recorded is no proof. The list of
+what can be given back forgets a text once its file is saved again and another build writes. The text itself stays.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from pathlib import PurePosixPath
+
+import msgspec
 
 from urdfsync.domain import Role
 from urdfsync.engine.actions import Reason
@@ -14,6 +17,7 @@ from urdfsync.engine.decide import Decision
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.package_files import PackageFiles, encode, state_of
 from urdfsync.engine.settle import Settled, known_bases
+from urdfsync.files import digest
 from urdfsync.state.record import FileRecord
 from urdfsync.state.store import Aside
 
@@ -21,22 +25,28 @@ from urdfsync.state.store import Aside
 def put_aside(
     generation: Generation, decision: Decision, contents: Mapping[str, bytes | None], settled: Settled
 ) -> tuple[dict[str, Aside], dict[str, bytes]]:
-    """Return all that is aside after a build, and the new texts, by path below the package.
+    """Return all that can be given back after a build, by path below the package, and the new texts by file.
 
     `contents` are those that the build writes, by key; None for a deletion.
     """
     inputs, index, texts = generation.inputs, dict[str, Aside](), dict[str, bytes]()
     on_disk = PackageFiles(inputs.config, inputs.robot) if settled.contents else inputs.files
+    moved = {action.origin: action.path for action in decision.actions if action.origin and action.writes}
     for path, aside in inputs.last.aside.items():
-        if not contents or on_disk.hash(inputs.folder.key(path), Role.MODEL) == aside.after:
+        key = inputs.folder.key(path)
+        if key in moved and on_disk.hash(key, Role.MODEL) == aside.after:
+            after = contents.get(moved[key])
+            aside = msgspec.structs.replace(aside, after=state_of(after or b"").text_sha256)
+            index[inputs.folder.path(moved[key])] = aside
+        elif not contents or on_disk.hash(key, Role.MODEL) == aside.after:
             index[path] = aside
 
     def add(key: str, text: bytes, record: FileRecord, bases: Mapping[str, str]) -> None:
-        path, after = inputs.folder.path(key), contents.get(key, settled.contents.get(key))
+        path, after = PurePosixPath(inputs.folder.path(key)), contents.get(key, settled.contents.get(key))
+        file = path.with_name(f"{path.stem}.{digest(text)[:8]}{path.suffix}").as_posix()
         sha256 = None if after is None else state_of(after).text_sha256
-        index[path], texts[path] = Aside(sha256, record.hashes, dict(bases)), text
+        index[str(path)], texts[file] = Aside(file, sha256, record.hashes, dict(bases)), text
 
-    moved = {action.origin: action.path for action in decision.actions if action.origin and action.writes}
     for key, before in settled.before.items():
         if key not in moved:
             add(key, *before)
@@ -55,8 +65,12 @@ def put_aside(
                 continue
             record = inputs.last.files.get(key, FileRecord())
             bases: Mapping[str, str] = inputs.last.bases(record)
-            is_merge = action.reason is Reason.MERGE or action.is_left_by_git
-            if is_merge and action.generated and inputs.always_merges:  # else the next build would merge it again
+            # else the next build would merge it again, or take it for the text that it wrote
+            is_merge = (action.reason is Reason.MERGE or action.is_left_by_git) and inputs.always_merges
+            is_own_base = state_of(former or b"").text_sha256 in record.hashes
+            if not action.generated:
+                record, bases = (FileRecord(), {}) if is_own_base else (record, bases)
+            elif is_merge or is_own_base:
                 record, bases = known_bases(generation.package.content(inputs.folder.path(key)).decode())
             add(key, former or b"", record, bases)
     return index, texts

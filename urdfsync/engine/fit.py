@@ -295,6 +295,8 @@ class Package(Mapping[str, bytes]):
         place = path if path in artifacts else _as_file(path)
         if not self._is_waiting:
             return self._generation.package.content(place).decode() if place in artifacts else ""
+        if inputs.last.package and place in inputs.last.package.artifacts:
+            return inputs.last.package.content(place).decode()
         record = inputs.last.files.get(inputs.folder.key(place))
         return (inputs.last.base(record.hashes[0]) or "") if record and len(record.hashes) == 1 else ""
 

@@ -72,7 +72,9 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
         record = self.files.get(key, NEVER_WRITTEN)
         if not isinstance(on_disk, str) or role is Role.IMPORT or on_disk in (generated, *record.hashes):
             return record
-        is_own = on_disk in self.notes.written or self.base(on_disk) is not None
+        aside = self.aside.get(self.folder.path(key))
+        is_chosen = key in self._files.chosen or (aside is not None and aside.after == on_disk)  # such as by --undo
+        is_own = not is_chosen and (on_disk in self.notes.written or self.base(on_disk) is not None)
         return FileRecord((on_disk,)) if is_own else record
 
     @cached_property
@@ -152,9 +154,9 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
         """Texts that builds and choices replaced, by path below the package."""
         return self._store.aside(self.name)
 
-    def aside_text(self, path: str) -> bytes | None:
+    def aside_text(self, file: str) -> bytes | None:
         """Return a text that was replaced; None if it is lost."""
-        return self._store.aside_text(self.name, path)
+        return self._store.aside_text(self.name, file)
 
 
 def import_hash(entry: Import) -> str:

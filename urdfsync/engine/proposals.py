@@ -55,7 +55,7 @@ def save_versions(inputs: Inputs, conflicts: Sequence[Conflict]) -> Versions:
                 name = f"{stem}.merge{number}{ending}"
                 if name not in persons or noted.get(name, ("", ""))[1] == sides or existing[name] == proposal:
                     break
-                message = "you changed this proposal, and both sides are others now: a new one is beside it"
+                message = "you changed this proposal, so it stays: a new one is beside it"
                 place = shown(store.conflicts(robot) / name)
                 findings.append(Diagnostic(Severity.NOTE, "proposal-kept", message, place))
             files["merge"] = name

@@ -73,7 +73,7 @@ def _settle(generation: Generation, decision: Decision, action: Action, chosen: 
         aside = inputs.last.aside.get(inputs.folder.path(key))
         if aside is None or action.role is Role.IMPORT or inputs.files.hash(key, action.role) != aside.after:
             return False
-        content, reason = inputs.last.aside_text(inputs.folder.path(key)), Reason.UNDO
+        content, reason = inputs.last.aside_text(aside.file), Reason.UNDO
         if content is None:
             return False
         record = FileRecord(aside.bases)

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync.diagnostics import Diagnostic, OutputError
+from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.domain import ChangeClass, Role
-from urdfsync.engine.actions import Action
+from urdfsync.engine.actions import Action, Actions, Reason
 from urdfsync.engine.aside import put_aside
 from urdfsync.engine.decide import Decision
 from urdfsync.engine.generation import Generation
@@ -23,6 +23,7 @@ from urdfsync.engine.rules import files_after
 from urdfsync.engine.settle import Settled, actions_after
 from urdfsync.engine.source import expansion_hash
 from urdfsync.files import shown
+from urdfsync.spelling import counted
 from urdfsync.state import bases, expansion, statefile
 from urdfsync.state.bases import DIGITS
 from urdfsync.state.notes import Notes
@@ -57,6 +58,7 @@ def stage(generation: Generation, decision: Decision, diagnostics: tuple[Diagnos
     contents = {key: change.content for key, change in files.items()}
     index, texts = put_aside(generation, decision, contents, settled) if record else ({}, {})
     changes, drawing = [*files.values()], None
+    diagnostics += _tell_aside(generation, actions, index, texts)
     if inputs.options.draw:
         imports = generation.imported.imports
         picture = inputs.domain.drawing(generation.now.snapshot, imports, robot.target, robot.options)
@@ -103,6 +105,23 @@ def stage(generation: Generation, decision: Decision, diagnostics: tuple[Diagnos
     )
     notes = _notes(generation, record, versions.noted, is_writing=is_writing) if record else None
     return Plan(result, store.hashes(), decision.shared, tuple(changes), tuple(emptied), notes)
+
+
+def _tell_aside(
+    generation: Generation, actions: Actions, index: Mapping[str, Aside], texts: Mapping[str, bytes]
+) -> tuple[Diagnostic, ...]:
+    """Return a note if texts are replaced that this machine did not generate, without a word of the user's."""
+    inputs = generation.inputs
+    told = (Reason.MERGE, Reason.MOVE, Reason.UNDO)
+    known = {inputs.folder.path(action.path) for action in actions if action.choice or action.reason in told}
+    new = sorted(path for path, aside in index.items() if aside.file in texts and path not in known)
+    if not new:
+        return ()
+    file, be = shown(inputs.files.path(inputs.folder.key(new[0]))), "is" if len(new) == 1 else "are"
+    message = f"{counted(len(new), 'text')} that this machine did not generate {be} replaced"
+    place = shown(inputs.store.aside_file(inputs.robot.name).parent)
+    hint = f"copies are below {place}; `resolve FILE --undo` brings one back"
+    return (Diagnostic(Severity.NOTE, "put-aside", message, file, hint=hint),)
 
 
 def _notes(

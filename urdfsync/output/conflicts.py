@@ -9,6 +9,7 @@ from pathlib import Path
 from urdfsync.engine.actions import Choice, Reason
 from urdfsync.engine.conflicts import Conflict
 from urdfsync.engine.result import DisputedFile, Result
+from urdfsync.markers import find_markers
 from urdfsync.output.console import Console, StyledLine, line
 from urdfsync.output.phrases import reason
 from urdfsync.spelling import counted
@@ -102,6 +103,8 @@ def _choices(target: DisputedFile) -> dict[str, str]:
         choices["--merge --prefer generated"] = "both sides' changes; the generated ones where they contradict"
     edit = {"--edit": "both sides in your editor, between markers"} if texts and is_on_disk else {}
     keep = {"--keep": f"your file as it is{', under its new name' if target.action.origin else ''}"}
+    if texts and find_markers(texts.mine):  # they can't be kept
+        keep = {}
     choices |= {**edit, **keep} if texts and texts.merge else {**keep, **edit}
     return choices | ({"--take": "the generated file"} if is_on_disk else {})
 

@@ -43,6 +43,8 @@ StateHashes: TypeAlias = Mapping[Path, str | None]
 class Aside(msgspec.Struct, frozen=True, omit_defaults=True):
     """One text that was on disk before a build or a choice; it is a plain file below `.urdfsync/aside/`."""
 
+    file: str
+    """Its path below the robot's folder there."""
     after: str | None = None
     """Hash of what was written; None if the file was deleted."""
     bases: tuple[str, ...] = ()
@@ -99,11 +101,11 @@ class Store:
             index = msgspec.json.decode(self._bytes(self.aside_file(robot)) or b"{}", type=dict[str, Aside])
         except (ValueError, RecursionError):  # it may be a stranger's
             return {}
-        return {path: text for path, text in index.items() if statefile.is_inside(path)}
+        return {path: one for path, one in index.items() if statefile.is_inside(path) and statefile.is_inside(one.file)}
 
-    def aside_text(self, robot: str, path: str) -> bytes | None:
-        """Return a text that was put aside."""
-        return self._bytes(self.aside_file(robot, path))
+    def aside_text(self, robot: str, file: str) -> bytes | None:
+        """Return a text that was put aside, by its path below the robot's folder."""
+        return self._bytes(self.aside_file(robot, file))
 
     # --- places ---------------------------------------------------------------------------------------------------
 
@@ -145,14 +147,10 @@ class Store:
         return [FileChange(path, content, None if old is None else digest(old))]
 
     def save_aside(self, robot: str, index: Mapping[str, Aside], new: Mapping[str, bytes]) -> list[FileChange]:
-        """Return the writes for all that is put aside; `new` are texts by path. Texts that are not listed go."""
-        gone = (path for path in self.aside(robot) if path not in index)
-        changes = [change for path in gone for change in self.save(self.aside_file(robot, path), None)]
-        for path, text in new.items():
-            changes += self.save(self.aside_file(robot, path), text)
-        return changes + self.save(
-            self.aside_file(robot), msgspec.json.encode(index, order="sorted") if index else None
-        )
+        """Return the writes for all that is put aside; `new` are texts by file. No text is ever deleted."""
+        changes = [change for file, text in new.items() for change in self.save(self.aside_file(robot, file), text)]
+        listed = msgspec.json.encode(index, order="sorted") if index else None
+        return changes + self.save(self.aside_file(robot), listed)
 
     def conflict_files(self, robot: str) -> dict[str, bytes]:
         """Return the versions of conflicts on disk, by path below the robot's folder."""
@@ -168,10 +166,9 @@ class Store:
         return [change for path, content in wanted.items() for change in self.save(folder / path, content)]
 
     def remove(self, robot: str) -> list[FileChange]:
-        """How all goes that there is of a robot."""
+        """Return how all goes that was recorded of a robot; texts that are a person's stay."""
         files = (*self.base_files(robot), self.drawing(robot), self.expansion(robot), notes.place(self.folder, robot))
-        changes = [change for path in (*files, self.path(robot)) for change in self.save(path, None)]
-        return [*self.save_conflicts(robot, {}), *self.save_aside(robot, {}, {}), *changes]
+        return [change for path in (*files, self.path(robot)) for change in self.save(path, None)]
 
     def for_git(self) -> list[FileChange]:
         """How git is told what is safe to lose and how states merge; what the user has made of these files stays."""
