@@ -389,6 +389,7 @@ def test_check_and_command_agree(
     first = {path: _state(place / path) for path in PATHS}
     with monkeypatch.context() as patch:
         patch.chdir(place)
+        assert cli.main(BUILD) == 0  # the first one in a copy notes what it tells
         save(*CHECK)
         for step in steps:
             if isinstance(step, list):
@@ -400,7 +401,8 @@ def test_check_and_command_agree(
                 time.sleep(0.06)  # long enough for the next answer
             for command in (BUILD, CHECK, STATUS):
                 said = saved(*command)
-                assert said is None or said == _full(command), (command, step)
+                # a saved answer repeats findings that the next command would count as told before
+                assert said is None or _output(said) == _output(_full(command)), (command, step)
 
 
 State = tuple[bytes, os.stat_result] | None
@@ -432,6 +434,11 @@ def _bring(path: Path, what: str, how: str, old: bool, first: State) -> None:
             other.replace(path)
     if old and first:
         os.utime(path, ns=(first[1].st_atime_ns, first[1].st_mtime_ns))
+
+
+def _output(said: list[str] | None) -> list[str] | None:
+    """What goes to the standard output."""
+    return said and [text for name, text in zip(said[::2], said[1::2], strict=True) if name == streams.OUTPUT]
 
 
 def _full(command: list[str]) -> list[str] | None:

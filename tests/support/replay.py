@@ -90,9 +90,10 @@ class Project:
         return contents(self.root / ".urdfsync/robots")
 
     def stamps(self) -> Stamps:
-        """Inode and time of change of each file, but for the lock."""
+        """Inode and time of change of each file, but for the lock and the notes of this machine."""
         found = ((path.relative_to(self.root).as_posix(), path.stat()) for path in _files(self.root))
-        return {name: (stat.st_ino, stat.st_mtime_ns) for name, stat in found if not name.endswith(".urdfsync/lock")}
+        found = ((name, stat) for name, stat in found if not name.startswith((".urdfsync/lock", ".urdfsync/notes/")))
+        return {name: (stat.st_ino, stat.st_mtime_ns) for name, stat in found}
 
     def clone(self, root: Path) -> Project:
         """The project as version control has it: without what `.urdfsync/.gitignore` keeps out."""
