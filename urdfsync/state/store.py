@@ -168,7 +168,11 @@ class Store:
     def remove(self, robot: str) -> list[FileChange]:
         """Return how all goes that was recorded of a robot; texts that are a person's stay."""
         files = (*self.base_files(robot), self.drawing(robot), self.expansion(robot), notes.place(self.folder, robot))
-        return [change for path in (*files, self.path(robot)) for change in self.save(path, None)]
+        noted = notes.load(self.folder, robot).proposals
+        existing = {path: digest(content) for path, content in self.conflict_files(robot).items() if ".merge" in path}
+        persons = [path for path, sha256 in existing.items() if sha256 != noted.get(path, ("", ""))[0]]
+        changes = [change for path in (*files, self.path(robot)) for change in self.save(path, None)]
+        return [*self.save_conflicts(robot, {}, persons), *changes]
 
     def for_git(self) -> list[FileChange]:
         """How git is told what is safe to lose and how states merge; what the user has made of these files stays."""
