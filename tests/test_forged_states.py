@@ -199,7 +199,7 @@ def forge(random: Random) -> list[str]:
     assert record is not None
     chosen = random.sample(FORGERIES, random.randint(1, 3))
     for forgery in chosen:
-        record = forgery(record, random)
+        record = forgery(record, random) if len(record.files) > 1 else record  # another one has taken the files away
     text = statefile.dumps(record)
     if random.random() < 0.15:
         text = text[: random.randrange(len(text))]
