@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import functools
-import os
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -21,6 +20,7 @@ from urdfsync.config import Config, RobotConfig, find_own_library
 from urdfsync.diagnostics import UrdfsyncError
 from urdfsync.engine import source
 from urdfsync.engine.options import BuildOptions
+from urdfsync.engine.program import installed
 from urdfsync.files import shown
 from urdfsync.modelica.names import LIBRARY
 from urdfsync.state.store import Store
@@ -81,7 +81,7 @@ def fingerprint(config: Config, robot: RobotConfig, options: CheckOptions) -> st
 
 def program(domain: str) -> tuple[object, ...]:
     """Return what stands for urdfsync's code and that of a domain, Python, and all that is installed."""
-    return sys.version, sys.platform, _installed(), _code(urdfsync.__file__), _domain_code(domain)
+    return sys.version, sys.platform, installed(), _code(urdfsync.__file__), _domain_code(domain)
 
 
 @functools.cache
@@ -98,12 +98,3 @@ def _domain_code(name: str) -> list[str]:
     module = sys.modules[registry.top_level(name)]
     files = [module.__file__] if module.__file__ else [f"{path}/__init__.py" for path in module.__path__]
     return [_code(file) for file in files]
-
-
-def _installed() -> list[str]:
-    """Return the names and versions of all that is installed, as the folders of their metadata say them."""
-    folders = set[str]()
-    for place in sys.path:
-        names = os.listdir(place) if os.path.isdir(place) else []  # noqa: PTH112, PTH208
-        folders.update(name for name in names if name.endswith((".dist-info", ".egg-info")))
-    return sorted(folders)

@@ -61,13 +61,14 @@ def put_aside(
             if conflict is not None and is_other and action.origin not in settled.before:
                 add(key, encode(conflict.kept), *known_bases(conflict.kept_base))
         elif action.reason is not Reason.MOVED_AWAY and (former := on_disk.read(key)) not in (None, contents[key]):
-            if state_of(former or b"").text_sha256 in inputs.last.notes.written:
+            former_hash = state_of(former or b"").text_sha256
+            if former_hash in inputs.last.notes.written:
                 continue
             record = inputs.last.files.get(key, FileRecord())
             bases: Mapping[str, str] = inputs.last.bases(record)
             # else the next build would merge it again, or take it for the text that it wrote
             is_merge = (action.reason is Reason.MERGE or action.is_left_by_git) and inputs.always_merges
-            is_own_base = state_of(former or b"").text_sha256 in record.hashes
+            is_own_base = former_hash in record.hashes
             if not action.generated:
                 record, bases = (FileRecord(), {}) if is_own_base else (record, bases)
             elif is_merge or is_own_base:

@@ -127,11 +127,10 @@ def _adjust(generation: Generation, action: Action) -> Action:
         return msgspec.structs.replace(action, reason=Reason.CONFLICT)
     if meaning and not meaning.contradictions:
         action = msgspec.structs.replace(action, is_left_by_git=True)
-    if action.reason is Reason.DELETE and action.mine is not None:
-        package = generation.package
-        is_generated = any(package.hash(path) == action.mine for path in package.artifacts)
-        if not (is_generated or inputs.last.has_generated(action.path, action.mine, action.role)):
-            return msgspec.structs.replace(action, reason=Reason.ORPHAN)
+    mine = action.mine
+    if action.reason is Reason.DELETE and mine is not None and mine not in generation.paths_by_hash:
+        is_generated = inputs.last.has_generated(action.path, mine, action.role)
+        return action if is_generated else msgspec.structs.replace(action, reason=Reason.ORPHAN)
     if action.reason is Reason.UNOWNED and inputs.options.adopts:
         return msgspec.structs.replace(action, reason=Reason.KEEP, base=action.generated)
     return action

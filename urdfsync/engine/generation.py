@@ -74,6 +74,11 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
             options = [name for name in names if getattr(last.options, name) != getattr(robot.options, name)]
         return msgspec.structs.replace(differences, generator=True, options=tuple(options))
 
+    @cached_property
+    def paths_by_hash(self) -> Mapping[str, str]:
+        """The path of a generated text by its hash, whatever its element is called."""
+        return {self.package.hash(path): path for path in self.package.artifacts}
+
     @property
     def is_structural(self) -> bool:
         """Whether files or names may come or go: not if only numbers changed since the last complete build."""

@@ -22,7 +22,7 @@ def program_hash(domain: str, templates: str) -> str:
     module = sys.modules.get(registry.top_level(domain), urdfsync)
     files = sorted({urdfsync.__file__, module.__file__ or urdfsync.__file__})
     facts = [fact for file in files for fact in _code(file)]
-    return digest(repr((urdfsync.__version__, sys.version, _installed(), facts, templates)).encode())
+    return digest(repr((urdfsync.__version__, sys.version, installed(), facts, templates)).encode())
 
 
 def _code(file: str) -> Iterator[tuple[str, tuple[int, ...]]]:
@@ -42,7 +42,10 @@ def _code(file: str) -> Iterator[tuple[str, tuple[int, ...]]]:
                     yield entry.path, stat_of(entry.stat())
 
 
-def _installed() -> list[str]:
-    """Return the names and versions of all that is installed: other libraries read meshes and render templates."""
-    places = [place for place in sys.path if os.path.isdir(place)]  # noqa: PTH112
-    return sorted(name for place in places for name in os.listdir(place) if name.endswith(".dist-info"))  # noqa: PTH208
+def installed() -> list[str]:
+    """Return the names and versions of all that is installed, as the folders of their metadata say them."""
+    folders = set[str]()
+    for place in sys.path:
+        names = os.listdir(place) if os.path.isdir(place) else []  # noqa: PTH112, PTH208
+        folders.update(name for name in names if name.endswith((".dist-info", ".egg-info")))
+    return sorted(folders)

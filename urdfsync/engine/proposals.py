@@ -35,8 +35,7 @@ def save_versions(inputs: Inputs, conflicts: Sequence[Conflict]) -> Versions:
     """Return how the versions get to their files, and which files these are."""
     store, robot, noted = inputs.store, inputs.robot.name, inputs.last.notes.proposals
     existing = store.conflict_files(robot)
-    unchanged = {path for path, (sha256, _) in noted.items() if digest(existing.get(path, b"")) == sha256}
-    persons = {path for path in existing if ".merge" in path} - unchanged
+    persons = store.persons_proposals(robot, noted)
     contents, saved, findings = dict[str, bytes](), list[Conflict](), list[Diagnostic]()
     notes = {path: facts for path, facts in noted.items() if path in persons}
     for conflict in conflicts:

@@ -265,7 +265,7 @@ def _base_changes(
     stored = {digit: inputs.store.bases(last.name, digit) for digit in DIGITS}
     missing, package = dict[str, str](), generation.package
     if absent := new - {sha256 for texts in stored.values() for sha256 in texts or ()}:
-        made = {package.hash(path): path for path in package.artifacts}  # an element may get another name yet
+        made = generation.paths_by_hash  # an element may get another name yet
         missing = {sha256: package.content(made[sha256]).decode() for sha256 in absent & made.keys()}
         missing |= {sha256: settled.texts[sha256] for sha256 in absent & settled.texts.keys()}
     cleans = decision.is_complete and (is_writing or bool(missing))

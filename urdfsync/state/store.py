@@ -159,6 +159,11 @@ class Store:
         existing = map(Path, walk_files(folder)) if self._tree.check_folder(folder) else ()
         return {path.relative_to(folder).as_posix(): self._bytes(path) or b"" for path in existing}
 
+    def persons_proposals(self, robot: str, noted: Mapping[str, tuple[str, str]]) -> set[str]:
+        """Return the proposed merges that are not as urdfsync has `noted` them, by path: a person changed them."""
+        existing = {path: digest(content) for path, content in self.conflict_files(robot).items() if ".merge" in path}
+        return {path for path, sha256 in existing.items() if sha256 != noted.get(path, ("", ""))[0]}
+
     def save_conflicts(self, robot: str, contents: Mapping[str, bytes], kept: Collection[str] = ()) -> list[FileChange]:
         """Return the writes that bring versions to the robot's folder, by path; all others go, but those `kept`."""
         folder = self.conflicts(robot)
@@ -168,9 +173,7 @@ class Store:
     def remove(self, robot: str) -> list[FileChange]:
         """Return how all goes that was recorded of a robot; texts that are a person's stay."""
         files = (*self.base_files(robot), self.drawing(robot), self.expansion(robot), notes.place(self.folder, robot))
-        noted = notes.load(self.folder, robot).proposals
-        existing = {path: digest(content) for path, content in self.conflict_files(robot).items() if ".merge" in path}
-        persons = [path for path, sha256 in existing.items() if sha256 != noted.get(path, ("", ""))[0]]
+        persons = self.persons_proposals(robot, notes.load(self.folder, robot).proposals)
         changes = [change for path in (*files, self.path(robot)) for change in self.save(path, None)]
         return [*self.save_conflicts(robot, {}, persons), *changes]
 
