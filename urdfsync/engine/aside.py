@@ -69,9 +69,9 @@ def put_aside(
             # else the next build would merge it again, or take it for the text that it wrote
             is_merge = (action.reason is Reason.MERGE or action.is_left_by_git) and inputs.always_merges
             is_own_base = former_hash in record.hashes
-            if not action.generated:
-                record, bases = (FileRecord(), {}) if is_own_base else (record, bases)
-            elif is_merge or is_own_base:
+            if action.generated and action.role is Role.MODEL and (is_merge or is_own_base):
                 record, bases = known_bases(generation.package.content(inputs.folder.path(key)).decode())
+            elif is_own_base:
+                record, bases = FileRecord(), {}
             add(key, former or b"", record, bases)
     return index, texts
