@@ -16,6 +16,7 @@ from urdfsync.domain import (
     Difference,
     Domain,
     ElementKey,
+    Features,
     Import,
     Meaning,
     Role,
@@ -33,10 +34,8 @@ PLAIN = st.recursive(
 class Shelf:
     """A domain of books on a shelf: everything is a parameter, colours are not modelled."""
 
-    def renames(self, old: Snapshot, new: Snapshot) -> Mapping[ElementKey, str]:
-        gone, came = old["books"].keys() - new["books"].keys(), new["books"].keys() - old["books"].keys()
-        same = [(a, b) for a in gone for b in came if old["books"][a] == new["books"][b]]
-        return {("book", a): b for a, b in same}
+    def features(self, snapshot: Snapshot) -> Mapping[ElementKey, Features]:
+        return {("book", name): Features({"book": book}, {}) for name, book in snapshot["books"].items()}
 
     def comparable(self, snapshot: Snapshot, renames: Mapping[ElementKey, str]) -> Snapshot:
         return {**snapshot, "books": {renames.get(("book", k), k): v for k, v in snapshot["books"].items()}}
@@ -121,7 +120,7 @@ def test_differences(old: dict[str, Any], new: dict[str, Any], expected: list[tu
 
 
 def test_a_rename_is_one_change_and_the_rest_is_compared_under_the_new_name() -> None:
-    found = changes(shelf(a={"size": 1}, c={"size": 1.0}), shelf(b={"size": 1}, c={"size": 2.0}))
+    found = changes(shelf(a={"size": 7}, c={"size": 1.0}), shelf(b={"size": 7}, c={"size": 2.0}))
     assert found.renames == {("book", "a"): "b"}
     assert lines(found) == [("book a", "renamed", "a", "b"), ("c / size", "changed", 1.0, 2.0)]
     assert found.change_class is ChangeClass.STRUCTURAL

@@ -19,6 +19,7 @@ from support.replay import Files, Fresh, Project, Stamps
 from urdfsync.domain import ChangeClass
 from urdfsync.engine.result import Result
 from urdfsync.engine.source import is_xacro
+from urdfsync.matching import match
 from urdfsync.state import statefile
 from urdfsync.urdf.domain import DOMAIN
 
@@ -109,7 +110,7 @@ def test_edits_follow_elements_with_another_name(corpus: Path, tmp_path: Path, n
     readable = [(content, found) for content in plain if (found := read(content).snapshot) is not None]
     count = 0
     for (old, before), (new, after) in itertools.pairwise(readable):
-        for (kind, element), renamed in DOMAIN.renames(before, after).items():
+        for (kind, element), renamed in match(DOMAIN.features(before), DOMAIN.features(after)).renames.items():
             count += 1
             project = Project(tmp_path / str(count))
             project.save(old)

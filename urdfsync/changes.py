@@ -19,9 +19,7 @@ from urdfsync.domain import (
     Version,
     displaced,
 )
-
-NOISE = 1e-6
-"""Relative change of a number that an exporter's rounding explains."""
+from urdfsync.matching import NOISE, Doubt, Matching, match
 
 _KINDS = {
     "dictionary_item_added": ChangeKind.ADDED,
@@ -65,11 +63,13 @@ class Change(msgspec.Struct, frozen=True):
 class Changes(msgspec.Struct, frozen=True):
     """All differences of two versions of a model."""
 
-    KEYS = ("change_class", "generator", "options", "changes")
+    KEYS = ("change_class", "generator", "options", "changes", "doubts")
 
     changes: tuple[Change, ...] = ()
     """Structure first, then numbers, then rounding and what is not modelled."""
     renames: Mapping[ElementKey, str] = msgspec.field(default_factory=dict)
+    doubts: tuple[Doubt, ...] = ()
+    """Elements of an old name that may be other parts."""
     generator: bool = False
     """Whether templates, options or the release of urdfsync differ."""
     options: tuple[str, ...] = ()
@@ -95,16 +95,16 @@ class Changes(msgspec.Struct, frozen=True):
         return result
 
 
-def compare(
-    old: Version, new: Version, domain: Domain, options: Any, renames: Mapping[ElementKey, str] | None = None
-) -> Changes:
+def compare(old: Version, new: Version, domain: Domain, options: Any, matching: Matching | None = None) -> Changes:
     """Return the changes from one version to another, with the domain's options of the new one.
 
-    `renames` are known ones; None to look for them.
+    `matching` tells which element is which; None to find that out.
     """
     differences: list[Difference] = []
-    if renames is None:
-        renames = domain.renames(old.snapshot, new.snapshot) if old.snapshot != new.snapshot else {}
+    if matching is None:
+        is_same = old.snapshot == new.snapshot
+        matching = Matching() if is_same else match(domain.features(old.snapshot), domain.features(new.snapshot))
+    renames = matching.renames
     if old.snapshot != new.snapshot:
         old = msgspec.structs.replace(old, snapshot=domain.comparable(old.snapshot, renames))
         new = msgspec.structs.replace(new, snapshot=domain.comparable(new.snapshot, {}))
@@ -121,13 +121,16 @@ def compare(
         for difference, meaning in zip(differences, meanings, strict=True)
         if meaning is not None
     ]
-    return Changes(tuple(sorted(changes, key=_weight)), renames)
+    return Changes(tuple(sorted(changes, key=_weight)), renames, tuple(matching.doubts.values()))
 
 
-def _weight(change: Change) -> tuple[bool, bool, bool]:
-    """Return a sort key for people: first whole elements, then structure, numbers, and rounding."""
-    is_structural = change.change_class is ChangeClass.STRUCTURAL
-    return not is_structural, len(change.path) > 1, change.noise or change.change_class is ChangeClass.UNMODELLED
+def _weight(change: Change) -> tuple[bool, ...]:
+    """Return a sort key for people: first other names, then whole elements, structure, numbers, and rounding."""
+    is_structural, is_quiet = (
+        change.change_class is ChangeClass.STRUCTURAL,
+        change.change_class is ChangeClass.UNMODELLED,
+    )
+    return change.kind is not ChangeKind.RENAMED, not is_structural, len(change.path) > 1, change.noise or is_quiet
 
 
 def moved_files(

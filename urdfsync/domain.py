@@ -30,6 +30,17 @@ ElementKey: TypeAlias = tuple[str, str]
 """Kind and name of an element in the domain's words, for example `("link", "base_link")`."""
 
 
+class Features(msgspec.Struct, frozen=True):
+    """What an element is, and which elements are next to it: by these it is found again under another name."""
+
+    contents: Mapping[str, Any]
+    """Plain data by the words for it, such as `mass`; without names, and without what the element does not have."""
+    neighbours: Mapping[str, ElementKey]
+    """Elements by the relation to them, such as `parent`."""
+    files: tuple[str, ...] = ()
+    """The files that it refers to; they are no part of `contents`, since exporters name them after elements."""
+
+
 class Role(enum.StrEnum):
     """Role of a generated file in the decision about it."""
 
@@ -561,12 +572,10 @@ class Domain(Protocol):
 
     # Differences
 
-    def renames(self, old: Snapshot, new: Snapshot) -> Mapping[ElementKey, str]:
-        """Return elements that have another name: old element → new name. An ambiguous match is none.
-
-        Where renames are declared, both snapshots are `comparable` ones, the old one under the declared names.
-        """
-        return {}
+    def features(self, snapshot: Snapshot) -> Mapping[ElementKey, Features]:
+        """Return the elements that may get another name; by default their names alone tell which is which."""
+        named = self.names(snapshot, Target("Package", "Model"))
+        return {(kind.removesuffix("s"), name): Features({}, {}) for kind, names in named.items() for name in names}
 
     def comparable(self, snapshot: Snapshot, renames: Mapping[ElementKey, str]) -> Snapshot:
         """Return the snapshot with those elements renamed wherever it mentions them, in the order of a report.

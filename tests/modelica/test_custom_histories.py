@@ -22,6 +22,7 @@ from support.replay import Project
 from urdfsync.diagnostics import Severity
 from urdfsync.domain import Target
 from urdfsync.engine.result import Result
+from urdfsync.matching import match
 from urdfsync.urdf.domain import DOMAIN
 
 ROTOR = 0.03
@@ -124,7 +125,7 @@ def test_an_extension_survives_and_its_torques_differ_as_pinocchio_says(
             old, new = read(contents[number - 1]).snapshot, read(content).snapshot
             assert old is not None
             assert new is not None
-            is_renamed = ("link", link) in DOMAIN.renames(old, new)
+            is_renamed = ("link", link) in match(DOMAIN.features(old), DOMAIN.features(new)).renames
             assert (f"use `{component(content, 'links', now)}` instead" in found_one) == is_renamed
             assert ("change or remove this use" in found_one) != is_renamed
             link = now

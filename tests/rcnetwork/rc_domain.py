@@ -25,6 +25,7 @@ from urdfsync.domain import (
     Difference,
     Domain,
     ElementKey,
+    Features,
     Import,
     Lookup,
     Meaning,
@@ -137,10 +138,11 @@ class RcNetwork(Domain):
             Order("Elements/package.order", (*records, *classes)),
         )
 
-    def renames(self, old: Snapshot, new: Snapshot) -> Mapping[ElementKey, str]:
-        before = _only_ones(snapshot for name, snapshot in old["elements"].items() if name not in new["elements"])
-        after = _only_ones(snapshot for name, snapshot in new["elements"].items() if name not in old["elements"])
-        return {("element", before[key]): after[key] for key in before if key in after}
+    def features(self, snapshot: Snapshot) -> Mapping[ElementKey, Features]:
+        return {
+            ("element", name): Features({"value": {**element, "name": ""}}, {})
+            for name, element in snapshot["elements"].items()
+        }
 
     def comparable(self, snapshot: Snapshot, renames: Mapping[ElementKey, str]) -> Snapshot:
         gone = {name for _, name in displaced(renames)}
@@ -174,14 +176,6 @@ class RcNetwork(Domain):
     ) -> str | None:
         texts = [f'<text y="{20 * (y + 1)}">{name}</text>' for y, name in enumerate(sorted(snapshot["elements"]))]
         return f'<svg xmlns="http://www.w3.org/2000/svg">{"".join(texts)}</svg>\n'
-
-
-def _only_ones(elements: Iterable[Mapping[str, Any]]) -> Mapping[tuple[Any, ...], str]:
-    """Names of elements by all that they are but their names; those that are alike are left out."""
-    alike: dict[tuple[Any, ...], list[str]] = {}
-    for element in elements:
-        alike.setdefault((*element["between"], element["ohm"], element["farad"]), []).append(element["name"])
-    return {key: names[0] for key, names in alike.items() if len(names) == 1}
 
 
 def _element(element: Mapping[str, Any], common: Mapping[str, Any]) -> Iterator[Artifact]:

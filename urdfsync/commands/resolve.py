@@ -48,6 +48,8 @@ def add(commands: arguments.Commands) -> None:
     }
     for kind, words in kinds.items():
         choice.add_argument(f"--{kind}", dest="choice", action="store_const", const=kind, help=words)
+    words = "say that your edit belongs to the element that is called so now"
+    choice.add_argument("--moved", metavar="NAME", help=words)
     words = "give names in your own models the new ones that the next build brings, or that an earlier one brought"
     choice.add_argument("--rename-uses", nargs="*", metavar="OLD=NEW", help=words)
     words = "with --merge: which side counts where both changed the same"
@@ -80,7 +82,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
         console.warnings([Diagnostic(Severity.NOTE, "no-conflict", "nothing is in conflict")])
     robots = [robot for robot in configuration.robots if robot.name in concerned]
     # a choice belongs to the texts that this plan has seen: a file that is saved from now on stays as it is
-    choices = {action.path: UsersChoice(choice, action.sides) for _, action in targets.values()}
+    choices = {action.path: UsersChoice(choice, action.sides, args.moved) for _, action in targets.values()}
     edited, folder = dict[str, str](), None
     if choice is Choice.EDIT:
         disputed = [texts for result in planned for texts in result.conflict_texts if texts.path in targets]
@@ -117,6 +119,8 @@ def _choice(args: argparse.Namespace) -> Choice:
         if args.choice is Choice.UNDO:
             hint = "name each file as the last build or `resolve` listed it: urdfsync resolve FILE --undo"
         raise arguments.UsageError(args.parser, wrong, hint)
+    if args.moved:
+        return Choice.MOVED
     return Choice(f"{args.choice}-{args.prefer}") if args.prefer else args.choice
 
 

@@ -27,6 +27,8 @@ class Choice(enum.StrEnum):
     """Both sides' changes; where they contradict each other, the generated ones."""
     EDIT = "edit"
     """The text that the user makes of both sides in an editor."""
+    MOVED = "moved"
+    """The edit belongs to the element of another name."""
     UNDO = "undo"
     """The text and the base before the last choice, or before a build replaced them."""
 
@@ -38,7 +40,7 @@ class UsersChoice(msgspec.Struct, frozen=True):
     sides: str
     """`sides_hash` of them."""
     text: str | None = None
-    """The text that the user made of both sides, for `Choice.EDIT`."""
+    """The text that the user made of both sides, for `Choice.EDIT`; the new name, for `Choice.MOVED`."""
 
 
 def sides_hash(mine: str | None, generated: str | None) -> str:
@@ -103,6 +105,7 @@ class Reason(enum.StrEnum):
     CONFLICT = ("conflict", Kind.CONFLICT, FileStatus.CONFLICT, "you edited it, and its generated text changed too",
                 "{n} conflict{s}")
     UNOWNED = "unowned", Kind.CONFLICT, FileStatus.CONFLICT, "urdfsync did not write the file that is there"
+    ASKED = "asked", Kind.CONFLICT, FileStatus.CONFLICT, "you edited it, and it may belong to another part now"
     UNKNOWN = "unknown", Kind.LEAVE, FileStatus.UNKNOWN, "nothing generates it, and nothing is recorded of it"
     UNCHANGED = "unchanged", Kind.LEAVE, FileStatus.IN_STEP, "nothing to do"
     MOVED_AWAY = "moved-away", Kind.DELETE, FileStatus.STALE, "its path is new; your edits move there"
@@ -125,10 +128,19 @@ class Reason(enum.StrEnum):
 ORPHANS = frozenset(reason for reason in Reason if reason.status is FileStatus.ORPHAN)
 """Actions that leave a file although nothing generates it any longer."""
 CONFLICTS = frozenset(reason for reason in Reason if reason.kind is Kind.CONFLICT)
-DISPUTED = frozenset({Reason.CONFLICT, Reason.UNOWNED, Reason.MOVE})
+DISPUTED = frozenset({Reason.CONFLICT, Reason.UNOWNED, Reason.ASKED, Reason.MOVE})
 """Actions that the texts, or the user, decide on."""
 USERS = frozenset(
-    {Reason.KEEP, Reason.INCLUDED, Reason.MERGE, Reason.MOVE, Reason.UNDO, Reason.CONFLICT, Reason.ORPHAN}
+    {
+        Reason.KEEP,
+        Reason.INCLUDED,
+        Reason.MERGE,
+        Reason.MOVE,
+        Reason.UNDO,
+        Reason.CONFLICT,
+        Reason.ASKED,
+        Reason.ORPHAN,
+    }
 )
 """Actions after which the file still has text of the user's."""
 

@@ -60,7 +60,11 @@ def put_aside(
             is_other = conflict is not None and encode(conflict.kept) != contents[key]
             if conflict is not None and is_other and action.origin not in settled.before:
                 add(key, encode(conflict.kept), *known_bases(conflict.kept_base))
-        elif action.reason is not Reason.MOVED_AWAY and (former := on_disk.read(key)) not in (None, contents[key]):
+        elif (
+            action.reason is not Reason.MOVED_AWAY
+            and key not in moved
+            and (former := on_disk.read(key)) not in (None, contents[key])
+        ):
             former_hash = state_of(former or b"").text_sha256
             if former_hash in inputs.last.notes.written:
                 continue
@@ -69,7 +73,7 @@ def put_aside(
             # else the next build would merge it again, or take it for the text that it wrote
             is_merge = (action.reason is Reason.MERGE or action.is_left_by_git) and inputs.always_merges
             is_own_base = former_hash in record.hashes
-            if action.generated and action.role is Role.MODEL and (is_merge or is_own_base):
+            if action.generated and action.role is not Role.IMPORT and (is_merge or is_own_base):
                 record, bases = known_bases(generation.package.content(inputs.folder.path(key)).decode())
             elif is_own_base:
                 record, bases = FileRecord(), {}

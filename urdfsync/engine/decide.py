@@ -18,9 +18,11 @@ from urdfsync.engine.needed import keep_needed
 from urdfsync.engine.package_files import PackageFiles
 from urdfsync.engine.package_names import names_of, renamed_names
 from urdfsync.engine.parents import SharedFile, merge_order
+from urdfsync.engine.renames import describe_doubt
 from urdfsync.engine.rules import File, decide, put_off
 from urdfsync.files import shown
 from urdfsync.markers import find_markers, join_sides
+from urdfsync.matching import Doubt
 from urdfsync.modelica.files import class_parts
 from urdfsync.modelica.layout import with_within
 from urdfsync.modelica.lexer import words_in
@@ -127,6 +129,8 @@ def _adjust(generation: Generation, action: Action) -> Action:
         return msgspec.structs.replace(action, reason=Reason.CONFLICT)
     if meaning and not meaning.contradictions:
         action = msgspec.structs.replace(action, is_left_by_git=True)
+    if action.reason in (Reason.KEEP, Reason.CONFLICT) and _doubt(generation, action):
+        return msgspec.structs.replace(action, reason=Reason.ASKED)
     mine = action.mine
     if action.reason is Reason.DELETE and mine is not None and mine not in generation.paths_by_hash:
         is_generated = inputs.last.has_generated(action.path, mine, action.role)
@@ -134,6 +138,12 @@ def _adjust(generation: Generation, action: Action) -> Action:
     if action.reason is Reason.UNOWNED and inputs.options.adopts:
         return msgspec.structs.replace(action, reason=Reason.KEEP, base=action.generated)
     return action
+
+
+def _doubt(generation: Generation, action: Action) -> Doubt | None:
+    """Return why an edited file may belong to another element than before; None if nothing says so."""
+    kind, _, name = action.owner.partition(" ")
+    return None if action.role is Role.IMPORT else generation.matching.doubts.get((kind, name))
 
 
 def _renamed(generation: Generation) -> Mapping[str, str]:
@@ -159,6 +169,11 @@ def _conflict(generation: Generation, action: Action, names: Mapping[str, str]) 
         return Conflict(
             action.path, base, package, generated, None, origin=action.origin, kept=package, rejected=reason
         )
+    if action.reason is Reason.ASKED and (doubt := _doubt(generation, action)):
+        likely = f", such as `--moved {doubt.moved_to}`" if doubt.moved_to else ""
+        ways = f"--keep says that it is the same part, --moved NAME where your edit belongs{likely}"
+        question = f"{describe_doubt(doubt)}; {ways}"
+        return Conflict(action.path, bases[0] if bases else None, mine, generated, None, kept=mine, rejected=question)
     if (meaning := files.meanings.get(key)) and meaning.contradictions:
         texts = bases[0] if bases else None, mine, generated, None
         return Conflict(action.path, *texts, origin=action.origin, kept=mine, rejected=united.describe(meaning))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from functools import cached_property
 from typing import Any
 
@@ -11,14 +11,16 @@ import msgspec
 from urdfsync import changes
 from urdfsync.changes import Changes
 from urdfsync.diagnostics import Diagnostic
-from urdfsync.domain import ChangeClass, ElementKey, Lookup, Version
+from urdfsync.domain import ChangeClass, ElementKey, Lookup, Role, Version
 from urdfsync.engine import imports, source
 from urdfsync.engine.generate import Package, generate
 from urdfsync.engine.imports import Imported
 from urdfsync.engine.inputs import Inputs
 from urdfsync.engine.last_build import NO_MODEL, option_values
-from urdfsync.engine.renames import check_declared, find_renames_since
+from urdfsync.engine.renames import check_declared, find_matching_since, pending
 from urdfsync.files import shown
+from urdfsync.matching import Matching, without_exchanges
+from urdfsync.state.record import FileRecord
 
 
 class Generation(msgspec.Struct, frozen=True, dict=True):
@@ -33,25 +35,70 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
     """Findings about source, options and imports."""
     imported: Imported
     package: Package
+    answers: dict[ElementKey, str] = {}
+    """The names that elements of the last complete build have now, by choices of this build."""
 
     @cached_property
-    def renames(self) -> Mapping[ElementKey, str]:
-        """Elements that have another name since the last complete build: old element → new name."""
-        return self._find_renames(self.inputs.robot.renamed)
+    def matching(self) -> Matching:
+        """Which element of the last complete build is which one now.
+
+        The recorded model may be a stranger's: names count as exchanged only if the package on disk agrees with it.
+        """
+        matching, last = self._match(pending(self.inputs)), self.inputs.last
+        if last.version is None or not matching.renames:
+            return matching
+        old = self.inputs.domain.features(last.version.snapshot)
+        exchanged = {f"{kind} {name}" for (kind, name), new in matching.renames.items() if (kind, new) in old}
+        return matching if self._agrees(exchanged) else without_exchanges(matching, old)
+
+    def _agrees(self, owners: Collection[str]) -> bool:
+        """Whether the records of these elements that nobody edited are as the recorded model gives them."""
+        last, files, package = self.inputs.last, self.inputs.files, self.inputs.last.package
+        if package is None or not owners:
+            return not owners
+        for path, artifact in package.artifacts.items():
+            if artifact.owner in owners and artifact.role is Role.RECORD:
+                on_disk = files.hash(last.folder.key(path), Role.RECORD)
+                recorded = last.files.get(last.folder.key(path), FileRecord()).hashes
+                if on_disk in recorded and package.hash(path) != on_disk:
+                    return False
+        return True
 
     @property
-    def recognised_renames(self) -> Mapping[ElementKey, str]:
-        """The renames without those that are declared, or follow from these: what is declared may be taken back."""
-        return self._find_renames({}) if self.inputs.robot.renamed else self.renames
+    def renames(self) -> Mapping[ElementKey, str]:
+        """Elements that have another name since the last complete build: old element → new name."""
+        return self.matching.renames
 
-    def _find_renames(self, declared: Mapping[str, str]) -> Mapping[ElementKey, str]:
+    @cached_property
+    def other_elements(self) -> Mapping[str, str]:
+        """Names that other elements have now than in the last complete build, and the new names of the former ones."""
+        last = self.inputs.last
+        if not (self.renames and last.version):
+            return {}
+        now = self.inputs.domain.features(self.now.snapshot)
+        return {name: new for (kind, name), new in self.renames.items() if (kind, name) in now}
+
+    @property
+    def confirmed_names(self) -> Mapping[ElementKey, str]:
+        """Old elements and their names now, as far as this is not the configuration's word, which may be taken back."""
+        matching = self._match({}) if pending(self.inputs) else self.matching
+        return {**self._confirmed, **matching.renames}
+
+    @property
+    def _confirmed(self) -> Mapping[ElementKey, str]:
+        """The names that the user has confirmed: the same ones, while something was open, and those of a choice."""
+        open_ = self.inputs.last.record.open
+        return {key: name for key, name in (open_.renamed if open_ else {}).items() if key[1] == name} | self.answers
+
+    def _match(self, declared: Mapping[str, str]) -> Matching:
         last, domain = self.inputs.last, self.inputs.domain
         if last.version is None:
-            return {}
+            return Matching()
+        versions = last.version.snapshot, last.record.open, self.now.snapshot
         try:
-            return find_renames_since(domain, last.version.snapshot, last.record.open, self.now.snapshot, declared)
+            return find_matching_since(domain, *versions, declared, self._confirmed)
         except NO_MODEL:
-            return {}
+            return Matching()
 
     @cached_property
     def changes(self) -> Changes | None:
@@ -60,7 +107,7 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
         if last.version is None or self.inputs.options.removes:
             return None
         try:
-            differences = changes.compare(last.version, self.now, self.inputs.domain, robot.options, self.renames)
+            differences = changes.compare(last.version, self.now, self.inputs.domain, robot.options, self.matching)
         except NO_MODEL:
             return None
         if differences.change_class.rank >= ChangeClass.STRUCTURAL.rank and last.package is None:
@@ -94,7 +141,7 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
         recorded = last.package.artifacts if last.package else {}
         before = {path: (file.owner, file.template) for path, file in recorded.items() if path in texts}
         now = {path: (file.owner, file.template) for path, file in self.package.artifacts.items()}
-        if before == now and not inputs.has_moved:
+        if before == now and not (inputs.has_moved or self.renames):
             return {}
         renamed = changes.moved_files(before, now, self.renames)
         pairs = ((renamed.get(path, path), path) for path in texts)

@@ -48,14 +48,27 @@ def renamed_names(generation: Generation) -> dict[str, str]:
 
 def names_of(generation: Generation, renamed: Mapping[str, str], before: frozenset[str]) -> dict[str, str]:
     """Return the new names of those in `before` that have one by the renamed identifiers, by the old ones."""
-    inputs, now, names = generation.inputs, known_names(generation), dict[str, str]()
-    for name in sorted(before - now):
-        if new := new_name(name, renamed, now):
-            names[name] = new
-    for name, new in renamed.items():  # of classes it may be that of a link and of a joint: only parts are of one alone
-        if name in before & now and name in renamed.values() and new in now and name != inputs.last.target.name:
+    inputs, now = generation.inputs, known_names(generation)
+    kinds = inputs.domain.names(generation.now.snapshot, inputs.robot.target).values()
+    # a name belongs to the longest identifier that it begins with
+    identifiers = {identifier: identifier for names in kinds for identifier in names.values()} | dict(renamed)
+    longest = {name: identifiers[name] for name in sorted(identifiers, key=len, reverse=True)}
+    names = dict[str, str]()
+    for name in sorted(before):
+        known = longest if name in now else renamed
+        if name == inputs.last.target.name and name in now:
+            continue
+        if (new := new_name(name, known, now)) and new != name:
             names[name] = new
     return names
+
+
+def other_parts(generation: Generation) -> dict[str, str]:
+    """Return names that the package has as before, but for other parts, and the new names of the former ones."""
+    if not generation.other_elements:
+        return {}
+    now = known_names(generation)
+    return {name: new for name, new in renamed_names(generation).items() if name in now}
 
 
 def known_names(generation: Generation) -> frozenset[str]:

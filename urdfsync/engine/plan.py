@@ -12,6 +12,7 @@ from urdfsync.engine.findings import find_all
 from urdfsync.engine.generation import generate_robot
 from urdfsync.engine.inputs import inspect
 from urdfsync.engine.options import BuildOptions
+from urdfsync.engine.other_parts import find_uses, tell_uses
 from urdfsync.engine.result import Result
 from urdfsync.engine.settle import Settled, settle, with_choices
 from urdfsync.engine.stage import Plan, stage
@@ -30,7 +31,8 @@ def plan_robot(config: Config, robot: RobotConfig, options: BuildOptions) -> Pla
         settled = settle(generation, decision)
         generation = with_choices(generation, settled)
         decision = decide_package(generation)
-    plan = stage(generation, decision, find_all(generation, decision), settled)
+    uses = find_uses(generation, decision)
+    plan = stage(generation, decision, (*find_all(generation, decision), *tell_uses(uses)), settled, uses)
     if options.full or options.draw or plan.result.writes:
         dependencies.mark_incomplete()  # not all that this work reads is recorded as a dependency of the answer
     return plan

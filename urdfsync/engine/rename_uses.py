@@ -72,7 +72,8 @@ def _follow(
     `contents` are those of files that change for other robots. What a class redeclares by its old name is missed in
     others only once that is renamed: so all is looked through again until nothing is missed.
     """
-    old, new, renamed = dict[Path, bytes](), {**contents}, recently_renamed(generation)
+    old, new, names = dict[Path, bytes](), {**contents}, recently_renamed(generation)
+    renamed = {name: now for name, now in names.items() if now not in names}  # else two parts would have one name
     while True:
         package = Package(generation, decision.actions, decision.texts, new, given)
         scopes, uncertain = Scopes(package.classes()), list[tuple[Path, Unresolved, str]]()

@@ -1,4 +1,4 @@
-"""Elements that have another name: those that the domain recognises, and those that the configuration declares."""
+"""Which element of the last build is which one now: matched by the core, declared by the configuration or a choice."""
 
 from __future__ import annotations
 
@@ -6,50 +6,85 @@ import contextlib
 from collections.abc import Iterator, Mapping
 
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
-from urdfsync.domain import Domain, ElementKey, Snapshot, Target, displaced
+from urdfsync.domain import Domain, ElementKey, Snapshot, displaced
 from urdfsync.engine.inputs import Inputs
 from urdfsync.engine.last_build import NO_MODEL
 from urdfsync.files import shown
+from urdfsync.matching import Doubt, Matching, match
 from urdfsync.spelling import nearest
 from urdfsync.state.record import Open
 
 
-def find_renames(domain: Domain, old: Snapshot, new: Snapshot, declared: Mapping[str, str]) -> dict[ElementKey, str]:
-    """Return old element → new name. What follows from the declared renames is recognised, too."""
+def find_matching(
+    domain: Domain,
+    old: Snapshot,
+    new: Snapshot,
+    declared: Mapping[str, str],
+    confirmed: Mapping[ElementKey, str] = {},
+) -> Matching:
+    """Match the elements of two versions.
+
+    `declared` names count for elements that changed, `confirmed` ones for all.
+    """
     if old == new:
-        return {}
-    known = _find_declared(domain, old, new, declared)
-    if not known:
-        return dict(domain.renames(old, new))
-    return known | dict(domain.renames(domain.comparable(old, known), domain.comparable(new, {})))
+        return Matching()
+    before, after = domain.features(old), domain.features(new)
+    pairs = {key: (key[0], name) for key, name in confirmed.items()}
+    for kind, name in before if declared else ():
+        key, renamed = (kind, name), (kind, declared.get(name, ""))
+        if renamed in after and before[key] != after.get(key):
+            pairs.setdefault(key, renamed)
+    return match(before, after, pairs)
 
 
-def find_renames_since(
-    domain: Domain, recorded: Snapshot, open_: Open | None, now: Snapshot, declared: Mapping[str, str]
-) -> dict[ElementKey, str]:
-    """Return elements that have another name since the last complete build: old element → new name.
+def find_matching_since(
+    domain: Domain,
+    recorded: Snapshot,
+    open_: Open | None,
+    now: Snapshot,
+    declared: Mapping[str, str],
+    confirmed: Mapping[ElementKey, str],
+) -> Matching:
+    """Match the elements of the last complete build with those of now.
 
-    While something is open, an element may get another name in one export and other numbers in another. So the renames
+    While something is open, an element may get another name in one export and other numbers in another. So the matches
     up to the model last seen are followed by those from it.
     """
-    direct = find_renames(domain, recorded, now, declared)
+    direct = find_matching(domain, recorded, now, declared, confirmed)
     if open_ is None or not open_.seen:
         return direct
-    later = find_renames(domain, open_.seen, now, declared)
-    existing, elements = set(_elements(domain, now)), set(_elements(domain, open_.seen))
+    later = find_matching(domain, open_.seen, now, declared)
+    existing, seen = domain.features(now), domain.features(open_.seen)
     gone, followed = displaced(open_.renamed), dict[ElementKey, str]()
-    for kind, name in _elements(domain, recorded):
+    for kind, name in domain.features(recorded):
         if (kind, name) in gone:
             continue
         last_name = open_.renamed.get((kind, name), name)
-        new_name = later.get((kind, last_name), last_name)
-        if (kind, last_name) in elements and (kind, new_name) in existing:
+        new_name = later.renames.get((kind, last_name), last_name)
+        if (kind, last_name) in seen and (kind, new_name) in existing:
             followed[kind, name] = new_name
-    found = _find_declared(domain, recorded, now, declared)
-    for more in (followed, direct):
+    found = {key: name for key, name in direct.renames.items() if key in confirmed or key[1] in declared}
+    for more in (followed, direct.renames):
         taken = {(kind, name) for (kind, _), name in found.items()}
         found |= {key: name for key, name in more.items() if key not in found and (key[0], name) not in taken}
-    return {key: name for key, name in found.items() if name != key[1]}
+    return Matching({key: name for key, name in found.items() if name != key[1]}, {**direct.doubts, **later.doubts})
+
+
+def describe_doubt(doubt: Doubt) -> str:
+    """Return why an element may be another one, as a clause."""
+    name, aspects = doubt.element.partition(" ")[2], " and ".join(doubt.aspects)
+    if doubt.is_certain:
+        return f"`{name}` is another part now{f', the former `{doubt.former}`' if doubt.former else ''}"
+    if not doubt.former:
+        return f"`{name}` may be another part now: parts that look like it have other names"
+    are = "are those" if len(doubt.aspects) > 1 else "is that"
+    return f"`{name}` may be another part now: its {aspects} {are} of the former `{doubt.former}`"
+
+
+def pending(inputs: Inputs) -> Mapping[str, str]:
+    """Return the declared renames that the last complete build has not brought yet."""
+    done = inputs.last.record.renamed
+    return {old: new for old, new in inputs.robot.renamed.items() if done.get(old) != new}
 
 
 def check_declared(inputs: Inputs, now: Snapshot) -> Iterator[Diagnostic]:
@@ -57,52 +92,30 @@ def check_declared(inputs: Inputs, now: Snapshot) -> Iterator[Diagnostic]:
 
     Raises ConfigError with each one that can't be.
     """
-    robot, errors = inputs.robot, list[Diagnostic]()
+    robot, errors, open_renames = inputs.robot, list[Diagnostic](), pending(inputs)
     if not robot.renamed:
         return
-    before, after = set[ElementKey](), set(_elements(inputs.domain, now))
+    after, before = set(inputs.domain.features(now)), set[ElementKey]()
     if inputs.last.version:
         with contextlib.suppress(*NO_MODEL):
-            before.update(_elements(inputs.domain, inputs.last.version.snapshot))
+            before.update(inputs.domain.features(inputs.last.version.snapshot))
     for old, new in robot.renamed.items():
-        stays = sorted(kind for kind, name in after if name == old)
-        kinds = sorted(kind for kind, name in after if name == new and kind not in stays)
-        olds, news = ({kind for kind in kinds if (kind, name) in before} for name in (old, new))
-        if kinds and (olds - news or not before):
-            continue
+        olds, news = ({kind for kind, name in before if name == word} for word in (old, new))
+        kinds = {kind for kind, name in after if name == new}
         place, hint, near = (shown(inputs.config.file), robot.lines[f"renamed.{old}"]), "correct it, or take it out", ""
-        if stays:
-            message = f"the source still has {stays[0]} `{old}`"
-        elif not kinds:
+        if kinds and (not before or (old in open_renames and olds & kinds)):
+            continue
+        if not kinds:
             message, near = f"the source has no `{new}`", nearest(new, sorted(name for _, name in after))
-        elif news and not olds:
+        elif news & kinds:
             message, hint = f"the last build has `{new}` already", f"take `{old}` out of `renamed`"
             yield Diagnostic(Severity.NOTE, "rename-done", f"robot `{robot.name}`: {message}", *place, hint=hint)
             continue
-        elif olds:
-            message = f"the last build has `{new}` beside `{old}`"
         else:
-            message = f"the last build had no {' or '.join(kinds)} `{old}`"
+            message = f"the last build had no {' or '.join(sorted(kinds))} `{old}`"
             near = nearest(old, sorted(name for kind, name in before - after if kind in kinds))
         hint = f"did you mean `{near}`?" if near else hint
         message = f"robot `{robot.name}`: `{old}` can't be renamed to `{new}`: {message}"
         errors.append(Diagnostic(Severity.ERROR, "wrong-rename", message, *place, hint=hint))
     if errors:
         raise ConfigError(*errors)
-
-
-def _find_declared(domain: Domain, old: Snapshot, new: Snapshot, declared: Mapping[str, str]) -> dict[ElementKey, str]:
-    """Return the declared renames of elements that are gone to names that came; of each kind that has both."""
-    if not declared:
-        return {}
-    before, after = set(_elements(domain, old)), set(_elements(domain, new))
-    return {
-        (kind, name): declared[name]
-        for kind, name in sorted(before - after)
-        if name in declared and (kind, declared[name]) in after - before
-    }
-
-
-def _elements(domain: Domain, snapshot: Snapshot) -> Iterator[ElementKey]:
-    for kind, identifiers in domain.names(snapshot, Target("Package", "Model")).items():
-        yield from ((kind.removesuffix("s"), name) for name in identifiers)

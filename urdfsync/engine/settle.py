@@ -12,7 +12,7 @@ from typing import TypeAlias
 import msgspec
 
 from urdfsync.diagnostics import OutputError
-from urdfsync.domain import Role
+from urdfsync.domain import ElementKey, Role
 from urdfsync.engine.actions import Action, Actions, Choice, Reason, UsersChoice
 from urdfsync.engine.decide import Decision
 from urdfsync.engine.generation import Generation
@@ -42,6 +42,8 @@ class Settled(msgspec.Struct):
     """What was there before the choice."""
     before_move: dict[str, Former] = msgspec.field(default_factory=dict)
     """The same of a file that moves, as it would have moved without the choice."""
+    answers: dict[ElementKey, str] = msgspec.field(default_factory=dict)
+    """The names that elements have now, by the owners of files that might be others'."""
     keys: set[str] = msgspec.field(default_factory=set)
     """The keys under which the choices were made that came about."""
 
@@ -69,6 +71,11 @@ def _settle(generation: Generation, decision: Decision, action: Action, chosen: 
     reason, record = Reason.KEEP, FileRecord((action.generated,) if action.generated else ())
     content = mine = inputs.files.read(key) if action.mine is not None else None
     conflict = decision.disputed.get(action.path)
+    if action.reason is Reason.ASKED and choice in (Choice.KEEP, Choice.EDIT, Choice.MOVED):
+        kind, _, name = action.owner.partition(" ")
+        settled.answers[kind, name] = (chosen.text or "") if choice is Choice.MOVED else name
+        if choice is Choice.MOVED:
+            return (kind, chosen.text) in inputs.domain.features(generation.now.snapshot)
     if choice is Choice.UNDO:
         aside = inputs.last.aside.get(inputs.folder.path(key))
         if aside is None or action.role is Role.IMPORT or inputs.files.hash(key, action.role) != aside.after:
@@ -135,7 +142,8 @@ def with_choices(generation: Generation, settled: Settled) -> Generation:
     )
     files.meanings.update((key, text) for key, text in inputs.files.meanings.items() if key not in settled.contents)
     last = msgspec.structs.replace(inputs.last, record=record, _files=files)
-    return msgspec.structs.replace(generation, inputs=msgspec.structs.replace(inputs, files=files, last=last))
+    inputs = msgspec.structs.replace(inputs, files=files, last=last)
+    return msgspec.structs.replace(generation, inputs=inputs, answers=settled.answers)
 
 
 def actions_after(actions: Actions, settled: Settled) -> Actions:

@@ -26,7 +26,7 @@ from urdfsync.files import shown
 from urdfsync.spelling import counted
 from urdfsync.state import bases, expansion, statefile
 from urdfsync.state.bases import DIGITS
-from urdfsync.state.notes import Notes
+from urdfsync.state.notes import Notes, Use
 from urdfsync.state.record import FileRecord, Open, Record
 from urdfsync.state.store import Aside, StateHashes
 from urdfsync.state.transaction import FileChange
@@ -48,7 +48,13 @@ class Plan(msgspec.Struct, frozen=True):
     """What this machine knows then, if that is something new."""
 
 
-def stage(generation: Generation, decision: Decision, diagnostics: tuple[Diagnostic, ...], settled: Settled) -> Plan:
+def stage(
+    generation: Generation,
+    decision: Decision,
+    diagnostics: tuple[Diagnostic, ...],
+    settled: Settled,
+    uses: Mapping[str, Use],
+) -> Plan:
     """Return the plan with all that is to be written, in a dry run, too: one plan has one verdict."""
     inputs, store, robot = generation.inputs, generation.inputs.store, generation.inputs.robot
     record = None if inputs.options.removes else _record(generation, decision)
@@ -103,7 +109,7 @@ def stage(generation: Generation, decision: Decision, diagnostics: tuple[Diagnos
         conflict_texts=versions.conflicts,
         settled=frozenset(settled.keys),
     )
-    notes = _notes(generation, record, versions.noted, is_writing=is_writing) if record else None
+    notes = _notes(generation, record, versions.noted, uses, is_writing=is_writing) if record else None
     return Plan(result, store.hashes(), decision.shared, tuple(changes), tuple(emptied), notes)
 
 
@@ -125,7 +131,12 @@ def _tell_aside(
 
 
 def _notes(
-    generation: Generation, record: Record, proposals: Mapping[str, tuple[str, str]], *, is_writing: bool
+    generation: Generation,
+    record: Record,
+    proposals: Mapping[str, tuple[str, str]],
+    uses: Mapping[str, Use],
+    *,
+    is_writing: bool,
 ) -> Notes | None:
     """Return what this machine knows after a build; None if that is nothing new."""
     inputs, old, imports = generation.inputs, generation.inputs.last.notes, generation.imported
@@ -147,6 +158,7 @@ def _notes(
         written=frozenset(made | (set(old.written) & recorded)),
         renamed=renamed if is_later or (renamed and is_writing) else old.renamed,
         proposals=old.proposals if inputs.options.dry else proposals,
+        uses=uses,
     )
     return None if new == old and not inputs.former_name else new
 
@@ -165,7 +177,7 @@ def _record(generation: Generation, decision: Decision) -> Record:
             if files.get(inputs.folder.key(entry.target)) == FileRecord((entry.target_hash,))
             and entry not in old.imports.get(key, ())
         }
-        open_ = Open(generation.now.snapshot, generation.recognised_renames)
+        open_ = Open(generation.now.snapshot, generation.confirmed_names)
         return msgspec.structs.replace(old, files=files, imports={**old.imports, **renewed}, open=open_)
     files = files_after(decision.actions, inputs.last.files, is_complete=True)
     new = Record(
@@ -174,6 +186,7 @@ def _record(generation: Generation, decision: Decision) -> Record:
         folder=str(inputs.folder),
         generator=inputs.generator,
         options=option_values(inputs.robot.options),
+        renamed=inputs.robot.renamed,
         snapshot=generation.now.snapshot,
         imports={key: (entry,) for key, entry in imports.items()},
         files={key: file for key, file in files.items() if key.startswith(inside)},

@@ -49,6 +49,11 @@ def without_clashes(names: Mapping[str, str], mine: str) -> dict[str, str]:
     return free
 
 
+def find_uses_of(text: str, names: Mapping[str, str]) -> Iterator[tuple[str, int]]:
+    """Yield names of other classes' components, or of classes in others, with their places in the text."""
+    yield from ((token.text, token.start) for before, token in _uses(text) if before and token.text in names)
+
+
 def find_renamed(base: SyntaxTree, mine: SyntaxTree, generated: SyntaxTree) -> dict[str, str]:
     """Return the components that the user renamed, new names by old: alike in all else, and no others are."""
     old, new, others = (_components(tree) for tree in (base, mine, generated))

@@ -78,8 +78,8 @@ def change_parts(changes: Changes | None) -> tuple[list[str], list[Table]]:
     others = tuple(each for each in changes.changes if each.change_class is not ChangeClass.STRUCTURAL)
     points = [generator_change(changes)] if changes.generator else []
     points += [change_counts(changes)] if len(changes.changes) > 1 else []
-    points += [f"{title}: {row}" for title, rows in outline(Changes(structure)).items() for row in rows]
-    rows = [(title, *row) for title, rows in outline(Changes(others)).items() for row in rows]
+    points += [f"{title}: {row}" for title, rows in outline(Changes(structure)) for row in rows]
+    rows = [(title, *row) for title, rows in outline(Changes(others)) for row in rows]
     return points, [Table("Changes", ("Element", "Property", "Change", "By"), rows)]
 
 

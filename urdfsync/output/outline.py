@@ -23,6 +23,8 @@ _NAMES = 140
 _SAME = 1e-9
 """Relative change of a sum that comes from its rounding; lengths and angles that nobody can measure, in m and rad."""
 _COMPONENT = r"(.*)\[(\d+)\]"
+_MOVED = 3
+"""So many elements of a kind are named that exchanged their names."""
 _WIDTH = 40
 """Characters of a text that are shown."""
 _CONTEXT = 12
@@ -44,13 +46,44 @@ class Row(NamedTuple):
         return " ".join(filter(None, (self.label, self.value, f"({self.relation})" if self.relation else "")))
 
 
-def outline(changes: Changes, *, everything: bool = False) -> dict[str, tuple[Row, ...]]:
-    """Return the rows of changed elements; with `everything`, each change has a row of its own and all its digits."""
+def outline(changes: Changes, *, everything: bool = False) -> list[tuple[str, tuple[Row, ...]]]:
+    """Return changed elements with their rows; with `everything`, each change has its own row, with all digits."""
+    moved = {} if everything else _moved_names(changes)
     elements: dict[tuple[Row, ...], list[str]] = defaultdict(list)
-    for element, of_element in changes.by_element().items():
+    for element, words in moved.items():
+        if words:
+            elements[(Row("", words),)].append(element)
+    others = [one for one in changes.changes if not (one.kind is ChangeKind.RENAMED and one.element in moved)]
+    for element, of_element in Changes(tuple(others)).by_element().items():
         rows = [change_row([change], exact=True) for change in of_element] if everything else _element_rows(of_element)
         elements[tuple(rows)].append(element)
-    return {_title(names): rows for rows, names in elements.items()}
+    return [(_title(names), rows) for rows, names in elements.items()]
+
+
+def _moved_names(changes: Changes) -> dict[str, str]:
+    """Return a row for the elements whose names went round; of more than three of a kind, the first one tells all."""
+    renamed = [change for change in changes.changes if change.kind is ChangeKind.RENAMED]
+    kinds: dict[str, dict[str, str]] = defaultdict(dict)
+    for change in renamed:
+        kinds[change.element.partition(" ")[0]][change.old] = change.new
+    rows = dict[str, str]()
+    for kind, names in kinds.items():
+        moved = {old: new for old, new in names.items() if new in names or old in names.values()}
+        steps = {_step(old, new) for old, new in moved.items()}
+        step = {1: " shifted by one", -1: " shifted back by one"}.get(next(iter(steps)) if len(steps) == 1 else 0, "")
+        for number, (old, new) in enumerate(moved.items()):
+            more = f" (and {len(moved) - 1} more {'numbers' if step else 'names'}{step})" if len(moved) > _MOVED else ""
+            is_told = not (number and more)
+            rows[f"{kind} {old}"] = f"is now {new}{more}" if is_told else ""
+    return rows
+
+
+def _step(old: str, new: str) -> int:
+    """Return how far a name's number went; 0 if more than its number is another one."""
+    parts = [re.fullmatch(r"(.*?)(\d+)", name) for name in (old, new)]
+    if not (parts[0] and parts[1]) or parts[0][1] != parts[1][1]:
+        return 0
+    return int(parts[1][2]) - int(parts[0][2])
 
 
 def _title(elements: Sequence[str]) -> str:

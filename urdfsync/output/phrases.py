@@ -24,6 +24,7 @@ _CHOSEN = {
     Choice.MERGE_MINE: "both sides' changes, yours where they contradict",
     Choice.MERGE_GENERATED: "both sides' changes, the generated ones where they contradict",
     Choice.EDIT: "as you edited it",
+    Choice.MOVED: "your edit goes to the part that you named",
     Choice.UNDO: "as you had it before",
 }
 """The text that a choice of the user's gives a file."""
@@ -78,11 +79,12 @@ def change_lines(changes: Changes, most: int | None = None, *, everything: bool 
     """
     lines = [generator_change(changes)] if changes.generator else []
     elements = outline(changes, everything=everything)
-    if sum(map(len, elements.values())) > 1:
+    count = sum(len(rows) for _, rows in elements)
+    if count > 1:
         lines.append(change_counts(changes))
-    if most is None or len(lines) + sum(map(len, elements.values())) <= most:
-        return [*lines, *(f"{title}: {row}" for title, rows in elements.items() for row in rows)]
-    for title, (first, *others) in elements.items():
+    if most is None or len(lines) + count <= most:
+        return [*lines, *(f"{title}: {row}" for title, rows in elements for row in rows)]
+    for title, (first, *others) in elements:
         lines.append(f"{title}: {first}{f', and {len(others)} more' if others else ''}")
     return lines
 

@@ -15,7 +15,7 @@ from urdfsync.engine.edits import RobotEdits, find_edited
 from urdfsync.engine.generation import Generation, generate_robot
 from urdfsync.engine.inputs import inspect
 from urdfsync.engine.options import BuildOptions
-from urdfsync.engine.renames import find_renames
+from urdfsync.engine.renames import find_matching
 from urdfsync.engine.result import DisputedFile
 from urdfsync.files import shown
 from urdfsync.output.outline import outline
@@ -97,7 +97,7 @@ def _with_older(
     if other is None or (compared.result.changes and compared.result.changes.changes):
         return compared, older
     domain, robot = generation.inputs.domain, generation.inputs.robot
-    same = find_renames(domain, other[0].snapshot, generation.now.snapshot, robot.renamed)
+    same = find_matching(domain, other[0].snapshot, generation.now.snapshot, robot.renamed)
     changes = compare(other[0], generation.now, domain, robot.options, same)
     result = msgspec.structs.replace(compared.result, changes=changes)
     return msgspec.structs.replace(compared, result=result, against="the picture before"), other
@@ -133,7 +133,7 @@ def _change_words(changes: Changes) -> dict[str, list[str]]:
     words = dict[str, list[str]]()
     for element, of_element in changes.by_element().items():
         rows = outline(msgspec.structs.replace(changes, changes=tuple(of_element)))
-        words[element] = [str(row) for of_rows in rows.values() for row in of_rows]
+        words[element] = [str(row) for _, of_rows in rows for row in of_rows]
     return words
 
 

@@ -18,6 +18,15 @@ from urdfsync.files import TEMPORARY
 from urdfsync.state import file_operations
 
 
+class Use(msgspec.Struct, frozen=True):
+    """Names in a user's file that mean another part than when it was saved."""
+
+    facts: tuple[int, ...]
+    """Stat values of the file."""
+    names: Mapping[str, str]
+    """The new names of the former parts, by the names that the file has."""
+
+
 class Notes(file_operations.Bound, frozen=True, kw_only=True, omit_defaults=True):
     """What this machine has made of one robot."""
 
@@ -35,6 +44,8 @@ class Notes(file_operations.Bound, frozen=True, kw_only=True, omit_defaults=True
     """New identifiers by the old ones, of the last build that wrote anything."""
     proposals: Mapping[str, tuple[str, str]] = {}
     """Hash of each proposed merge and of its two sides, by path; other files of conflicts are a person's."""
+    uses: Mapping[str, Use] = {}
+    """By absolute path of a user's file."""
     said: frozenset[str] = frozenset()
     """Hashes of the findings that the last build told."""
 

@@ -59,7 +59,7 @@ class Open(msgspec.Struct, frozen=True):
 
     seen: Snapshot = {}
     renamed: Mapping[ElementKey, str] = {}
-    """Elements of the last complete build that have another name in it."""
+    """Elements of the last complete build and their names in it: other ones, and those that the user has confirmed."""
 
 
 class Record(msgspec.Struct, frozen=True, kw_only=True):
@@ -77,6 +77,8 @@ class Record(msgspec.Struct, frozen=True, kw_only=True):
     """The domain's options as JSON has them, without those that are None."""
     snapshot: Snapshot | None = None
     """The model of the last complete build; None if there was none, and if git has left an element twice."""
+    renamed: Mapping[str, str] = {}
+    """The declared renames that the last complete build has brought: they are not brought again."""
     imports: Mapping[str, tuple[Import, ...]] = {}
     """Several for one file if git has united two states, or if it was renewed since."""
     files: Mapping[str, FileRecord] = {}

@@ -38,6 +38,7 @@ _FACTS: Mapping[str, Any] = {
     "option": tuple[str, Any],
     "model": tuple[str, str | None, Any],
     "import": tuple[str, Import],
+    "declared": tuple[str, str],
     "seen": tuple[str, str | None, Any],
     "renamed": tuple[str, str, str],
 }
@@ -71,6 +72,7 @@ def _facts(record: Record) -> Iterator[tuple[str, object]]:
     yield from (("option", item) for item in record.options.items())
     if record.snapshot is not None:
         yield from (("model", fact) for fact in _elements(record.snapshot))
+    yield from (("declared", names) for names in record.renamed.items())
     yield from (("import", (key, entry)) for key, entries in record.imports.items() for entry in entries)
     if record.open:
         yield from (("seen", fact) for fact in _elements(record.open.seen))
@@ -168,6 +170,7 @@ def _record(values: Mapping[str, list[Any]], *, is_whole: bool) -> Record:
         generator=Generator(domain, max(values["release"], key=_numbers), templates),
         options=dict(values["option"]),
         snapshot=_snapshot(values["model"]),
+        renamed=dict(values["declared"]),
         imports=imports,
         files={key: FileRecord(tuple(values)) for key, values in sorted(hashes.items())},
         open=open_,

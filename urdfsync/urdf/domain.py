@@ -31,7 +31,7 @@ from urdfsync.urdf.benches import bench
 from urdfsync.urdf.connectors import connector_options
 from urdfsync.urdf.diff.effects import effects, find_doubtful, interface
 from urdfsync.urdf.diff.meanings import describe
-from urdfsync.urdf.diff.renames import comparable, find_renames
+from urdfsync.urdf.diff.renames import comparable, find_features
 from urdfsync.urdf.drives import assembly
 from urdfsync.urdf.kinematics.loops import find_loop_findings
 from urdfsync.urdf.kinematics.tree import KinematicTree
@@ -168,7 +168,7 @@ class UrdfDomain(Domain):
             return 'approach = ["package", "record"]'
         return connector_options(KinematicTree.of(from_snapshot(snapshot), (target.name,)), options).get(name, "")
 
-    renames = staticmethod(find_renames)
+    features = staticmethod(find_features)
     comparable = staticmethod(comparable)
     describe = staticmethod(describe)
     effects = staticmethod(effects)

@@ -29,7 +29,7 @@ from urdfsync.engine.generate import Package, generate
 from urdfsync.engine.inputs import inspect
 from urdfsync.engine.last_build import NO_MODEL
 from urdfsync.engine.options import BuildOptions
-from urdfsync.engine.renames import find_renames
+from urdfsync.engine.renames import find_matching
 from urdfsync.engine.result import Exit, Result, error_count
 from urdfsync.engine.result import exit_code as exit_code_of
 from urdfsync.engine.source import Source
@@ -237,8 +237,8 @@ def _with_version(
     before = {(finding.code, finding.message) for finding in told_before}
     new_findings = tuple(finding for finding in told if (finding.code, finding.message) not in before)
     result = msgspec.structs.replace(result, diagnostics=robot.without_ignored(new_findings))
-    renames = find_renames(domain, old.snapshot, new.snapshot, robot.renamed)
-    differences = changes.compare(old, new, domain, robot.options, renames)
+    matching = find_matching(domain, old.snapshot, new.snapshot, robot.renamed)
+    differences = changes.compare(old, new, domain, robot.options, matching)
     versions = (old, imported_before.contents), (new, imported.contents)
     if not differences.changes:
         return Comparison(result, shown(robot.source), against, versions=versions)

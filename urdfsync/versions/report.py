@@ -4,8 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+import tomli_w
+
 from urdfsync.engine.actions import USERS, Reason
 from urdfsync.engine.findings import CONNECTORS
+from urdfsync.engine.renames import describe_doubt
 from urdfsync.output.build_section import build_section, change_parts
 from urdfsync.output.conflicts import settle_hint
 from urdfsync.output.console import StyledLine, first_lines, line
@@ -18,6 +21,8 @@ from urdfsync.versions.comparison import Comparison
 
 _CHANGES, _FILES, _EFFECTS = 60, 12, 8
 """So many lines of changes, files and effects are listed at most, without --verbose."""
+_DOUBTS = 6
+"""So many elements that may be other parts are named."""
 _SILENT = frozenset({Reason.UNCHANGED, Reason.KEEP, Reason.FORGET})
 _EDITED = USERS | {Reason.UNOWNED, Reason.MOVED_AWAY}
 """Actions on files that the user edited: these are always named."""
@@ -42,10 +47,24 @@ def robot_lines(compared: Comparison, *, verbose: bool = False) -> Iterator[Styl
     yield headline(compared.result, head, is_fine=compared.in_step)
     told = [text for text in change_lines(changes, everything=verbose) if text not in head] if changes else []
     yield from first_lines(list(map(change_line, told)), _CHANGES, "line", verbose=verbose)
+    yield from _doubts(compared)
     if effects := [line((f"  {text}", "")) for text in effect_rows(compared.effects)]:
         yield from (line(("", "")), line(("Effects", "bold")))
         yield from first_lines(effects, _EFFECTS, "effect", verbose=verbose)
     yield from _files(compared, verbose)
+
+
+def _doubts(compared: Comparison) -> Iterator[StyledLine]:
+    """Yield the elements that may be other parts, and lines for the configuration that say so."""
+    doubts = compared.result.changes.doubts if compared.result.changes else ()
+    yield from (line((f"  {describe_doubt(doubt)}", "yellow")) for doubt in doubts[:_DOUBTS])
+    if len(doubts) > _DOUBTS:
+        yield line((f"  … and {counted(len(doubts) - _DOUBTS, 'more element')} like these", "dim"))
+    likely = {doubt.element.partition(" ")[2]: doubt.moved_to for doubt in doubts if doubt.moved_to}
+    if likely and compared.result.robot:
+        yield line(("  if so, put this into urdfsync.toml, with the names that are right:", "dim"))
+        table = tomli_w.dumps({"robots": {compared.result.robot: {"renamed": likely}}})
+        yield from (line((f"    {text}", "dim")) for text in table.splitlines())
 
 
 def _files(compared: Comparison, verbose: bool) -> Iterator[StyledLine]:

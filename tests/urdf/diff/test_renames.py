@@ -15,11 +15,16 @@ from support import mutations
 from urdfsync.changes import compare
 from urdfsync.domain import ChangeKind, ElementKey, Snapshot, Version
 from urdfsync.engine import renames
-from urdfsync.urdf.diff.renames import comparable, find_renames
+from urdfsync.matching import match
+from urdfsync.urdf.diff.renames import comparable, find_features
 from urdfsync.urdf.domain import DOMAIN
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Inertial, Joint, Link, Loop, Mimic, Origin, Robot
 from urdfsync.urdf.snapshot import to_snapshot
+
+
+def find_renames(old: Snapshot, new: Snapshot) -> Mapping[ElementKey, str]:
+    return match(find_features(old), find_features(new)).renames
 
 
 def link(name: str, mass: float = 0.0) -> Link:
@@ -119,6 +124,8 @@ def arm(upper: str, mass: float, *more: Link | Joint, base: str = "base", base_m
 
 
 OLD = snapshot(*ARM)
+SWAPPED = {("link", "lower"): "upper", ("link", "upper"): "lower"}
+TAKEN = {("link", "lower"): "hand", ("link", "upper"): "lower"}
 WAS_FOOT = snapshot(*ARM, link("foot", 7), joint("heel", "base", "foot"))
 CASES: dict[str, tuple[Snapshot, Snapshot, Mapping[ElementKey, str]]] = {
     "another mass": (OLD, arm("arm", 2.5), {("link", "upper"): "arm"}),
@@ -127,28 +134,32 @@ CASES: dict[str, tuple[Snapshot, Snapshot, Mapping[ElementKey, str]]] = {
         arm("arm", 2.5, link("rod", 2), joint("clamp", "base", "rod")),
         {},
     ),
-    "the mass of a link that is gone": (WAS_FOOT, arm("arm", 7), {}),
+    "the content of another link that is gone": (
+        WAS_FOOT,
+        arm("arm", 7),
+        {("link", "foot"): "arm", ("joint", "heel"): "shoulder"},
+    ),
     "another mass of the root": (OLD, arm("upper", 2, base="foot", base_mass=5), {("link", "base"): "foot"}),
     "another root, another joint": (snapshot(link("base", 1)), snapshot(link("foot", 5)), {}),
     "another mass, another joint": (
         OLD,
         snapshot(ARM[0], link("arm", 2.5), ARM[2], joint("turn", "base", "arm"), joint("elbow", "arm", "lower")),
-        {},
+        {("link", "upper"): "arm", ("joint", "shoulder"): "turn"},
     ),
     "another length": (
         OLD,
         snapshot(*ARM[:4], joint("bend", "upper", "lower", x=0.1)),
         {("joint", "elbow"): "bend"},
     ),
-    "another place": (OLD, snapshot(*ARM[:4], joint("bend", "base", "lower")), {}),
-    "swapped names": (OLD, with_names(OLD, {("link", "upper"): "lower", ("link", "lower"): "upper"}), {}),
-    "a name that was taken": (OLD, with_names(OLD, {("link", "upper"): "lower", ("link", "lower"): "hand"}), {}),
+    "another place": (OLD, snapshot(*ARM[:4], joint("bend", "base", "lower")), {("joint", "elbow"): "bend"}),
+    "swapped names": (OLD, with_names(OLD, SWAPPED), SWAPPED),
+    "a name that was taken": (OLD, with_names(OLD, TAKEN), TAKEN),
     "legs that look the same": (legs("left", "right"), legs("l", "r"), {}),
     "one of these": (legs("left", "right"), legs("left", "r"), leg_names(right="r")),
     "legs that look the same but for their feet": (
         legs("left", "right", foot={"right": 1.5}),
         legs("l", "r", foot={"l": 1.5}),
-        {},
+        leg_names(left="r", right="l"),
     ),
     "a joint that others follow": (FINGERS, with_names(FINGERS, FIRST_AND_SECOND), FIRST_AND_SECOND),
     "a joint that follows another one now": (
@@ -216,7 +227,7 @@ def test_what_is_recognised_is_true(random: Random, others: int) -> None:
     new = with_names(edited, names)
     assert find_renames(old.snapshot, new).items() <= names.items()
     declared = {name: renamed for (_, name), renamed in names.items() if random.random() < 0.3}
-    found = renames.find_renames(DOMAIN, old.snapshot, new, declared)
+    found = renames.find_matching(DOMAIN, old.snapshot, new, declared).renames
     assert {key: renamed for key, renamed in names.items() if key[1] in declared}.items() <= found.items()
     assert found.items() <= names.items()
 

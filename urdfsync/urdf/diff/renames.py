@@ -1,114 +1,46 @@
-"""Links, joints and loops that have another name, and snapshots under the new names.
-
-Elements of one name are the same element, whatever else changed. Those of the old version alone are matched with those
-of the new one alone, from the root down:
-
-- The joints between the same two links are the same joint.
-- A joint that leads to a link of another name is matched by its numbers and by the data of this link. It has to be the
-  only such joint of its parent: of two legs of one kind that both have other names, none is matched.
-- The link at the end of the same joint is the same link; a root is, if it has all that it had or one of its joints.
-  Where more than the name changed, no other new link may equal the old one, and no other old link the new one.
-- The only loop between two links is the same loop.
-"""
+"""What links, joints and loops are found again by, and snapshots under new names."""
 
 from __future__ import annotations
 
 import re
-from collections import Counter, defaultdict
-from collections.abc import Hashable, Mapping, Sequence
-from collections.abc import Set as AbstractSet
+from collections import Counter
+from collections.abc import Mapping, Sequence
 from typing import Any
 
-from urdfsync.domain import ElementKey, Snapshot, displaced
+from urdfsync.domain import ElementKey, Features, Snapshot, displaced
 from urdfsync.urdf.drives import can_be_driven, passive_joints
 from urdfsync.urdf.snapshot import joints_of
 
-_NAMES = frozenset({"name", "parent", "child", "joint", "actuated", "measured", "drive", "transmission", "command"})
-"""Entries of the snapshot, in any block, that do not make elements alike.
-
-They are names, or follow from names elsewhere, such as that of the joint in a transmission.
-"""
+_NAMES = frozenset({"parent", "child", "joint", "actuated", "measured", "drive", "transmission", "command", "start"})
+"""Entries of joints and loops that are names, or follow from names elsewhere, such as those of the configuration."""
+_PLACE = frozenset({"type", "kind", "origin", "child_origin", "axis", "child_axis"})
 
 
-def find_renames(old: Snapshot, new: Snapshot) -> Mapping[ElementKey, str]:
-    """Return the new names of links, joints and loops that were renamed."""
-    links, joints = (old[part].keys() & new[part].keys() for part in ("links", "joints"))
-    if not (old["links"].keys() - links and new["links"].keys() - links) and not (
-        old["joints"].keys() - joints and new["joints"].keys() - joints
-    ):
-        return _renamed_loops(old, new, {})
-    before, after = _joints_by_parent(old), _joints_by_parent(new)
-    removed = {name: _frozen(link) for name, link in old["links"].items() if name not in links}
-    added = {name: _frozen(link) for name, link in new["links"].items() if name not in links}
-    all_removed, all_added = set(removed.values()), set(added.values())
-    renames: dict[ElementKey, str] = {}
-    places = [(name, name) for name in old["links"] if name in links]  # links that are in the same place
-    root, new_root = _root(old), _root(new)
-    if removed.get(root) == added.get(new_root) or joints.intersection(before[root], after[new_root]):
-        places.append((root, new_root))
-    for link, new_link in places:  # grows while it is walked
-        if link != new_link:
-            if link in links or new_link in links:
-                continue
-            is_alike = removed[link] == added[new_link]
-            if not is_alike and (removed[link] in all_added or added[new_link] in all_removed):
-                continue
-            renames["link", link] = new_link
-        matches = {name: name for name in joints.intersection(before[link], after[new_link])}
-        alike: defaultdict[Hashable, tuple[list[str], list[str]]] = defaultdict(lambda: ([], []))
-        for name in before[link]:
-            if name not in joints:
-                alike[_likeness(old, name, links)][0].append(name)
-        for name in after[new_link]:
-            if name not in joints:
-                alike[_likeness(new, name, links)][1].append(name)
-        for old_names, new_names in alike.values():
-            if len(old_names) == len(new_names) == 1:
-                renames["joint", old_names[0]] = matches[old_names[0]] = new_names[0]
-        for name, match in matches.items():
-            ends = old["joints"][name]["child"], new["joints"][match]["child"]
-            places += [ends] if ends[0] != ends[1] else []
-    renames |= _renamed_loops(old, new, renames)
-    return dict(sorted(renames.items(), key=lambda rename: (rename[0][0] != "link", rename[0][1])))
+def find_features(snapshot: Snapshot) -> Mapping[ElementKey, Features]:
+    """Return contents and neighbours of links, joints and loops."""
+    features = dict[ElementKey, Features]()
+    leading = {joint["child"]: name for name, joint in snapshot["joints"].items()}
+    for name, link in snapshot["links"].items():
+        contents = {word: link[key] for key, word in (("inertial", "mass"), ("contact", "contact")) if key in link}
+        shapes = [shape for kind in ("visuals", "collisions") for shape in link[kind]]
+        if shapes:
+            contents["shape"] = [_without_names(shape) for shape in shapes]
+        files = tuple(shape["geometry"]["filename"] for shape in shapes if "filename" in shape["geometry"])
+        neighbours = {"joint": ("joint", leading[name])} if name in leading else {}
+        features["link", name] = Features(contents, neighbours, files)
+    for kind in ("joint", "loop"):
+        for name, joint in snapshot.get(f"{kind}s", {}).items():
+            contents = {"position": {key: value for key, value in joint.items() if key in _PLACE}}
+            more = {key: _without_names(joint[key]) for key in joint.keys() - _PLACE - _NAMES}
+            contents |= {"limits": more} if more else {}
+            features[kind, name] = Features(contents, {end: ("link", joint[end]) for end in ("child", "parent")})
+    return features
 
 
-def _renamed_loops(old: Snapshot, new: Snapshot, renames: Mapping[ElementKey, str]) -> Mapping[ElementKey, str]:
-    """Return the new names of loops: of the only one of each version alone between the same two links."""
-    before, after = old.get("loops", {}), new.get("loops", {})
-    alike: defaultdict[Hashable, tuple[list[str], list[str]]] = defaultdict(lambda: ([], []))
-    for name in before.keys() - after.keys():
-        ends = [renames.get(("link", before[name][end]), before[name][end]) for end in ("parent", "child")]
-        alike[frozenset(ends)][0].append(name)
-    for name in after.keys() - before.keys():
-        alike[frozenset(after[name][end] for end in ("parent", "child"))][1].append(name)
-    pairs = [names for names in alike.values() if len(names[0]) == len(names[1]) == 1]
-    return {("loop", olds[0]): news[0] for olds, news in sorted(pairs)}
-
-
-def _joints_by_parent(snapshot: Snapshot) -> Mapping[str, Sequence[str]]:
-    joints: defaultdict[str, list[str]] = defaultdict(list)
-    for name, joint in snapshot["joints"].items():
-        joints[joint["parent"]].append(name)
-    return joints
-
-
-def _root(snapshot: Snapshot) -> str:
-    (root,) = snapshot["links"].keys() - {joint["child"] for joint in snapshot["joints"].values()}
-    return str(root)
-
-
-def _likeness(snapshot: Snapshot, name: str, links: AbstractSet[str]) -> Hashable:
-    """Return what a joint shares with its match; `links` are those in both versions."""
-    joint = snapshot["joints"][name]
-    child = joint["child"]
-    return child if child in links else (_frozen(joint), _frozen(snapshot["links"][child]))
-
-
-def _frozen(value: Any) -> Hashable:
-    """Return plain data as a key, equal where the data is, names aside."""
+def _without_names(value: Any) -> Any:
     if isinstance(value, Mapping):
-        return tuple((key, _frozen(item)) for key, item in sorted(value.items()) if key not in _NAMES)
-    return tuple(map(_frozen, value)) if isinstance(value, list) else value
+        return {key: _without_names(item) for key, item in value.items() if key not in ("name", "joint", "filename")}
+    return value
 
 
 def comparable(snapshot: Snapshot, renames: Mapping[ElementKey, str]) -> Snapshot:

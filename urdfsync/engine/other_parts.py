@@ -1,0 +1,88 @@
+"""The user's own files that use names which mean other parts since an export: models, and the configuration.
+
+Such a file goes on to work. So it is told, until it is saved: this machine notes which file used what.
+"""
+
+from __future__ import annotations
+
+import itertools
+import re
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import msgspec
+
+from urdfsync import dependencies
+from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.engine.actions import Reason
+from urdfsync.engine.decide import Decision
+from urdfsync.engine.generation import Generation
+from urdfsync.engine.package_names import other_parts
+from urdfsync.files import shown
+from urdfsync.state.notes import Use
+
+CODE = "other-part"
+
+
+def find_uses(generation: Generation, decision: Decision) -> dict[str, Use]:
+    """Return the uses of names that mean another part, by file: of this build, and of earlier ones."""
+    inputs = generation.inputs
+    uses = {path: use for path, use in inputs.last.notes.uses.items() if use.facts == _facts(Path(path))}
+    if not decision.is_complete:
+        return uses
+    if names := other_parts(generation):
+        own = (inputs.files.path(action.path) for action in decision.actions if action.reason is Reason.UNKNOWN)
+        for path in (*inputs.users_files.mentioning, *own):
+            if used := {name: names[name] for name in _lines(path, names)}:
+                uses[str(path)] = Use(_facts(path), used)
+    elements = generation.other_elements
+    if used := {name: elements[name] for name in _texts(msgspec.to_builtins(inputs.robot.options)) if name in elements}:
+        uses[str(inputs.config.file)] = Use(_facts(inputs.config.file), used)
+    return uses
+
+
+def tell_uses(uses: Mapping[str, Use]) -> Iterator[Diagnostic]:
+    """Yield a warning for the first use of each name in a file."""
+    for path, use in uses.items():
+        lines = _lines(Path(path), use.names)
+        for name, line in sorted(lines.items(), key=lambda item: item[1]):
+            message = f"`{name}` is that of another part now: the part that had this name has `{use.names[name]}`"
+            hint = f"use `{use.names[name]}`, or save the file as it is"
+            yield Diagnostic(Severity.WARNING, CODE, message, shown(Path(path)), line, hint=hint)
+
+
+def _facts(path: Path) -> tuple[int, ...]:
+    try:
+        return dependencies.read_stat(path)
+    except OSError:
+        return (0,)
+
+
+def _lines(path: Path, names: Mapping[str, str]) -> dict[str, int]:
+    """Return the first lines in which a file uses names, by name; in a model, those of other classes."""
+    from urdfsync.merge.renames import find_uses_of  # the lexer takes a while to load
+    from urdfsync.modelica.files import text_of
+
+    try:
+        text = text_of(dependencies.read_file(path))
+    except OSError:
+        return {}
+    if path.suffix == ".mo":
+        places = find_uses_of(text, names)
+    else:
+        places = ((found[0], found.start()) for found in re.finditer(r"[\w-]+", text) if found[0] in names)
+    lines = dict[str, int]()
+    for name, start in places:
+        lines.setdefault(name, text.count("\n", 0, start) + 1)
+    return lines
+
+
+def _texts(value: Any) -> Iterator[str]:
+    """Yield all texts and keys in plain data."""
+    if isinstance(value, str):
+        yield value
+    elif isinstance(value, Mapping):
+        yield from (*value, *itertools.chain.from_iterable(map(_texts, value.values())))
+    elif isinstance(value, list | tuple):
+        yield from itertools.chain.from_iterable(map(_texts, value))

@@ -1,0 +1,417 @@
+"""Which element of an old version of a model is which of a new one. Knows no domain.
+
+All elements are matched at once, by their contents, their places and their names. A name is one witness:
+
+1. Declared matches hold. So does a content that is unique in both versions: its element is the same, whatever its name
+   is. A content is one aspect of an element, such as its shapes, or all of them. Aspects that disagree prove nothing,
+   but an aspect that stays with its name proves the name. If name and place stay and the content of the place, too, a
+   content that moved is taken for a change of numbers.
+2. Neighbours of the same element at the same place, with equal contents, are the same.
+3. Then names win: elements of one name are the same.
+4. What is left has another name. It is the same at the same place, if its content is there and nowhere else, or if its
+   old name has gone to another element.
+
+Numbers are equal if they differ by `NOISE` at most. Where a name won in step 3, but the place or a part of the content
+says otherwise, the match is a `Doubt`. Time grows with the number of elements alone.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections import defaultdict
+from collections.abc import Collection, Hashable, Iterable, Iterator, Mapping
+from typing import Any, TypeAlias
+
+import msgspec
+
+from urdfsync.domain import ElementKey, Features
+
+NOISE = 1e-6
+"""Relative change of a number that an exporter's rounding explains."""
+
+Elements: TypeAlias = Mapping[ElementKey, Features]
+
+
+class Doubt(msgspec.Struct, frozen=True):
+    """Why an element that has an old name may be another part, or is one."""
+
+    element: str
+    """In words: `link hand`."""
+    former: str = ""
+    """The old name of the element that it is, or may be; empty for a new element."""
+    aspects: tuple[str, ...] = ()
+    """What it shares with that element."""
+    moved_to: str = ""
+    """The new name of the element that had the name before, if that can be guessed; empty if not."""
+    is_certain: bool = False
+    """Whether the element that had the name is gone."""
+
+
+class Matching(msgspec.Struct, frozen=True):
+    """Elements that have another name, and those of which it is not certain whose name they have."""
+
+    renames: Mapping[ElementKey, str] = {}
+    """New names by old elements, in order."""
+    doubts: Mapping[ElementKey, Doubt] = {}
+    """By elements of the new version whose name an old one had."""
+
+
+def without_exchanges(matching: Matching, old: Elements) -> Matching:
+    """Return a matching in which names win: exchanged ones are doubts."""
+    formers = {(kind, new): name for (kind, name), new in matching.renames.items()}
+    exchanged = {key for key in matching.renames if (key[0], matching.renames[key]) in old or key in formers}
+    doubts = {
+        key: Doubt(" ".join(key), formers[key], (), matching.renames.get(key, "")) for key in formers if key in old
+    }
+    plain = {key: new for key, new in matching.renames.items() if key not in exchanged}
+    return Matching(plain, {**matching.doubts, **doubts})
+
+
+def match(old: Elements, new: Elements, declared: Mapping[ElementKey, ElementKey] = {}) -> Matching:
+    """Match the elements of two versions; `declared` has new elements by old ones."""
+    if not declared and old.keys() == new.keys() and not _has_moved(old, new):
+        return Matching()
+    return _Matcher(old, new, declared).run()
+
+
+def _has_moved(old: Elements, new: Elements) -> bool:
+    """Whether something of an element may be that of another one now; both versions have the same names."""
+    changed = [key for key, features in old.items() if features != new[key]]
+    if any(old[key].neighbours != new[key].neighbours or old[key].files != new[key].files for key in changed):
+        return True
+    before, after, _ = _comparable({key: old[key] for key in changed}, {key: new[key] for key in changed})
+    holders = {(key[0], aspect): key for key in changed for aspect in after[key]}
+    return any(holders.get((key[0], aspect), key) != key for key in changed for aspect in before[key])
+
+
+class _Matcher:
+    """The matches found so far."""
+
+    def __init__(self, old: Elements, new: Elements, declared: Mapping[ElementKey, ElementKey]) -> None:
+        self._old, self._new = old, new
+        self._before, self._after, self._telling = _comparable(old, new)
+        self._children = _children(old), _children(new)
+        self._pairs: dict[ElementKey, ElementKey] = {}
+        self._taken: dict[ElementKey, ElementKey] = {}
+        self._places = defaultdict[ElementKey, dict[ElementKey, None]](dict)
+        """New elements at the places of old ones, next to matched elements."""
+        self._removed, self._added = set[Hashable](), set[Hashable]()
+        """Contents of elements that have no match by name either."""
+        self._take(declared.items())
+
+    def run(self) -> Matching:
+        """Go through the steps above."""
+        declared, votes = dict(self._pairs), self._votes()
+        self._take(self._proved(votes).items())
+        self._spread(self._pairs, is_late=False)
+        named = [(key, key) for key in self._old if key in self._new]
+        by_name = self._take((key, key) for key, _ in named if self._is_equal(key, key))
+        self._spread(by_name, is_late=False)
+        by_name |= self._take(named)
+        self._removed = {
+            (key[0], aspects) for key, aspects in self._before.items() if key not in self._pairs and aspects
+        }
+        self._added = {(key[0], aspects) for key, aspects in self._after.items() if key not in self._taken and aspects}
+        self._spread(self._pairs, is_late=True)
+        renames = {old: new[1] for old, new in self._pairs.items() if old != new}
+        renames = dict(sorted(renames.items(), key=lambda item: (item[0][0] != "link", item[0])))
+        if not renames and len(self._pairs) == len(self._old) == len(self._new):
+            return Matching()
+        doubts = self._doubts(by_name, votes)
+        return Matching(renames, {key: doubts[key] for key in sorted(doubts) if key not in declared.values()})
+
+    def _take(self, matches: Iterable[tuple[ElementKey, ElementKey]]) -> dict[ElementKey, ElementKey]:
+        """Add matches of elements that have none yet, and return these."""
+        taken = dict[ElementKey, ElementKey]()
+        for old, new in matches:
+            if old in self._old and new in self._new and old not in self._pairs and new not in self._taken:
+                self._pairs[old], self._taken[new], taken[old] = new, old, new
+        return taken
+
+    def _votes(self) -> dict[ElementKey, dict[ElementKey, None]]:
+        """Return for each old element the new ones that have an aspect of it which no other element has."""
+        votes = defaultdict[ElementKey, dict[ElementKey, None]](dict)
+        holders = defaultdict[tuple[str, Any], tuple[list[ElementKey], list[ElementKey]]](lambda: ([], []))
+        for side, elements in enumerate((self._before, self._after)):
+            for key, aspects in elements.items():
+                telling = [aspect for aspect in aspects if aspect in self._telling]
+                for aspect in (*telling, aspects) if telling and len(aspects) > 1 else telling:
+                    holders[key[0], aspect][side].append(key)
+                for file in dict.fromkeys((self._new if side else self._old)[key].files):
+                    holders[key[0], file][side].append(key)
+        for (_, aspect), (olds, news) in holders.items():
+            if len(olds) == len(news) == 1:
+                is_named = isinstance(aspect, str) and olds == news and _has_name(aspect, olds[0][1])
+                votes[olds[0]].update({} if is_named else {news[0]: None})
+        return votes
+
+    def _proved(self, votes: Mapping[ElementKey, Collection[ElementKey]]) -> dict[ElementKey, ElementKey]:
+        """Return the matches that contents prove."""
+        proved = {}
+        for key, found in votes.items():
+            if key in found or len(found) == 1:
+                proved[key] = key if key in found else next(iter(found))
+        claims = defaultdict[ElementKey, list[ElementKey]](list)
+        for key, match_ in proved.items():
+            claims[match_].append(key)
+        for match_, keys in claims.items():
+            for key in keys if len(keys) > 1 else ():
+                if key != match_:
+                    del proved[key]
+        return {
+            key: match_
+            for key, match_ in proved.items()
+            if key == match_ or not (self._stays(key, proved) or self._is_contested(key, match_))
+        }
+
+    def _stays(self, key: ElementKey, proved: Mapping[ElementKey, ElementKey]) -> bool:
+        """Whether an element has its name and all its neighbours as before, and these prove to be the same."""
+        before = self._old[key].neighbours
+        after = self._new[key].neighbours if key in self._new else {}
+        return bool(before) and before == after and all(proved.get(one) == one for one in before.values())
+
+    def _is_contested(self, key: ElementKey, match_: ElementKey) -> bool:
+        """Whether an element of a new name is at the old place, or one whose name is gone was at the new place."""
+        for relation, one in self._old[key].neighbours.items():
+            if self._before[one] == self._after.get(one) and one not in self._new[match_].neighbours.values():
+                heirs = self._children[1].get(one, {}).get(relation, ())
+                if any(heir not in self._old for heir in heirs) and len(heirs) == 1:
+                    return True
+        for relation, one in self._new[match_].neighbours.items():
+            if self._after[one] == self._before.get(one) and one not in self._old[key].neighbours.values():
+                former = self._children[0].get(one, {}).get(relation, ())
+                if any(each not in self._new for each in former) and len(former) == 1:
+                    return True
+        return False
+
+    def _spread(self, matches: Mapping[ElementKey, ElementKey], *, is_late: bool) -> None:
+        """Match the neighbours of matched elements, and their neighbours, and so on."""
+        frontier, roots = dict(matches), self._roots()
+        while frontier or roots:
+            found = defaultdict[ElementKey, dict[ElementKey, None]](dict)
+            for old, new in itertools.chain(roots, self._around(frontier)):
+                if old[0] == new[0] and old not in self._pairs and new not in self._taken:
+                    self._places[old][new] = None
+                    if self._is_same(old, new, is_late=is_late):
+                        found[old][new] = None
+            claims = defaultdict[ElementKey, list[ElementKey]](list)
+            for old, places in found.items():
+                place = old if old in places else next(iter(places))
+                if len(places) == 1 or place == old:
+                    claims[place].append(old)
+            roots = []
+            frontier = self._take((olds[0], new) for new, olds in claims.items() if len(olds) == 1 or new in olds)
+            if not frontier and is_late:
+                frontier = self._take(self._between())
+
+    def _roots(self) -> list[tuple[ElementKey, ElementKey]]:
+        """Return the only elements of a kind that have no neighbour of their own, if their contents are equal."""
+        tops = [
+            [key for key, features in elements.items() if not features.neighbours]
+            for elements in (self._old, self._new)
+        ]
+        is_one = len(tops[0]) == len(tops[1]) == 1 and tops[0][0] in self._children[0]
+        is_one = is_one and self._is_equal(tops[0][0], tops[1][0])
+        return [(tops[0][0], tops[1][0])] if is_one else []
+
+    def _around(self, matches: Mapping[ElementKey, ElementKey]) -> Iterator[tuple[ElementKey, ElementKey]]:
+        """Yield pairs of old and new elements that are in the same place next to matched ones."""
+        for old, new in matches.items():
+            after = self._new[new].neighbours
+            yield from (
+                (one, after[relation]) for relation, one in self._old[old].neighbours.items() if relation in after
+            )
+            mine, others = (children.get(key, {}) for children, key in zip(self._children, (old, new), strict=True))
+            for relation in mine.keys() & others.keys():
+                alike = defaultdict[Hashable, tuple[list[ElementKey], list[ElementKey]]](lambda: ([], []))
+                for side, keys in enumerate((mine[relation], others[relation])):
+                    for key in keys:
+                        if key not in (self._taken if side else self._pairs):
+                            alike[self._likeness(key, side)][side].append(key)
+                for olds, news in alike.values():
+                    if len(olds) == len(news) == 1:
+                        yield olds[0], news[0]
+                    else:
+                        yield from ((key, key) for key in olds if key in news)
+
+    def _likeness(self, key: ElementKey, side: int) -> Hashable:
+        """Return the content of an element with that of its neighbours that are not matched."""
+        elements, contents, matched = (
+            (self._new, self._after, self._taken) if side else (self._old, self._before, self._pairs)
+        )
+        around = []
+        for relation, one in elements[key].neighbours.items():
+            match_ = None if one not in matched else one if side else self._pairs[one]
+            around.append((relation, contents.get(one, ()) if match_ is None else match_))
+        return key[0], contents[key], tuple(around)
+
+    def _is_same(self, old: ElementKey, new: ElementKey, *, is_late: bool) -> bool:
+        """Whether two elements at one place are the same."""
+        is_named = old in self._new and old not in self._taken
+        if self._is_equal(old, new):
+            return old == new or not is_named or not self._is_equal(old, old) or self._has_another_place(old)
+        # late, the element of the same name is another one
+        is_unique = (old[0], self._before[old]) not in self._added and (new[0], self._after[new]) not in self._removed
+        return is_late and not is_named and is_unique
+
+    def _is_equal(self, old: ElementKey, new: ElementKey) -> bool:
+        """Whether two elements have equal contents, and the same files, or files that are called like them."""
+        if self._before[old] != self._after[new]:
+            return False
+        files, others = self._old[old].files, self._new[new].files
+        return files == others or (
+            len(files) == len(others)
+            and all(
+                file == other or (_has_name(file, old[1]) and _has_name(other, new[1]))
+                for file, other in zip(files, others, strict=True)
+            )
+        )
+
+    def _has_another_place(self, key: ElementKey) -> bool:
+        """Whether the new element of this name is at another place, or at that of another old one."""
+        for relation, one in self._old[key].neighbours.items():
+            if one in self._pairs and self._new[key].neighbours.get(relation) != self._pairs[one]:
+                return True
+        for relation, one in self._new[key].neighbours.items():
+            if one in self._taken and key not in self._children[0].get(self._taken[one], {}).get(relation, ()):
+                return True
+        return False
+
+    def _between(self) -> Iterator[tuple[ElementKey, ElementKey]]:
+        """Yield the only elements of a kind between the same matched neighbours."""
+        ends = defaultdict[Hashable, tuple[list[ElementKey], list[ElementKey]]](lambda: ([], []))
+        for key, features in self._old.items():
+            around = [self._pairs.get(one) for one in features.neighbours.values()]
+            if key not in self._pairs and len(around) > 1 and None not in around:
+                ends[key[0], frozenset(around)][0].append(key)
+        for key, features in self._new.items():
+            if key not in self._taken:
+                ends[key[0], frozenset(features.neighbours.values())][1].append(key)
+        yield from ((olds[0], news[0]) for olds, news in ends.values() if len(olds) == len(news) == 1)
+
+    def _doubts(
+        self, by_name: Collection[ElementKey], votes: Mapping[ElementKey, Collection[ElementKey]]
+    ) -> dict[ElementKey, Doubt]:
+        """Return why elements of an old name may be, or are, other ones."""
+        changed, shuffled = defaultdict[Hashable, list[ElementKey]](list), set[Hashable]()
+        for key, aspects in self._after.items():
+            if key in self._old and self._taken.get(key) != key:
+                shuffled.add((key[0], aspects))
+            if self._taken.get(key, key) == key and self._before.get(key) != aspects:
+                changed[key[0], aspects].append(key)
+        removed = {(key[0], aspects) for key, aspects in self._before.items() if key not in self._pairs}
+        doubts = dict[ElementKey, Doubt]()
+        for key in by_name:
+            is_other = self._before[key] != self._after[key] and not self._shared(key, key)
+            twins = changed.get((key[0], self._before[key]), []) if is_other else []
+            is_former = is_other and (key[0], self._after[key]) in removed
+            places = [place for place in self._places.get(key, {}) if place != key]
+            is_shuffled = (key[0], self._before[key]) in shuffled
+            is_elsewhere = self._contradicts(key) or (places and key not in self._places[key])
+            if twins or votes.get(key) or is_former or is_shuffled or is_elsewhere:
+                likely = next(iter((*votes.get(key, ()), *twins, *places)), ("", ""))
+                doubts[key] = self._doubt(key, likely[1], is_other=is_other)
+        for key in by_name:
+            around = self._new[key].neighbours.values()
+            if key not in doubts and around and all(one in doubts for one in around):
+                doubts[key] = Doubt(" ".join(key))
+        for key in self._old.keys() - self._pairs.keys():
+            if key in self._new:
+                former = self._taken.get(key, (key[0], ""))[1]
+                places = [place for place in self._places.get(key, {}) if place != key]
+                moved_to = places[0][1] if places else ""
+                doubts[key] = Doubt(" ".join(key), former, (), moved_to, is_certain=True)
+        return doubts
+
+    def _contradicts(self, key: ElementKey) -> bool:
+        """Whether none of the neighbours of an element has the name of the former one."""
+        before, after = self._old[key].neighbours, self._new[key].neighbours
+        known = [self._pairs.get(one) == after[relation] for relation, one in before.items() if relation in after]
+        return bool(known) and not any(known) and any(one in self._pairs for one in before.values())
+
+    def _doubt(self, key: ElementKey, moved_to: str, *, is_other: bool) -> Doubt:
+        alike = (one for one in self._old if one[0] == key[0] and self._shared(one, key)) if is_other else ()
+        former = min(alike, default=("", ""))[1]
+        return Doubt(" ".join(key), former, self._shared((key[0], former), key) if former else (), moved_to)
+
+    def _shared(self, old: ElementKey, new: ElementKey) -> tuple[str, ...]:
+        """Return the names of the aspects that two elements share."""
+        shared = set(self._before[old]) & set(self._after[new])
+        return tuple(name for name, *_ in sorted(shared, key=lambda aspect: str(aspect[0])))
+
+
+Aspects: TypeAlias = tuple[tuple[str, Hashable], ...]
+
+
+def _comparable(
+    old: Elements, new: Elements
+) -> tuple[dict[ElementKey, Aspects], dict[ElementKey, Aspects], set[tuple[str, Hashable]]]:
+    """Return the aspects of all elements as keys, equal but for noise, and the telling ones.
+
+    What many things have is not telling: zeros and ones, such as those of an origin or an axis.
+    """
+    contents = [features.contents for elements in (old, new) for features in elements.values()]
+    numbers = _clusters({number for content in contents for number in _numbers(content)})
+    telling, sides = set[tuple[str, Hashable]](), list[dict[ElementKey, Aspects]]()
+    for elements in (old, new):
+        aspects_of = dict[ElementKey, Aspects]()
+        for key, features in elements.items():
+            aspects = tuple((name, _frozen(value, numbers)) for name, value in features.contents.items())
+            telling.update(
+                aspect for aspect, value in zip(aspects, features.contents.values(), strict=True) if _is_telling(value)
+            )
+            aspects_of[key] = aspects
+        sides.append(aspects_of)
+    return sides[0], sides[1], telling
+
+
+def _is_telling(value: Any) -> bool:
+    if isinstance(value, float | int):
+        return abs(value) not in (0, 1)
+    inside = value.values() if isinstance(value, Mapping) else value if isinstance(value, list | tuple) else ()
+    return any(map(_is_telling, inside))
+
+
+def _has_name(file: str, name: str) -> bool:
+    """Whether a file is called like an element."""
+    return name.lower() in file.rpartition("/")[2].lower()
+
+
+def _numbers(value: Any) -> Iterator[float]:
+    if isinstance(value, float | int):
+        yield value
+    elif isinstance(value, Mapping):
+        yield from itertools.chain.from_iterable(map(_numbers, value.values()))
+    elif isinstance(value, list | tuple):
+        yield from itertools.chain.from_iterable(map(_numbers, value))
+
+
+def _clusters(numbers: Collection[float]) -> dict[float, int]:
+    """Return one number for all that are within noise of their neighbours."""
+    clusters, last, cluster = dict[float, int](), 0.0, 0
+    for number in sorted(numbers):
+        if number - last > NOISE * max(abs(number), abs(last)):
+            cluster += 1
+        clusters[number] = cluster
+        last = number
+    return clusters
+
+
+def _frozen(value: Any, numbers: Mapping[float, int]) -> Hashable:
+    """Return plain data as a key, with clusters for numbers."""
+    if isinstance(value, str):
+        return value
+    if isinstance(value, float | int):
+        return numbers[value]
+    if isinstance(value, Mapping):
+        return tuple((key, _frozen(item, numbers)) for key, item in sorted(value.items()))
+    return tuple(_frozen(item, numbers) for item in value) if isinstance(value, list | tuple) else value
+
+
+def _children(elements: Elements) -> dict[ElementKey, dict[str, list[ElementKey]]]:
+    """Return the elements that name each one as their neighbour, by the relation."""
+    children = defaultdict[ElementKey, defaultdict[str, list[ElementKey]]](lambda: defaultdict(list))
+    for key, features in elements.items():
+        for relation, one in features.neighbours.items():
+            children[one][relation].append(key)
+    return dict(children)
