@@ -115,8 +115,6 @@ class _Matcher:
         self._spread(self._pairs, is_late=True)
         renames = {old: new[1] for old, new in self._pairs.items() if old != new}
         renames = dict(sorted(renames.items(), key=lambda item: (item[0][0] != "link", item[0])))
-        if not renames and len(self._pairs) == len(self._old) == len(self._new):
-            return Matching()
         doubts = self._doubts(by_name, votes)
         return Matching(renames, {key: doubts[key] for key in sorted(doubts) if key not in declared.values()})
 

@@ -41,6 +41,8 @@ class Conflict(msgspec.Struct, frozen=True):
     """The proposed merge as a person has changed it."""
     rejected: str = ""
     """Why there is no merge although the sides do not contradict each other, as a clause; empty if there is one."""
+    moved_to: str = ""
+    """The likely new name of the element that the file was edited for, if the file may be another's now."""
     refused: Mapping[Choice, str] = {}
     """Preferences of a side that would bring in a name that means nothing, with the reason as a clause."""
 

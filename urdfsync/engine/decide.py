@@ -170,10 +170,8 @@ def _conflict(generation: Generation, action: Action, names: Mapping[str, str]) 
             action.path, base, package, generated, None, origin=action.origin, kept=package, rejected=reason
         )
     if action.reason is Reason.ASKED and (doubt := _doubt(generation, action)):
-        likely = f", such as `--moved {doubt.moved_to}`" if doubt.moved_to else ""
-        ways = f"--keep says that it is the same part, --moved NAME where your edit belongs{likely}"
-        question = f"{describe_doubt(doubt)}; {ways}"
-        return Conflict(action.path, bases[0] if bases else None, mine, generated, None, kept=mine, rejected=question)
+        texts, asked = (bases[0] if bases else None, mine, generated, None), describe_doubt(doubt)
+        return Conflict(action.path, *texts, kept=mine, rejected=asked, moved_to=doubt.moved_to)
     if (meaning := files.meanings.get(key)) and meaning.contradictions:
         texts = bases[0] if bases else None, mine, generated, None
         return Conflict(action.path, *texts, origin=action.origin, kept=mine, rejected=united.describe(meaning))

@@ -44,11 +44,15 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
 
         The recorded model may be a stranger's: names count as exchanged only if the package on disk agrees with it.
         """
-        matching, last = self._match(pending(self.inputs)), self.inputs.last
+        declared, last = pending(self.inputs), self.inputs.last
+        matching = self._match(declared)
         if last.version is None or not matching.renames:
             return matching
         old = self.inputs.domain.features(last.version.snapshot)
-        exchanged = {f"{kind} {name}" for (kind, name), new in matching.renames.items() if (kind, new) in old}
+        found = {
+            key: new for key, new in matching.renames.items() if key not in self._confirmed and key[1] not in declared
+        }
+        exchanged = {f"{kind} {name}" for (kind, name), new in found.items() if (kind, new) in old}
         return matching if self._agrees(exchanged) else without_exchanges(matching, old)
 
     def _agrees(self, owners: Collection[str]) -> bool:

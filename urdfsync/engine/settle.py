@@ -11,7 +11,7 @@ from typing import TypeAlias
 
 import msgspec
 
-from urdfsync.diagnostics import OutputError
+from urdfsync.diagnostics import ConfigError, OutputError
 from urdfsync.domain import ElementKey, Role
 from urdfsync.engine.actions import Action, Actions, Choice, Reason, UsersChoice
 from urdfsync.engine.decide import Decision
@@ -19,6 +19,7 @@ from urdfsync.engine.generation import Generation
 from urdfsync.engine.package_files import PackageFiles, encode, text_hash, with_line_ends
 from urdfsync.files import shown
 from urdfsync.markers import find_markers
+from urdfsync.spelling import nearest
 from urdfsync.state.record import FileRecord, role_of
 
 _EDITED = frozenset({Reason.KEEP, Reason.INCLUDED, Reason.MOVE, Reason.MERGE})
@@ -73,9 +74,17 @@ def _settle(generation: Generation, decision: Decision, action: Action, chosen: 
     conflict = decision.disputed.get(action.path)
     if action.reason is Reason.ASKED and choice in (Choice.KEEP, Choice.EDIT, Choice.MOVED):
         kind, _, name = action.owner.partition(" ")
-        settled.answers[kind, name] = (chosen.text or "") if choice is Choice.MOVED else name
+        now = {known for one, known in inputs.domain.features(generation.now.snapshot) if one == kind}
+        new = (chosen.text or "") if choice is Choice.MOVED else name
+        if new not in now:
+            near = nearest(new, sorted(now))
+            hint = f"did you mean `{near}`?" if near else "name the part as the source has it"
+            raise ConfigError.of(
+                "wrong-rename", f"the source has no {kind} `{new}`", shown(inputs.files.path(key)), hint=hint
+            )
+        settled.answers[kind, name] = new
         if choice is Choice.MOVED:
-            return (kind, chosen.text) in inputs.domain.features(generation.now.snapshot)
+            return True
     if choice is Choice.UNDO:
         aside = inputs.last.aside.get(inputs.folder.path(key))
         if aside is None or action.role is Role.IMPORT or inputs.files.hash(key, action.role) != aside.after:
