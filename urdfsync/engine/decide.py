@@ -12,6 +12,7 @@ from urdfsync.domain import ChangeClass, Role
 from urdfsync.engine import united
 from urdfsync.engine.actions import DISPUTED, ORPHANS, Action, Actions, Choice, Reason
 from urdfsync.engine.conflicts import PREFERENCES, Conflict, find_conflict, resolve
+from urdfsync.engine.edit_origins import EDITED, find_moved_edits
 from urdfsync.engine.fit import Misfit, Package, find_misfits
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.needed import keep_needed
@@ -62,10 +63,12 @@ def decide_package(generation: Generation) -> Decision:
     Raises OutputError for what can't be worked with, such as links or merge markers.
     """
     inputs, files = generation.inputs, generation.inputs.files
-    actions = tuple(_adjust(generation, action) for action in decide(_find_files(generation), generation.moves))
+    decided = decide(_find_files(generation), generation.moves)
+    doubts = _find_doubts(generation, decided)
+    actions = tuple(_adjust(generation, action, doubts) for action in decided)
     disputed = [action for action in actions if action.reason in DISPUTED and action.role is not Role.IMPORT]
     names = _renamed(generation) if disputed else {}
-    conflicts = {one.path: _conflict(generation, one, names) for one in disputed}
+    conflicts = {one.path: _conflict(generation, one, names, doubts) for one in disputed}
     conflicts = _without_misfits(generation, actions, conflicts)
     actions, merged = resolve(actions, conflicts, merging=inputs.robot.on_conflict == "merge")
     actions = tuple(united.settle(action) for action in keep_needed(generation, actions, merged))
@@ -121,7 +124,7 @@ def _find_files(generation: Generation) -> dict[str, File]:
     return files
 
 
-def _adjust(generation: Generation, action: Action) -> Action:
+def _adjust(generation: Generation, action: Action, doubts: Mapping[str, Doubt]) -> Action:
     """Return the action that contents and options lead to, beyond what hashes say."""
     inputs = generation.inputs
     meaning = inputs.files.meanings.get(action.path)
@@ -129,7 +132,7 @@ def _adjust(generation: Generation, action: Action) -> Action:
         return msgspec.structs.replace(action, reason=Reason.CONFLICT)
     if meaning and not meaning.contradictions:
         action = msgspec.structs.replace(action, is_left_by_git=True)
-    if action.reason in (Reason.KEEP, Reason.CONFLICT) and _doubt(generation, action):
+    if action.path in doubts:
         return msgspec.structs.replace(action, reason=Reason.ASKED)
     mine = action.mine
     if action.reason is Reason.DELETE and mine is not None and mine not in generation.paths_by_hash:
@@ -140,10 +143,14 @@ def _adjust(generation: Generation, action: Action) -> Action:
     return action
 
 
-def _doubt(generation: Generation, action: Action) -> Doubt | None:
-    """Return why an edited file may belong to another element than before; None if nothing says so."""
-    kind, _, name = action.owner.partition(" ")
-    return None if action.role is Role.IMPORT else generation.matching.doubts.get((kind, name))
+def _find_doubts(generation: Generation, actions: Sequence[Action]) -> dict[str, Doubt]:
+    """Return why edited files may belong to other elements than before, by key."""
+    doubts = find_moved_edits(generation, actions)
+    for action in actions:
+        kind, _, name = action.owner.partition(" ")
+        if action.reason in EDITED and action.role is not Role.IMPORT and (kind, name) in generation.matching.doubts:
+            doubts[action.path] = generation.matching.doubts[kind, name]
+    return {key: doubt for key, doubt in doubts.items() if doubt.element not in generation.answered}
 
 
 def _renamed(generation: Generation) -> Mapping[str, str]:
@@ -153,7 +160,9 @@ def _renamed(generation: Generation) -> Mapping[str, str]:
     return renamed_names(generation)
 
 
-def _conflict(generation: Generation, action: Action, names: Mapping[str, str]) -> Conflict:
+def _conflict(
+    generation: Generation, action: Action, names: Mapping[str, str], doubts: Mapping[str, Doubt]
+) -> Conflict:
     """Return the texts of a file that both sides changed; if its class is a folder now, mine is its `package.mo`."""
     key, files, last = action.origin or action.path, generation.inputs.files, generation.inputs.last
     path = generation.inputs.folder.path(action.path)
@@ -169,7 +178,7 @@ def _conflict(generation: Generation, action: Action, names: Mapping[str, str]) 
         return Conflict(
             action.path, base, package, generated, None, origin=action.origin, kept=package, rejected=reason
         )
-    if action.reason is Reason.ASKED and (doubt := _doubt(generation, action)):
+    if doubt := doubts.get(action.path):
         texts, asked = (bases[0] if bases else None, mine, generated, None), describe_doubt(doubt)
         return Conflict(action.path, *texts, kept=mine, rejected=asked, moved_to=doubt.moved_to)
     if (meaning := files.meanings.get(key)) and meaning.contradictions:

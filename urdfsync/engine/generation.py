@@ -89,6 +89,11 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
         return {**self._confirmed, **matching.renames}
 
     @property
+    def answered(self) -> Collection[str]:
+        """The elements of which a choice says whose they are: `link hand`."""
+        return {" ".join(key) for key in self.answers}
+
+    @property
     def _confirmed(self) -> Mapping[ElementKey, str]:
         """The names that the user has confirmed: the same ones, while something was open, and those of a choice."""
         open_ = self.inputs.last.record.open

@@ -26,7 +26,7 @@ def find_matching(
 
     `declared` names count for elements that changed, `confirmed` ones for all.
     """
-    if old == new:
+    if old == new and not confirmed:
         return Matching()
     before, after = domain.features(old), domain.features(new)
     pairs = {key: (key[0], name) for key, name in confirmed.items()}

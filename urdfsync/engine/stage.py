@@ -12,6 +12,7 @@ from urdfsync.domain import ChangeClass, Role
 from urdfsync.engine.actions import Action, Actions, Reason
 from urdfsync.engine.aside import put_aside
 from urdfsync.engine.decide import Decision
+from urdfsync.engine.edit_origins import EDITED, model_hash
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.last_build import import_hash, option_values
 from urdfsync.engine.package_files import PackageFiles, encode, with_line_ends
@@ -109,7 +110,7 @@ def stage(
         conflict_texts=versions.conflicts,
         settled=frozenset(settled.keys),
     )
-    notes = _notes(generation, record, versions.noted, uses, is_writing=is_writing) if record else None
+    notes = _notes(generation, decision, record, versions.noted, uses, is_writing=is_writing) if record else None
     return Plan(result, store.hashes(), decision.shared, tuple(changes), tuple(emptied), notes)
 
 
@@ -132,6 +133,7 @@ def _tell_aside(
 
 def _notes(
     generation: Generation,
+    decision: Decision,
     record: Record,
     proposals: Mapping[str, tuple[str, str]],
     uses: Mapping[str, Use],
@@ -158,6 +160,8 @@ def _notes(
         written=frozenset(made | (set(old.written) & recorded)),
         renamed=renamed if is_later or (renamed and is_writing) else old.renamed,
         proposals=old.proposals if inputs.options.dry else proposals,
+        model=model_hash(record.snapshot),
+        edited={action.path: action.mine for action in decision.actions if action.reason in EDITED and action.mine},
         uses=uses,
     )
     return None if new == old and not inputs.former_name else new
@@ -187,6 +191,7 @@ def _record(generation: Generation, decision: Decision) -> Record:
         generator=inputs.generator,
         options=option_values(inputs.robot.options),
         renamed=inputs.robot.renamed,
+        confirmed=_confirmed(generation, decision),
         snapshot=generation.now.snapshot,
         imports={key: (entry,) for key, entry in imports.items()},
         files={key: file for key, file in files.items() if key.startswith(inside)},
@@ -196,6 +201,13 @@ def _record(generation: Generation, decision: Decision) -> Record:
     # not worth a commit is what no file of the package says: extensions that nothing models, options without effect
     silent = msgspec.structs.replace(new, snapshot=old.snapshot, options=old.options, generator=old.generator)
     return old if silent == old else new
+
+
+def _confirmed(generation: Generation, decision: Decision) -> frozenset[str]:
+    """Return the user's texts that he has confirmed to be in the right place, now or before."""
+    before, answered = generation.inputs.last.record.confirmed, generation.answered
+    edited = {action.mine: action.owner for action in decision.actions if action.reason in EDITED and action.mine}
+    return frozenset(sha256 for sha256, owner in edited.items() if sha256 in before or owner in answered)
 
 
 def _file_changes(generation: Generation, decision: Decision, settled: Settled) -> dict[str, FileChange]:

@@ -44,6 +44,10 @@ class Notes(file_operations.Bound, frozen=True, kw_only=True, omit_defaults=True
     """New identifiers by the old ones, of the last build that wrote anything."""
     proposals: Mapping[str, tuple[str, str]] = {}
     """Hash of each proposed merge and of its two sides, by path; other files of conflicts are a person's."""
+    model: str = ""
+    """Hash of the model that was recorded last."""
+    edited: Mapping[str, str] = {}
+    """Hashes of the user's texts of generated files, by key, as the last build saw them."""
     uses: Mapping[str, Use] = {}
     """By absolute path of a user's file."""
     said: frozenset[str] = frozenset()

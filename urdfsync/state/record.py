@@ -79,6 +79,8 @@ class Record(msgspec.Struct, frozen=True, kw_only=True):
     """The model of the last complete build; None if there was none, and if git has left an element twice."""
     renamed: Mapping[str, str] = {}
     """The declared renames that the last complete build has brought: they are not brought again."""
+    confirmed: frozenset[str] = frozenset()
+    """Hashes of the user's texts that he has confirmed to be in the right place."""
     imports: Mapping[str, tuple[Import, ...]] = {}
     """Several for one file if git has united two states, or if it was renewed since."""
     files: Mapping[str, FileRecord] = {}

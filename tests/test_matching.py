@@ -1,0 +1,133 @@
+"""Which element is which: contents, places and names, in tables of plain elements."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from random import Random
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from urdfsync.domain import ElementKey, Features
+from urdfsync.matching import Matching, match
+
+Elements = Mapping[ElementKey, Features]
+ALIKE = 1.5
+
+
+def chain(names: str, masses: Iterable[float | None], x: Iterable[float] = ()) -> Elements:
+    """Links in a row; the joint before link `b` is `to_b`. Without a mass a link has no content."""
+    elements, places, before = dict[ElementKey, Features](), iter(x), ""
+    for name, mass in zip(names, masses, strict=True):
+        contents = {} if mass is None else {"mass": {"mass": mass, "inertia": [mass / 10, 0.0]}}
+        elements["link", name] = Features(contents, {"joint": ("joint", f"to_{name}")} if before else {})
+        if before:
+            ends = {"child": ("link", name), "parent": ("link", before)}
+            elements["joint", f"to_{name}"] = Features({"position": {"xyz": [next(places, 0.0), 0.0, 0.0]}}, ends)
+        before = name
+    return elements
+
+
+def links(matching: Matching) -> dict[str, str]:
+    return {name: new for (kind, name), new in matching.renames.items() if kind == "link"}
+
+
+def doubtful(matching: Matching) -> set[str]:
+    return {name for kind, name in matching.doubts if kind == "link"}
+
+
+OLD = chain("abcd", [9, 2, 3, 4])
+FOLLOWED: dict[str, tuple[Elements, Elements, dict[str, str]]] = {
+    "nothing": (OLD, OLD, {}),
+    "other numbers": (OLD, chain("abcd", [9.5, 2.5, 3.5, 4.5]), {}),
+    "rounded numbers": (OLD, chain("acbd", [9, 2 + 1e-7, 3 - 1e-7, 4]), {"b": "c", "c": "b"}),
+    "exchanged": (OLD, chain("acbd", [9, 2, 3, 4]), {"b": "c", "c": "b"}),
+    "rotated": (OLD, chain("acdb", [9, 2, 3, 4]), {"b": "c", "c": "d", "d": "b"}),
+    "shifted": (OLD, chain("bcde", [9, 2, 3, 4]), {"a": "b", "b": "c", "c": "d", "d": "e"}),
+    "inserted": (OLD, chain("abcde", [9, 2, 7, 3, 4]), {"c": "d", "d": "e"}),
+    "inserted at the root": (OLD, chain("abcde", [7, 9, 2, 3, 4]), {"a": "b", "b": "c", "c": "d", "d": "e"}),
+    "removed": (OLD, chain("abc", [9, 3, 4]), {"c": "b", "d": "c"}),
+    "exchanged, and one has another mass": (OLD, chain("acbd", [9, 2, 7, 4]), {"b": "c", "c": "b"}),
+    "alike, told apart by their joints": (
+        chain("abcd", [9, ALIKE, ALIKE, ALIKE], [0.2, 0.3, 0.4]),
+        chain("acbd", [9, ALIKE, ALIKE, ALIKE], [0.2, 0.3, 0.4]),
+        {"b": "c", "c": "b"},
+    ),
+    "without content, told apart by their joints": (
+        chain("abcd", [9, None, None, 4], [0.2, 0.3, 0.4]),
+        chain("acbd", [9, None, None, 4], [0.2, 0.3, 0.4]),
+        {"b": "c", "c": "b"},
+    ),
+    "all alike, and one is appended": (chain("abc", [ALIKE] * 3), chain("abcd", [ALIKE] * 4), {}),
+    "numbers that were exchanged by mistake": (
+        chain("abcd", [9, 2, 3, 4], [0.2, 0.3, 0.4]),
+        chain("abcd", [9, 3, 2, 4], [0.2, 0.3, 0.4]),
+        {},
+    ),
+}
+
+
+@pytest.mark.parametrize(("old", "new", "names"), FOLLOWED.values(), ids=FOLLOWED)
+def test_contents_and_places_speak_against_a_name(old: Elements, new: Elements, names: dict[str, str]) -> None:
+    found = match(old, new)
+    assert links(found) == names
+    joints = {name: renamed for (kind, name), renamed in found.renames.items() if kind == "joint"}
+    assert joints == {f"to_{name}": f"to_{names[name]}" for name in names if ("joint", f"to_{name}") in old}
+
+
+def test_what_cannot_be_known_is_a_doubt() -> None:
+    """The mass of `b` is at `c`, and its shape at `d`."""
+
+    def arm(*shapes: float) -> Elements:
+        parts = zip("bcd", [2, 3, 4] if shapes[0] == 5 else [7, 2, 8], shapes, strict=True)
+        return {
+            ("link", name): Features({"mass": {"mass": mass}, "shape": {"box": size}}, {}) for name, mass, size in parts
+        }
+
+    found = match(arm(5, 6, 7), arm(8, 9, 5))
+    assert found.renames == {}
+    assert doubtful(found) == {"b"}
+    assert found.doubts["link", "b"].moved_to in ("c", "d")
+
+
+def test_an_element_whose_name_another_one_has_is_told() -> None:
+    """`b` is called `c`; what was `c` is gone."""
+    found = match(chain("abc", [9, 2, 3]), chain("ac", [9, 2]))
+    assert links(found) == {"b": "c"}
+    doubt = found.doubts["link", "c"]
+    assert (doubt.former, doubt.is_certain) == ("b", True)
+
+
+def test_what_is_declared_holds() -> None:
+    old, new = chain("abc", [9, ALIKE, ALIKE]), chain("abc", [9, ALIKE, ALIKE])
+    declared = {("link", "b"): ("link", "c"), ("link", "c"): ("link", "b")}
+    assert links(match(old, new, declared)) == {"b": "c", "c": "b"}
+    assert links(match(old, chain("acb", [9, 2, 3]), {("link", "b"): ("link", "b")})).get("b", "b") == "b"
+
+
+@given(st.randoms(use_true_random=False), st.integers(3, 9))
+def test_any_permutation_of_parts_that_differ_is_followed(random: Random, count: int) -> None:
+    names = "abcdefghi"[:count]
+    masses = random.sample([1.1, 2.2, 3.3, 4.4, 5.5, 6.6, 7.7, 8.8, 9.9], count)
+    others = "".join(random.sample(names, count))
+    found = match(chain(names, masses), chain(others, masses))
+    assert links(found) == {old: new for old, new in zip(names, others, strict=True) if old != new}
+    assert found.doubts == {}
+
+
+@given(st.randoms(use_true_random=False))
+def test_a_match_is_of_one_to_one_and_of_one_kind(random: Random) -> None:
+    """Whatever both versions are, and the doubts are about names that both have."""
+
+    def version() -> Elements:
+        names = "".join(random.sample("abcdef", random.randint(1, 6)))
+        return chain(names, random.choices([None, ALIKE, 2, 3, 4], k=len(names)), random.choices([0, 0.3, 0.5], k=5))
+
+    old, new = version(), version()
+    found = match(old, new)
+    assert len({(kind, name) for (kind, _), name in found.renames.items()}) == len(found.renames)
+    assert all(
+        (kind, name) in new and key in old for key in found.renames for kind, name in [(key[0], found.renames[key])]
+    )
+    assert found.doubts.keys() <= old.keys() & new.keys()

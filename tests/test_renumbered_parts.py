@@ -1,0 +1,350 @@
+"""CAD renumbers: an edit goes with the part that it was made on, or the file is a conflict that asks."""
+
+from __future__ import annotations
+
+import itertools
+import re
+import shutil
+from collections import Counter
+from collections.abc import Iterator
+from pathlib import Path
+from random import Random
+from typing import get_args
+
+import pytest
+from support import corpus
+from support.commands import Execute
+from support.git import NEEDS_GIT, Repository
+from support.networks import edit
+from support.renumbering import Renumbering, renumberings
+from support.urdfs import joint, limit, link, robot
+from test_unions import WAYS
+
+from urdfsync.api import load
+from urdfsync.engine.actions import Reason
+from urdfsync.engine.build import build
+from urdfsync.engine.options import BuildOptions
+from urdfsync.engine.result import Exit, Result
+from urdfsync.urdf.options import LeftOut
+
+CONFIGURATION = '[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\napproach = ["package", "record"]\n'
+LINK, JOINT = "modelica/Arm/Links/Link_{}.mo", "modelica/Arm/Joints/Joint_{}Parameters.mo"
+MINE = "\n  Real mine = 1;\n\nequation"
+
+
+def arm(*masses: float, first: int = 1, order: str = "") -> str:
+    """An arm of numbered parts; `order` has other numbers for them."""
+    numbers = list(order) or [str(number) for number in range(first, first + len(masses))]
+    elements, parent = [link("base", 9.0)], "base"
+    for number, mass in zip(numbers, masses, strict=True):
+        elements.append(link(f"link_{number}", mass))
+        origin = f"{mass / 10} 0 0.1"
+        limits = [limit(effort=10.0)]
+        elements.append(joint(f"joint_{number}", "revolute", parent, f"link_{number}", xyz=origin, inside=limits))
+        parent = f"link_{number}"
+    return robot(*elements)
+
+
+@pytest.fixture
+def edited(folder: Path, execute: Execute) -> Path:
+    """A folder with a built arm, the second link of which has a component more, and its joint another number."""
+    Path("urdfsync.toml").write_text(CONFIGURATION)
+    Path("arm.urdf").write_text(arm(1.1, 2.2, 3.3))
+    execute("build")
+    edit(LINK.format(2), "\nequation", MINE)
+    edit(JOINT.format(2), "effort = 10", "effort = 12")
+    return folder
+
+
+EXPORTS = {
+    "exchanged": (arm(1.1, 2.2, 3.3, order="132"), 3),
+    "inserted": (arm(1.1, 5.5, 2.2, 3.3), 3),
+    "inserted at the root": (arm(5.5, 1.1, 2.2, 3.3), 3),
+    "removed": (arm(2.2, 3.3), 1),
+    "shifted": (arm(1.1, 2.2, 3.3, first=2), 3),
+    "rotated": (arm(1.1, 2.2, 3.3, order="231"), 3),
+}
+
+
+@pytest.mark.parametrize(("export", "number"), EXPORTS.values(), ids=EXPORTS)
+def test_edits_go_with_their_parts(edited: Path, execute: Execute, export: str, number: int) -> None:
+    Path("arm.urdf").write_text(export)
+    told = execute("diff", code=Exit.OUT_OF_STEP).lines
+    assert f"link_2: is now link_{number}" in told[1] + told[2]
+    execute("build")
+    assert "Real mine = 1" in Path(LINK.format(number)).read_text()
+    assert "effort = 12" in Path(JOINT.format(number)).read_text()
+    texts = [path.read_text() for path in Path("modelica").rglob("*.mo")]
+    assert sum("Real mine = 1" in text or "effort = 12" in text for text in texts) == 2
+    assert execute("build", "--check").words.endswith("2 kept because you edited them")
+
+
+def test_many_names_are_told_in_one_line(edited: Path, execute: Execute) -> None:
+    Path("arm.urdf").write_text(arm(1.1, 2.2, 3.3, first=1))
+    execute("build")
+    Path("arm.urdf").write_text(arm(5.5, 1.1, 2.2, 3.3, 4.4, 6.6))
+    Path("arm.urdf").write_text(arm(5.5, 1.1, 2.2, 3.3))
+    assert "link link_1: is now link_2" in execute("diff", code=Exit.OUT_OF_STEP).out
+    Path("arm.urdf").write_text(arm(1.1, 2.2, 3.3, 4.4, 6.6))
+    execute("build")
+    Path("arm.urdf").write_text(arm(5.5, 1.1, 2.2, 3.3, 4.4, 6.6))
+    printed = execute("diff", code=Exit.OUT_OF_STEP)
+    assert printed.lines[1] == "  link link_1: is now link_2 (and 4 more numbers shifted by one)"
+    (found,) = execute("diff", "--json", code=Exit.OUT_OF_STEP).json["results"]
+    first = found["result"]["changes"]["changes"][0]
+    assert (first["path"], first["kind"], first["new"]) == (["link link_1"], "renamed", "link_2")
+
+
+def test_names_in_the_files_of_the_whole_robot_follow(edited: Path, execute: Execute) -> None:
+    Path("urdfsync.toml").write_text(f'{CONFIGURATION}on_conflict = "merge"\n')
+    run = Path("modelica/Arm/ArmRun.mo")
+    edit(run, "\nequation\n", "\n  Real seen = robot.joint_2Axis.phi + robot.joint_1Axis.phi;\n\nequation\n")
+    Path("arm.urdf").write_text(arm(1.1, 5.5, 2.2, 3.3))
+    execute("build")
+    assert "Real seen = robot.joint_3Axis.phi + robot.joint_1Axis.phi;" in run.read_text()
+
+
+def test_models_and_configuration_that_use_another_part_are_told_until_they_are_saved(
+    edited: Path, execute: Execute
+) -> None:
+    mine, lines = Path("Mine.mo"), "  Arm.Arm robot;\n  Real x = robot.link_2.body.m;\n  Arm.Links.Link_1 other;\n"
+    mine.write_text(f"model Mine\n{lines}end Mine;\n")
+    Path("urdfsync.toml").write_text(f"{CONFIGURATION}start = {{joint_2 = 0.1}}\n")
+    execute("build")
+    Path("arm.urdf").write_text(arm(1.1, 2.2, 3.3, order="132"))
+    told = (
+        "Mine.mo:3: warning: `link_2` is that of another part now: the part that had this name has `link_3`",
+        "urdfsync.toml:5: warning: `joint_2` is that of another part now",
+    )
+    for command in ("build", "build", "status"):
+        words = execute(command, "--verbose").words
+        assert all(text in words for text in told)
+        assert "`Link_1`" not in words
+    execute("build", "--check")
+    for file in (mine, Path("urdfsync.toml")):
+        file.write_text(f"{file.read_text()}\n")
+    assert "other-part" not in execute("status", "--verbose").words
+
+
+def unclear(execute: Execute) -> None:
+    """An export after which `link_1` may be another part: its mass is at `link_2`, its shape at `link_3`."""
+
+    def solid(name: str, mass: float, size: float) -> str:
+        box = f'<visual><geometry><box size="{size} {size} {size}"/></geometry></visual>'
+        return link(name, mass).replace("</link>", f"{box}</link>")
+
+    def export(*parts: tuple[float, float]) -> None:
+        names = [f"link_{number}" for number in range(1, len(parts) + 1)]
+        joints = [
+            joint(f"to_{name}", "continuous", parent, name, xyz="0 0 0", rpy="0 0 0")
+            for parent, name in itertools.pairwise(["base", *names])
+        ]
+        solids = [solid(name, *part) for name, part in zip(names, parts, strict=True)]
+        Path("arm.urdf").write_text(robot(link("base", 9.0), *solids, *joints))
+
+    export((1.1, 0.1), (2.2, 0.2), (3.3, 0.3))
+    execute("build")
+    edit(LINK.format(1), "\nequation", MINE)
+    execute("build")
+    export((1.5, 0.15), (1.1, 0.25), (5.5, 0.1))
+
+
+@pytest.mark.parametrize(("answer", "number"), [(["--keep"], 1), (["--moved", "link_3"], 3), (["--take"], 0)])
+def test_what_cannot_be_known_is_asked(folder: Path, execute: Execute, answer: list[str], number: int) -> None:
+    Path("urdfsync.toml").write_text(CONFIGURATION)
+    unclear(execute)
+    printed = execute("diff", code=Exit.OUT_OF_STEP).words
+    assert "`link_1` may be another part now" in printed
+    assert 'link_1 = "link_2"' in printed
+    for _ in range(2):
+        words = execute("build", code=Exit.CONFLICT).words
+        assert "`link_1` may be another part now" in words
+        assert "--keep it is the same part --moved link_2 your edit belongs to the part of this name" in words
+    assert "Real mine" in Path(LINK.format(1)).read_text()
+    execute("resolve", LINK.format(1), *answer)
+    holders = [path.as_posix() for path in Path("modelica").rglob("*.mo") if "Real mine" in path.read_text()]
+    assert holders == ([LINK.format(number)] if number else [])
+    execute("build", "--check")
+
+
+def test_nothing_is_asked_if_nobody_edited(folder: Path, execute: Execute) -> None:
+    Path("urdfsync.toml").write_text(CONFIGURATION)
+    unclear(execute)
+    execute("resolve", LINK.format(1), "--take")
+    assert "another part" not in execute("build").words
+
+
+def test_an_answer_names_a_part_that_exists(folder: Path, execute: Execute) -> None:
+    Path("urdfsync.toml").write_text(CONFIGURATION)
+    unclear(execute)
+    words = execute("resolve", LINK.format(1), "--moved", "lnk_2", code=Exit.ERROR).words
+    assert f"{LINK.format(1)}: error: the source has no link `lnk_2`; did you mean `link_2`? [wrong-rename]" in words
+    assert "Real mine" in Path(LINK.format(1)).read_text()
+
+
+def test_an_edit_of_a_part_that_is_gone_is_asked_about(edited: Path, execute: Execute) -> None:
+    """The second part is gone, and the third one has its name."""
+    Path("arm.urdf").write_text(arm(1.1, 3.3))
+    words = execute("build", code=Exit.CONFLICT).words
+    assert "`link_2` is another part now, the former `link_3`" in words
+    execute("resolve", "--all", "--take")
+    assert "mine" not in Path(LINK.format(2)).read_text()
+
+
+def test_exchanges_can_be_declared_and_count_once(folder: Path, execute: Execute) -> None:
+    """Of two wheels that look alike; both have other masses after the export."""
+
+    def export(*masses: float) -> None:
+        wheels = [link(f"link_{number}", mass) for number, mass in enumerate(masses, 1)]
+        hubs = [joint(f"hub_{number}", "continuous", "base", f"link_{number}") for number in (1, 2)]
+        Path("arm.urdf").write_text(robot(link("base", 9.0), *wheels, *hubs))
+
+    Path("urdfsync.toml").write_text(CONFIGURATION)
+    export(1.1, 1.1)
+    execute("build")
+    edit(LINK.format(1), "\nequation", MINE)
+    export(1.5, 1.7)
+    Path("urdfsync.toml").write_text(f'{CONFIGURATION}renamed = {{link_1 = "link_2", link_2 = "link_1"}}\n')
+    for mass in (1.5, 1.5, 1.9):
+        export(mass, 1.7)
+        execute("build")
+        assert "Real mine" in Path(LINK.format(2)).read_text()
+        assert "mine" not in Path(LINK.format(1)).read_text()
+    assert "rename-done" in execute("status", "--verbose").words
+    Path("urdfsync.toml").write_text(CONFIGURATION)
+    execute("build")
+    assert "Real mine" in Path(LINK.format(2)).read_text()
+
+
+def test_a_recorded_model_that_the_files_contradict_moves_nothing(edited: Path, execute: Execute) -> None:
+    """A stranger exchanged two links in the record: the edit stays, and is asked about."""
+    state = Path(".urdfsync/robots/arm.state")
+    text = state.read_text()
+    elements = dict(re.findall(r'^model \["links","(link_[23])",(.*)\]$', text, re.MULTILINE))
+    for name, other in (("link_2", "link_3"), ("link_3", "link_2")):
+        text = text.replace(
+            f'model ["links","{name}",{elements[name]}]', f'model ["links","{name}",{elements[other]}] '
+        )
+    state.write_text(text)
+    assert "may be another part now" in execute("build", code=Exit.CONFLICT).words
+    assert "Real mine" in Path(LINK.format(2)).read_text()
+
+
+@NEEDS_GIT
+@pytest.mark.slow
+@pytest.mark.parametrize("way", WAYS)
+@pytest.mark.parametrize("edits_first", [False, True])
+@pytest.mark.parametrize("driver", [False, True])
+def test_one_branch_exchanges_names_and_the_other_edits(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, execute: Execute, way: str, edits_first: bool, driver: bool
+) -> None:
+    """Whichever side git takes the edit from: it is with its part, or asked about."""
+    Path("urdfsync.toml").write_text(CONFIGURATION)
+    repository = Repository(folder, monkeypatch)
+    Path("arm.urdf").write_text(arm(1.1, 2.2, 3.3))
+    execute("build")
+    if driver:
+        execute("merge-driver", "--install")
+    repository.commit()
+    for branch in ("theirs", "ours"):
+        repository.git("checkout", "-q", "-b", branch, "main")
+        if (branch == "ours") is edits_first:
+            edit(LINK.format(2), "\nequation", MINE)
+        else:
+            Path("arm.urdf").write_text(arm(1.1, 2.2, 3.3, order="132"))
+        execute("build")
+        repository.commit(branch)
+    for command in WAYS[way]:
+        repository.git(*command.split())
+    Path("theirs.patch").unlink(missing_ok=True)
+    printed = execute("build", code=None)
+    holders = [path.as_posix() for path in Path("modelica").rglob("*.mo") if "Real mine" in path.read_text()]
+    assert len(holders) == 1
+    if printed.code == Exit.CONFLICT:
+        assert "another part" in printed.words
+        execute("resolve", LINK.format(2), "--moved", "link_3")
+        holders = [path.as_posix() for path in Path("modelica").rglob("*.mo") if "Real mine" in path.read_text()]
+    assert holders == [LINK.format(3)]
+    execute("build", "--check")
+
+
+def hand(path: Path, kind: str) -> str:
+    """Edit a file by hand; what the edit is found by, or nothing if the file has no place for it."""
+    text = path.read_text()
+    if kind == "number":
+        begin = text.index("extends")
+        found = re.search(r'(?<![\w."])\d+(?:\.\d+)?(?:e-?\d+)?(?=[,)}\s])', text[begin:])
+        if not found:
+            return ""
+        path.write_text(f"{text[: begin + found.start()]}7171.25{text[begin + found.end() :]}")
+        return "7171.25"
+    if "\nequation\n" not in text:
+        return ""
+    new = "\n  Real byHand = 3;\n\nequation\n" if kind == "component" else '\nequation\n  assert(true, "byHand");\n'
+    path.write_text(text.replace("\nequation\n", new, 1))
+    return "byHand"
+
+
+def plan() -> Result:
+    (result,) = build(configuration := load("urdfsync.toml"), configuration.robots, BuildOptions())
+    assert not result.failed, result.diagnostics
+    return result
+
+
+def meetings(source: bytes, random: Random) -> Iterator[tuple[Renumbering, str, str]]:
+    """Each kind of export meets each kind of edit of one element: what becomes of the edit."""
+    Path("r.urdf").write_bytes(source)
+    built = plan()
+    shutil.copytree("modelica", "../built", dirs_exist_ok=True)
+    shutil.copytree(".urdfsync", "../state", dirs_exist_ok=True)
+    owners = sorted({action.owner for action in built.actions if action.owner.startswith(("link ", "joint "))})
+    for exported, kind in itertools.product(renumberings(source, random), ("number", "component", "equation")):
+        for name, saved in (("modelica", "../built"), (".urdfsync", "../state")):
+            shutil.rmtree(name)
+            shutil.copytree(saved, name)
+        owner = random.choice(owners)
+        files = [action.path for action in built.actions if action.owner == owner and action.path.endswith(".mo")]
+        path = next((path for path in files if path.endswith("Parameters.mo") is (kind == "number")), None)
+        if path is None or not (mark := hand(Path(path), kind)):
+            continue
+        Path("r.urdf").write_bytes(exported.source)
+        result = plan()
+        part, _, name = owner.partition(" ")
+        expected = exported.names.get((part, name), name)
+        holders = [
+            action for action in result.actions if Path(action.path).is_file() and mark in Path(action.path).read_text()
+        ]
+        if any(action.reason is Reason.ASKED for action in result.actions):
+            yield exported, kind, "asked"
+        elif any(action.is_conflict for action in result.actions):
+            yield exported, kind, "conflict"
+        elif [action.owner for action in holders] == [f"{part} {expected}"]:
+            yield exported, kind, "followed"
+        elif [action.reason for action in holders] == [Reason.ORPHAN]:
+            yield exported, kind, "left"
+        else:
+            yield exported, kind, f"WRONG: {owner} is {expected}, the edit is in {[action.path for action in holders]}"
+
+
+FILES = [file for file in corpus.robots() if file != corpus.ABSENT]
+IN_CI = [file for file in FILES if file.endswith(("puma560_robot.urdf", "m900ib700.urdf", "ur5e.urdf"))]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "file",
+    [file if file in IN_CI else pytest.param(file, marks=pytest.mark.large) for file in FILES] or [corpus.ABSENT],
+)
+def test_edits_meet_exports_that_renumber(corpus: Path, folder: Path, file: str) -> None:
+    """No edit is on another part, and few are asked about."""
+    source = (corpus / file).read_bytes()
+    if source.count(b"<link ") < 5:
+        pytest.skip("fewer than five links")
+    names = ", ".join(f'"{name}"' for name in get_args(LeftOut))
+    Path("urdfsync.toml").write_text(f'[robots.r]\nsource = "r.urdf"\npackage = "R"\nallow = [{names}]\n')
+    found = Counter[str]()
+    for exported, kind, what in meetings(source, Random(file)):
+        assert not what.startswith("WRONG"), f"{exported.kind}, {kind}: {what}"
+        found[what] += 1
+    print(dict(found))  # noqa: T201
+    assert found["asked"] <= 3 + found.total() // 10
