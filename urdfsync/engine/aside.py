@@ -34,6 +34,8 @@ def put_aside(
     moved = {action.origin: action.path for action in decision.actions if action.origin and action.writes}
     for path, aside in inputs.last.aside.items():
         key = inputs.folder.key(path)
+        if key in settled.contents:
+            continue  # another choice follows, or this one is taken back
         if key in moved and on_disk.hash(key, Role.MODEL) == aside.after:
             after = contents.get(moved[key])
             aside = msgspec.structs.replace(aside, after=state_of(after or b"").text_sha256)
@@ -69,7 +71,7 @@ def put_aside(
             # else the next build would merge it again, or take it for the text that it wrote
             is_merge = (action.reason is Reason.MERGE or action.is_left_by_git) and inputs.always_merges
             is_own_base = former_hash in record.hashes
-            if action.generated and action.role is Role.MODEL and (is_merge or is_own_base):
+            if action.generated and action.role is not Role.IMPORT and (is_merge or is_own_base):
                 record, bases = known_bases(generation.package.content(inputs.folder.path(key)).decode())
             elif is_own_base:
                 record, bases = FileRecord(), {}

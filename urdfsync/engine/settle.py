@@ -67,7 +67,7 @@ def _settle(generation: Generation, decision: Decision, action: Action, chosen: 
     """Add what one choice makes of its file; return whether it settles it."""
     inputs, choice, key = generation.inputs, chosen.choice, action.origin or action.path
     reason, record = Reason.KEEP, FileRecord((action.generated,) if action.generated else ())
-    content = mine = inputs.files.read(key) if action.mine is not None else None
+    content = mine = inputs.files.read(key)
     conflict = decision.disputed.get(action.path)
     if choice is Choice.UNDO:
         aside = inputs.last.aside.get(inputs.folder.path(key))
@@ -100,7 +100,7 @@ def _settle(generation: Generation, decision: Decision, action: Action, chosen: 
     else:
         return False
     former = inputs.last.files.get(key, FileRecord())
-    if mine is not None:
+    if mine is not None and (choice is not Choice.UNDO or content != mine):  # else there is nothing to bring back
         settled.before[key] = mine, former, inputs.last.bases(former)
     if conflict and action.origin:
         settled.before_move[key] = encode(conflict.kept), *known_bases(conflict.kept_base)

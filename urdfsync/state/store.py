@@ -160,9 +160,12 @@ class Store:
         return {path.relative_to(folder).as_posix(): self._bytes(path) or b"" for path in existing}
 
     def persons_proposals(self, robot: str, noted: Mapping[str, tuple[str, str]]) -> set[str]:
-        """Return the proposed merges that are not as urdfsync has `noted` them, by path: a person changed them."""
-        existing = {path: digest(content) for path, content in self.conflict_files(robot).items() if ".merge" in path}
-        return {path for path, sha256 in existing.items() if sha256 != noted.get(path, ("", ""))[0]}
+        """Return the proposed merges that are not as urdfsync has `noted` them, by path: a person changed them.
+
+        A blank one has nothing of a person's, and can't be edited further.
+        """
+        proposals = {path: text for path, text in self.conflict_files(robot).items() if ".merge" in path}
+        return {path for path, text in proposals.items() if text.strip() and digest(text) != noted.get(path, ("",))[0]}
 
     def save_conflicts(self, robot: str, contents: Mapping[str, bytes], kept: Collection[str] = ()) -> list[FileChange]:
         """Return the writes that bring versions to the robot's folder, by path; all others go, but those `kept`."""
