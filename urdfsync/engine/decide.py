@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 
 import msgspec
 
@@ -14,8 +14,9 @@ from urdfsync.engine.actions import DISPUTED, ORPHANS, Action, Actions, Choice, 
 from urdfsync.engine.conflicts import PREFERENCES, Conflict, find_conflict, resolve
 from urdfsync.engine.fit import Misfit, Package, find_misfits
 from urdfsync.engine.generation import Generation
+from urdfsync.engine.inputs import Inputs
 from urdfsync.engine.needed import keep_needed
-from urdfsync.engine.package_files import PackageFiles
+from urdfsync.engine.package_files import PackageFiles, encode
 from urdfsync.engine.package_names import names_of, renamed_names
 from urdfsync.engine.parents import SharedFile, merge_order
 from urdfsync.engine.rules import File, decide, put_off
@@ -74,7 +75,8 @@ def decide_package(generation: Generation) -> Decision:
     has_conflicts = any(action.is_conflict for action in actions)
     numbers = _renumbered(generation, actions, merged, conflicts) if has_conflicts else ()
     origins = set(generation.moves.values())
-    unknown = _find_unknown(generation, actions)
+    known = {action.path for action in (*actions, *order_actions)}
+    unknown = [Action(key, Reason.UNKNOWN, Role.MODEL) for key in _find_unknown(inputs, known)]
     all_actions = Actions(put_off((*actions, *order_actions, *unknown), numbers, origins, inputs.has_moved))
     waiting = {action.path for action in all_actions if action.is_waiting}
     shared = [file for file in shared if files.key(file.path) not in waiting]
@@ -82,13 +84,12 @@ def decide_package(generation: Generation) -> Decision:
     return Decision(all_actions, {**orders, **merged}, conflicts, tuple(shared), tuple(misfits))
 
 
-def _find_unknown(generation: Generation, actions: Iterable[Action]) -> Iterator[Action]:
+def _find_unknown(inputs: Inputs, known: Collection[str]) -> Iterator[str]:
     """Yield the Modelica files in the package that nothing generates and that no record knows."""
-    inputs, known = generation.inputs, {action.path for action in actions}
     others = tuple(f"{inputs.files.key(one.folder)}/" for one in inputs.config.robots if one != inputs.robot)
-    for key in sorted(inputs.files.classes(inputs.folder) - known):
+    for key in sorted(inputs.files.classes(inputs.folder) - set(known)):
         if not key.startswith(others) and key.removesuffix("/package.mo") + ".mo" not in known:
-            yield Action(key, Reason.UNKNOWN, Role.MODEL)
+            yield key
 
 
 def _find_files(generation: Generation) -> dict[str, File]:
@@ -100,9 +101,11 @@ def _find_files(generation: Generation) -> dict[str, File]:
         on_disk = inputs.files.on_disk(key, role)
         record = last.file(key, role, on_disk, generated)
         is_edited = isinstance(on_disk, str) and on_disk not in (generated, *record.hashes)
-        is_text = role is not Role.IMPORT and key not in inputs.files.chosen
+        is_text = role is not Role.IMPORT and not inputs.files.is_chosen(key)
         if is_edited and is_text and (meaning := united.find_meaning(inputs, key)):
-            inputs.files.meanings[key] = meaning
+            inputs.files.left_by_git[key] = meaning.contradictions
+            if meaning.text is not None:
+                inputs.files.overlay[key] = encode(meaning.text)
             on_disk = inputs.files.on_disk(key, role)
             record = last.file(key, role, on_disk, generated)
         files[key] = File(role, owner, record, on_disk, generated)
@@ -116,16 +119,20 @@ def _find_files(generation: Generation) -> dict[str, File]:
         path = last.folder.path(key)
         old = before.get(path)
         add(key, old.role if old else role_of(path), old.owner if old else "", None)
+    for key, record in united.find_left_records(inputs, _find_unknown(inputs, files)).items():
+        role = role_of(inputs.folder.path(key))
+        if not last.is_chosen(key, on_disk := inputs.files.on_disk(key, role)):
+            files[key] = File(role, "", record, on_disk, None)
     return files
 
 
 def _adjust(generation: Generation, action: Action) -> Action:
     """Return the action that contents and options lead to, beyond what hashes say."""
     inputs = generation.inputs
-    meaning = inputs.files.meanings.get(action.path)
-    if meaning and meaning.contradictions and action.reason is Reason.KEEP:
-        return msgspec.structs.replace(action, reason=Reason.CONFLICT)
-    if meaning and not meaning.contradictions:
+    contradictions = inputs.files.left_by_git.get(action.path)
+    if contradictions and action.reason is Reason.KEEP:
+        return msgspec.structs.replace(action, reason=Reason.MARKERS)
+    if contradictions == ():
         action = msgspec.structs.replace(action, is_left_by_git=True)
     mine = action.mine
     if action.reason is Reason.DELETE and mine is not None and mine not in generation.paths_by_hash:
@@ -159,9 +166,9 @@ def _conflict(generation: Generation, action: Action, names: Mapping[str, str]) 
         return Conflict(
             action.path, base, package, generated, None, origin=action.origin, kept=package, rejected=reason
         )
-    if (meaning := files.meanings.get(key)) and meaning.contradictions:
-        texts = bases[0] if bases else None, mine, generated, None
-        return Conflict(action.path, *texts, origin=action.origin, kept=mine, rejected=united.describe(meaning))
+    if contradictions := files.left_by_git.get(key):
+        texts, why = (bases[0] if bases else None, mine, generated, None), united.describe(contradictions)
+        return Conflict(action.path, *texts, origin=action.origin, kept=mine, rejected=why)
     if not names and bases:  # a choice was undone after the build that brought new names
         names = names_of(generation, last.notes.renamed, frozenset(words_in(bases[0])))
     conflict = find_conflict(action, bases, mine, generated, names)
@@ -247,8 +254,8 @@ def _refuse_markers(files: PackageFiles, actions: Iterable[Action], orders: Iter
     errors = []
     edited = [a for a in actions if a.mine not in (None, a.base, a.generated) and a.role is not Role.IMPORT]
     # what the branches contradict each other about is told as a conflict; the user asked for what is given back
-    told = {action.origin or action.path for action in edited if action.is_conflict} & files.meanings.keys()
-    told |= files.chosen.keys()
+    told = {action.origin or action.path for action in edited if action.is_conflict} & files.left_by_git.keys()
+    told |= files.overlay.keys()
     for key in dict.fromkeys((*(action.origin or action.path for action in edited), *orders)):
         found = find_markers(files.text(key) or "")
         if found and key not in told:

@@ -72,10 +72,13 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
         record = self.files.get(key, NEVER_WRITTEN)
         if not isinstance(on_disk, str) or role is Role.IMPORT or on_disk in (generated, *record.hashes):
             return record
+        is_own = on_disk in self.notes.written or self.base(on_disk) is not None
+        return FileRecord((on_disk,)) if is_own and not self.is_chosen(key, on_disk) else record
+
+    def is_chosen(self, key: str, on_disk: OnDisk) -> bool:
+        """Return whether a choice on this machine, such as --undo, has made a file and its base what they are."""
         aside = self.aside.get(self.folder.path(key))
-        is_chosen = key in self._files.chosen or (aside is not None and aside.after == on_disk)  # such as by --undo
-        is_own = not is_chosen and (on_disk in self.notes.written or self.base(on_disk) is not None)
-        return FileRecord((on_disk,)) if is_own else record
+        return self._files.is_chosen(key) or (aside is not None and aside.after == on_disk)
 
     @cached_property
     def options(self) -> Any:

@@ -7,7 +7,7 @@ files and bases are taken as the choices make them, and the build decides on tha
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TypeAlias
+from typing import NamedTuple
 
 import msgspec
 
@@ -25,8 +25,13 @@ _EDITED = frozenset({Reason.KEEP, Reason.INCLUDED, Reason.MOVE, Reason.MERGE})
 """Actions on files that the user edited, which he may replace by the generated ones."""
 
 
-Former: TypeAlias = tuple[bytes, FileRecord, Mapping[str, str]]
-"""A text, its record, and the texts of its bases that are known, by hash."""
+class Former(NamedTuple):
+    """A text that is replaced, and its base."""
+
+    text: bytes
+    record: FileRecord
+    bases: Mapping[str, str]
+    """The texts of its bases that are known, by hash."""
 
 
 class Settled(msgspec.Struct):
@@ -38,6 +43,8 @@ class Settled(msgspec.Struct):
     bases: dict[str, FileRecord] = msgspec.field(default_factory=dict)
     texts: dict[str, str] = msgspec.field(default_factory=dict)
     """Texts of bases that were put aside, by hash."""
+    generated: set[str] = msgspec.field(default_factory=set)
+    """Hashes of generated texts that are given back."""
     before: dict[str, Former] = msgspec.field(default_factory=dict)
     """What was there before the choice."""
     before_move: dict[str, Former] = msgspec.field(default_factory=dict)
@@ -67,7 +74,7 @@ def _settle(generation: Generation, decision: Decision, action: Action, chosen: 
     """Add what one choice makes of its file; return whether it settles it."""
     inputs, choice, key = generation.inputs, chosen.choice, action.origin or action.path
     reason, record = Reason.KEEP, FileRecord((action.generated,) if action.generated else ())
-    content = mine = inputs.files.read(key)
+    content = mine = inputs.files.read_on_disk(key)
     conflict = decision.disputed.get(action.path)
     if choice is Choice.UNDO:
         aside = inputs.last.aside.get(inputs.folder.path(key))
@@ -78,6 +85,11 @@ def _settle(generation: Generation, decision: Decision, action: Action, chosen: 
             return False
         record = FileRecord(aside.bases)
         settled.texts.update(aside.texts)
+        for path, sha256 in aside.beside.items():
+            if (place := inputs.folder.key(path)) not in settled.contents and inputs.files.read(place) is None:
+                settled.contents[place] = encode(aside.texts.get(sha256, ""))
+                settled.bases[place] = FileRecord((sha256,))
+                settled.generated.add(sha256)
     elif action.reason is Reason.ORPHAN and choice in (Choice.KEEP, Choice.TAKE):
         if choice is Choice.TAKE:
             content, reason, record = None, Reason.DELETE, inputs.last.files.get(key, FileRecord())
@@ -88,7 +100,7 @@ def _settle(generation: Generation, decision: Decision, action: Action, chosen: 
     elif not (action.is_conflict or conflict):
         return False
     elif choice is Choice.KEEP:
-        content = encode(conflict.kept) if conflict and (action.origin or key in inputs.files.meanings) else mine
+        content = encode(conflict.kept) if conflict and action.origin else inputs.files.read(key)
         if markers := find_markers((content or b"").decode(errors="replace")):
             message, hint = "unresolved merge markers", "settle them in the file, then build again"
             raise OutputError.of("merge-markers", message, shown(inputs.files.path(key)), markers[0][1], hint=hint)
@@ -101,9 +113,9 @@ def _settle(generation: Generation, decision: Decision, action: Action, chosen: 
         return False
     former = inputs.last.files.get(key, FileRecord())
     if mine is not None and (choice is not Choice.UNDO or content != mine):  # else there is nothing to bring back
-        settled.before[key] = mine, former, inputs.last.bases(former)
+        settled.before[key] = Former(mine, former, inputs.last.bases(former))
     if conflict and action.origin:
-        settled.before_move[key] = encode(conflict.kept), *known_bases(conflict.kept_base)
+        settled.before_move[key] = Former(encode(conflict.kept), *known_bases(conflict.kept_base))
     settled.contents[key], settled.bases[key] = content, record
     changes = {"path": key, "origin": None, "reason": reason, "choice": choice, "is_waiting": False}
     settled.actions[key] = msgspec.structs.replace(action, **changes)
@@ -127,14 +139,15 @@ def known_bases(base: str | None) -> tuple[FileRecord, Mapping[str, str]]:
 def with_choices(generation: Generation, settled: Settled) -> Generation:
     """Return the same robot with its files and bases as choices have made them."""
     inputs = generation.inputs
-    replaced = {key: text for key, (text, _, _) in settled.before.items() if key.endswith(".mo")}
-    files = PackageFiles(inputs.config, inputs.robot, settled.contents, replaced)
+    files, left = PackageFiles(inputs.config, inputs.robot), inputs.files.left_by_git
+    files.overlay = {**inputs.files.overlay, **settled.contents}
+    files.left_by_git = {key: left[key] for key in left.keys() - settled.contents.keys()}
     recorded = {**inputs.last.record.files, **settled.bases}
     record = msgspec.structs.replace(
         inputs.last.record, files={key: file for key, file in recorded.items() if file.hashes}
     )
-    files.meanings.update((key, text) for key, text in inputs.files.meanings.items() if key not in settled.contents)
-    last = msgspec.structs.replace(inputs.last, record=record, _files=files)
+    notes = msgspec.structs.replace(inputs.last.notes, written=inputs.last.notes.written | settled.generated)
+    last = msgspec.structs.replace(inputs.last, record=record, notes=notes, _files=files)
     return msgspec.structs.replace(generation, inputs=msgspec.structs.replace(inputs, files=files, last=last))
 
 

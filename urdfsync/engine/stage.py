@@ -14,7 +14,7 @@ from urdfsync.engine.aside import put_aside
 from urdfsync.engine.decide import Decision
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.last_build import import_hash, option_values
-from urdfsync.engine.package_files import PackageFiles, encode, with_line_ends
+from urdfsync.engine.package_files import encode, with_line_ends
 from urdfsync.engine.package_names import renamed_identifiers
 from urdfsync.engine.parents import SharedFile
 from urdfsync.engine.proposals import save_versions
@@ -148,7 +148,7 @@ def _notes(
         renamed=renamed if is_later or (renamed and is_writing) else old.renamed,
         proposals=old.proposals if inputs.options.dry else proposals,
     )
-    return None if new == old and not inputs.former_name else new
+    return None if new == old and not (inputs.former_name or inputs.options.choices) else new
 
 
 def _record(generation: Generation, decision: Decision) -> Record:
@@ -188,17 +188,16 @@ def _record(generation: Generation, decision: Decision) -> Record:
 def _file_changes(generation: Generation, decision: Decision, settled: Settled) -> dict[str, FileChange]:
     """Return the changes of the package's files by key, but for those in which other robots may have a part."""
     inputs, changes = generation.inputs, dict[str, FileChange]()
-    on_disk = PackageFiles(inputs.config, inputs.robot) if settled.contents else inputs.files
     shared = {inputs.files.key(file.path) for file in decision.shared}
     decided = {action.path: action for action in decision.actions}
 
     def change(key: str, content: bytes | None, *, is_moved: bool = False) -> None:
-        state = on_disk.state(key)
+        state = inputs.files.state_on_disk(key)
         old = state.sha256 if state else None
         changes[key] = FileChange(inputs.files.path(key), content, old, is_moved)
 
     for key, content in settled.contents.items():
-        if not (key in decided and decided[key].writes) and content != on_disk.read(key):
+        if not (key in decided and decided[key].writes) and content != inputs.files.read_on_disk(key):
             change(key, content)
     for action in decision.actions:
         if action.writes and action.path not in shared:
@@ -270,7 +269,7 @@ def _base_changes(
         missing |= {sha256: settled.texts[sha256] for sha256 in absent & settled.texts.keys()}
     cleans = decision.is_complete and (is_writing or bool(missing))
     # git may have united lines, which have an order
-    is_whole = inputs.options.full or inputs.former_name or (last.record.is_united and is_writing)
+    is_whole = inputs.options.full or inputs.former_name or inputs.damage or (last.record.is_united and is_writing)
     changes = list[FileChange]()
     for digit, texts in stored.items():
         after = {sha256: text for sha256, text in (texts or {}).items() if not cleans or sha256 in needed}

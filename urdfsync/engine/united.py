@@ -12,16 +12,18 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import msgspec
 
-from urdfsync import dependencies, markers
-from urdfsync.diagnostics import SourceError
+from urdfsync import dependencies, git, markers
+from urdfsync.diagnostics import SourceError, StateError
 from urdfsync.engine.actions import ORPHANS, Action, Reason
 from urdfsync.engine.conflicts import over_bases
 from urdfsync.engine.inputs import Inputs
 from urdfsync.engine.last_build import LastBuild
-from urdfsync.engine.package_files import Meaning, PackageFiles, text_hash
+from urdfsync.engine.package_files import PackageFiles, text_hash
 from urdfsync.engine.rules import NEVER_WRITTEN
 from urdfsync.merge.lines import compare, find_regions
 from urdfsync.revisions import Revision
+from urdfsync.state import statefile
+from urdfsync.state.record import FileRecord
 
 if TYPE_CHECKING:
     import pygit2
@@ -42,6 +44,15 @@ class Sides(NamedTuple):
     """Empty if the sides have none in common."""
     ours: str
     theirs: str
+
+
+class Meaning(NamedTuple):
+    """What a file stands for that is as git left it, of the versions of two branches."""
+
+    text: str | None
+    """None if the branches contradict each other."""
+    contradictions: tuple[str, ...] = ()
+    """The element that each is about; empty for lines, which have no names."""
 
 
 def find_meaning(inputs: Inputs, key: str) -> Meaning | None:
@@ -81,9 +92,9 @@ def _merge_edits(last: LastBuild, key: str, sides: Sides) -> Meaning:
     return Meaning(None, contradictions) if contradictions else Meaning(merged)
 
 
-def describe(meaning: Meaning) -> str:
+def describe(contradictions: Sequence[str]) -> str:
     """Say what two branches contradict each other about, as a clause."""
-    elements = [element for element in dict.fromkeys(meaning.contradictions) if element]
+    elements = [element for element in dict.fromkeys(contradictions) if element]
     return f"git's markers are in it, since both branches changed {' and '.join(elements) or 'the same lines'}"
 
 
@@ -138,6 +149,37 @@ def find_sides(file: Path, text: str) -> Sides | None:
         return next((sides for sides in candidates if sides.ours == sides.theirs or _is_untouched(text, sides)), None)
     except (SourceError, pygit2.GitError, KeyError, OSError, ValueError):
         return None  # as without a repository: one that is damaged, or lacks commits, tells no versions
+
+
+def find_left_records(inputs: Inputs, keys: Iterable[str]) -> dict[str, FileRecord]:
+    """Return the records of files of which git says that one branch edited and the other deleted them, by key.
+
+    Git leaves such a file in the working tree, and unites the recorded states to one without it.
+    """
+    top = Path(git.find_top(inputs.config.root) or "")
+    folder = top / ".git"
+    if folder.is_file():  # of a working tree beside the first one
+        folder = top / folder.read_text(errors="replace").removeprefix("gitdir: ").strip()
+    if not any((folder / name).exists() for name in (*_UNDER_WAY, "SQUASH_MSG")):
+        return {}  # importing pygit2 takes 55 ms
+    import pygit2
+
+    dependencies.mark_incomplete()  # a commit changes the answer, and no file
+    wanted = {os.path.relpath(os.path.realpath(inputs.files.path(key)), top).replace(os.sep, "/"): key for key in keys}
+    found = dict[str, FileRecord]()
+    try:
+        for base, ours, theirs in Revision(top, "HEAD").repository.index.conflicts or ():
+            left = ours or theirs
+            if not (base and left and left.path in wanted) or (ours and theirs):
+                continue
+            for name in ("HEAD",) if ours else _UNDER_WAY:
+                state = _read(name, inputs.store.path(inputs.last.name))
+                record = statefile.loads(state, name)[0] if state else None
+                if record and (file := record.files.get(wanted[left.path])):
+                    found[wanted[left.path]] = file
+    except (SourceError, StateError, pygit2.GitError, KeyError, OSError):
+        return found  # as in `find_sides`
+    return found
 
 
 def _staged(repository: pygit2.Repository, file: Path, text: str) -> Iterator[Sides]:

@@ -19,7 +19,7 @@ from urdfsync.versions.comparison import Comparison
 _CHANGES, _FILES, _EFFECTS = 60, 12, 8
 """So many lines of changes, files and effects are listed at most, without --verbose."""
 _SILENT = frozenset({Reason.UNCHANGED, Reason.KEEP, Reason.FORGET})
-_EDITED = USERS | {Reason.UNOWNED, Reason.MOVED_AWAY}
+_EDITED = USERS | {Reason.MOVED_AWAY}
 """Actions on files that the user edited: these are always named."""
 
 
