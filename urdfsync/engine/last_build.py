@@ -47,6 +47,8 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
     _domain: Domain
     _robot: RobotConfig
     _templates: Templates
+    texts: Mapping[str, str] = {}
+    """Bases that choices bring, by hash."""
 
     @cached_property
     def folder(self) -> Folder:
@@ -139,7 +141,7 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
 
     def base(self, sha256: str | None) -> str | None:
         """Return the text with this hash that was generated once; None if it is not stored."""
-        return self._store.base(self.name, sha256) if sha256 else None
+        return self.texts.get(sha256) or self._store.base(self.name, sha256) if sha256 else None
 
     def bases(self, record: FileRecord) -> dict[str, str]:
         """Return the texts of a file's bases that are stored, by hash."""

@@ -100,7 +100,10 @@ def _settle(generation: Generation, decision: Decision, action: Action, chosen: 
     elif not (action.is_conflict or conflict):
         return False
     elif choice is Choice.KEEP:
-        content = encode(conflict.kept) if conflict and action.origin else inputs.files.read(key)
+        content = inputs.files.read(key)
+        if conflict and action.origin:  # it gets its new names once it moves
+            record, texts = known_bases(conflict.generated_before)
+            settled.texts.update(texts)
         if markers := find_markers((content or b"").decode(errors="replace")):
             message, hint = "unresolved merge markers", "settle them in the file, then build again"
             raise OutputError.of("merge-markers", message, shown(inputs.files.path(key)), markers[0][1], hint=hint)
@@ -147,7 +150,7 @@ def with_choices(generation: Generation, settled: Settled) -> Generation:
         inputs.last.record, files={key: file for key, file in recorded.items() if file.hashes}
     )
     notes = msgspec.structs.replace(inputs.last.notes, written=inputs.last.notes.written | settled.generated)
-    last = msgspec.structs.replace(inputs.last, record=record, notes=notes, _files=files)
+    last = msgspec.structs.replace(inputs.last, record=record, notes=notes, texts=settled.texts, _files=files)
     return msgspec.structs.replace(generation, inputs=msgspec.structs.replace(inputs, files=files, last=last))
 
 
