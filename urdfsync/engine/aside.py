@@ -16,7 +16,7 @@ from urdfsync.domain import Role
 from urdfsync.engine.actions import Action, Reason
 from urdfsync.engine.decide import Decision
 from urdfsync.engine.generation import Generation
-from urdfsync.engine.package_files import encode, state_of, text_hash
+from urdfsync.engine.package_files import encode, state_of
 from urdfsync.engine.settle import Former, Settled, known_bases
 from urdfsync.files import digest
 from urdfsync.state.record import FileRecord
@@ -35,17 +35,13 @@ def put_aside(
     index, texts = dict(_still_listed(generation, contents, settled, moved)), dict[str, bytes]()
     chosen = {key: former for key, former in settled.before.items() if key not in moved}
     chosen |= {moved[key]: former for key, former in settled.before_move.items() if key in moved}
-    beside = dict(_deleted_beside(generation, decision)) if chosen else {}
-    replaced = {**dict(_replaced(generation, decision, contents, settled)), **chosen}
-    for key, former in replaced.items():
+    beside = dict(_deleted(generation, decision)) if chosen else {}
+    for key, former in {**dict(_replaced(generation, decision, contents, settled)), **chosen}.items():
         path, after = PurePosixPath(inputs.folder.path(key)), contents.get(key, settled.contents.get(key))
         file = path.with_name(f"{path.stem}.{digest(former.text)[:8]}{path.suffix}").as_posix()
-        aside = Aside(file, None if after is None else state_of(after).text_sha256, former.record.hashes, former.bases)
-        if beside and key in chosen:
-            hashes = {inputs.folder.path(gone): text_hash(text) for gone, text in beside.items() if gone != key}
-            known = {**former.bases, **{text_hash(text): text for text in beside.values()}}
-            aside = msgspec.structs.replace(aside, texts=known, beside=hashes)
-        index[str(path)], texts[file] = aside, former.text
+        sha256, bases = None if after is None else state_of(after).text_sha256, (former.record.hashes, former.bases)
+        index[str(path)] = Aside(file, sha256, *bases, beside if key in chosen else {})
+        texts[file] = former.text
     return index, texts
 
 
@@ -70,11 +66,13 @@ def _still_listed(
             yield path, aside
 
 
-def _deleted_beside(generation: Generation, decision: Decision) -> Iterator[tuple[str, str]]:
-    """Yield the key and text of each file that goes with a choice, since nothing needs it any more."""
+def _deleted(generation: Generation, decision: Decision) -> Iterator[tuple[str, str]]:
+    """Yield the path and text of each model that goes with a choice, since nothing needs it any more."""
+    files, folder = generation.inputs.files, generation.inputs.folder
     for action in decision.actions:
-        if action.writes and action.reason is Reason.DELETE and action.role not in (Role.ORDER, Role.IMPORT):
-            yield action.path, generation.inputs.files.text(action.path) or ""
+        is_model = action.path.startswith(folder.key("")) and action.path.endswith(".mo")
+        if is_model and action.writes and action.reason is Reason.DELETE:
+            yield folder.path(action.path), files.text(action.path) or ""
 
 
 def _replaced(

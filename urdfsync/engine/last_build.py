@@ -134,7 +134,7 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
             return True
         try:
             if role is Role.IMPORT:
-                return any(file.hash == sha256 for key, file in self.imports.items() if self._target(key) == path)
+                return any(file.hash == sha256 for key, file in self.imports.items() if self._targets.get(key) == path)
             return self.package is not None and path in self.package.artifacts and self.package.hash(path) == sha256
         except NO_MODEL:
             return False
@@ -147,12 +147,12 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
         """Return the texts of a file's bases that are stored, by hash."""
         return {sha256: text for sha256 in record.hashes if (text := self.base(sha256)) is not None}
 
-    def _target(self, key: str) -> str | None:
-        """Return where the recorded model has an imported file; None if it refers to none of this key."""
+    @cached_property
+    def _targets(self) -> Mapping[str, str]:
+        """The paths that the recorded model has for imported files, by their keys."""
         snapshot, lookup = self.record.snapshot or {}, Lookup(self._robot.source, ())
         dependencies = self._domain.dependencies(snapshot, lookup, self.options or self._robot.options, {})
-        places = (place for dependency in dependencies for place in itertools.islice(places_of(dependency), MOST_PARTS))
-        return dict(places).get(key)
+        return dict(place for each in dependencies for place in itertools.islice(places_of(each), MOST_PARTS))
 
     @cached_property
     def aside(self) -> Mapping[str, Aside]:

@@ -85,11 +85,12 @@ def _settle(generation: Generation, decision: Decision, action: Action, chosen: 
             return False
         record = FileRecord(aside.bases)
         settled.texts.update(aside.texts)
-        for path, sha256 in aside.beside.items():
+        for path, model in aside.beside.items():
             if (place := inputs.folder.key(path)) not in settled.contents and inputs.files.read(place) is None:
-                settled.contents[place] = encode(aside.texts.get(sha256, ""))
-                settled.bases[place] = FileRecord((sha256,))
-                settled.generated.add(sha256)
+                settled.contents[place] = encode(model)
+                settled.bases[place], texts = known_bases(model)
+                settled.texts.update(texts)
+                settled.generated |= texts.keys()
     elif action.reason is Reason.ORPHAN and choice in (Choice.KEEP, Choice.TAKE):
         if choice is Choice.TAKE:
             content, reason, record = None, Reason.DELETE, inputs.last.files.get(key, FileRecord())

@@ -118,7 +118,7 @@ def settled_texts(files: PackageFiles, actions: Iterable[Action], merged: Contai
 
 def _are_generated(last: LastBuild, texts: Iterable[str]) -> bool:
     """Return whether builds wrote all of these texts."""
-    recorded = {sha256 for record in last.files.values() for sha256 in record.hashes}
+    recorded = last.record.hashes
     return all(sha256 in recorded or last.base(sha256) is not None for sha256 in map(text_hash, texts))
 
 

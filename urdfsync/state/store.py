@@ -51,9 +51,9 @@ class Aside(msgspec.Struct, frozen=True, omit_defaults=True):
     bases: tuple[str, ...] = ()
     """Hashes of what the text is an edit of, once it is given back."""
     texts: Mapping[str, str] = {}
-    """The texts of these bases that are known, and of `beside`, by hash."""
+    """The texts of these bases that are known, by hash."""
     beside: Mapping[str, str] = {}
-    """Hashes of files that nobody edited and that were deleted with it, by path below the package."""
+    """The texts of models that nobody edited and that went with it, by path below the package."""
 
 
 class Store:
@@ -118,7 +118,9 @@ class Store:
             index = msgspec.json.decode(self._bytes(self.aside_file(robot)) or b"{}", type=dict[str, Aside])
         except (ValueError, RecursionError):  # it may be a stranger's
             return {}
-        return {path: one for path, one in index.items() if all(map(statefile.is_inside, (path, one.file, *one.beside)))}
+        return {
+            path: one for path, one in index.items() if all(map(statefile.is_inside, (path, one.file, *one.beside)))
+        }
 
     def aside_text(self, robot: str, file: str) -> bytes | None:
         """Return a text that was put aside, by its path below the robot's folder."""
