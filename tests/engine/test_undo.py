@@ -261,3 +261,4 @@ def test_a_choice_can_be_undone_after_its_file_has_moved(project: Path, execute:
     assert not old.exists()
     execute("resolve", str(new), "--undo", code=None)
     assert "Real mine;" in new.read_text()
+    assert "end R8;" in new.read_text()

@@ -9,16 +9,16 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from pathlib import PurePosixPath
 
-import msgspec
-
 from urdfsync.diagnostics import OutputError
 from urdfsync.domain import Role
 from urdfsync.engine.actions import Action, Reason
 from urdfsync.engine.decide import Decision
 from urdfsync.engine.generation import Generation
-from urdfsync.engine.package_files import encode, state_of
+from urdfsync.engine.package_files import PackageFiles, encode, state_of
 from urdfsync.engine.settle import Former, Settled, known_bases
 from urdfsync.files import digest
+from urdfsync.modelica.files import class_parts
+from urdfsync.modelica.layout import with_within
 from urdfsync.state.record import FileRecord
 from urdfsync.state.store import Aside
 
@@ -30,40 +30,52 @@ def put_aside(
 
     `contents` are those that the build writes, by key; None for a deletion.
     """
-    inputs = generation.inputs
+    inputs, folder = generation.inputs, generation.inputs.folder
     moved = {action.origin: action.path for action in decision.actions if action.origin and action.writes}
-    index, texts = dict(_still_listed(generation, contents, settled, moved)), dict[str, bytes]()
-    chosen = {key: former for key, former in settled.before.items() if key not in moved}
-    chosen |= {moved[key]: former for key, former in settled.before_move.items() if key in moved}
-    beside = dict(_deleted(generation, decision)) if chosen else {}
-    for key, former in {**dict(_replaced(generation, decision, contents, settled)), **chosen}.items():
-        path, after = PurePosixPath(inputs.folder.path(key)), contents.get(key, settled.contents.get(key))
-        file = path.with_name(f"{path.stem}.{digest(former.text)[:8]}{path.suffix}").as_posix()
+    names = settled.names or decision.names
+    index, replaced = dict[str, Aside](), dict(_replaced(generation, decision, contents, names))
+    for path, aside in inputs.last.aside.items():
+        key = folder.key(path)
+        is_unsaved = _is_as_written(inputs.files, key, aside)
+        if key in moved and is_unsaved and (text := inputs.last.aside_text(aside.file)) is not None:
+            former = Former(text, FileRecord(aside.bases), aside.texts)
+            replaced.setdefault(moved[key], _follow(generation, former, moved[key], names))
+        elif is_unsaved or not contents:
+            index[path] = aside
+    for key in settled.contents:
+        index.pop(folder.path(key), None)  # another choice follows, or this one is taken back
+    chosen = {
+        moved.get(key, key): _follow(generation, former, moved[key], names) if key in moved else former
+        for key, former in settled.before.items()
+    }
+    beside, texts = dict(_deleted(generation, decision)) if chosen else {}, dict[str, bytes]()
+    for key, former in {**replaced, **chosen}.items():
+        place, after = PurePosixPath(folder.path(key)), contents.get(key, settled.contents.get(key))
+        file = place.with_name(f"{place.stem}.{digest(former.text)[:8]}{place.suffix}").as_posix()
         sha256, bases = None if after is None else state_of(after).text_sha256, (former.record.hashes, former.bases)
-        index[str(path)] = Aside(file, sha256, *bases, beside if key in chosen else {})
+        index[str(place)] = Aside(file, sha256, *bases, beside if key in chosen else {})
         texts[file] = former.text
     return index, texts
 
 
-def _still_listed(
-    generation: Generation, contents: Mapping[str, bytes | None], settled: Settled, moved: Mapping[str, str]
-) -> Iterator[tuple[str, Aside]]:
-    """Yield what could be given back before, and still can: no other choice follows, and no save before a write."""
-    inputs = generation.inputs
-    for path, aside in inputs.last.aside.items():
-        key = inputs.folder.key(path)
-        if key in settled.contents:
-            continue
-        try:
-            state = inputs.files.state_on_disk(key)
-            is_unsaved = (state.text_sha256 if state else None) == aside.after
-        except OutputError:  # the user has put a link or a folder in its place
-            is_unsaved = False
-        if key in moved and is_unsaved:
-            after = state_of(contents.get(moved[key]) or b"").text_sha256
-            yield inputs.folder.path(moved[key]), msgspec.structs.replace(aside, after=after)
-        elif is_unsaved or not contents:
-            yield path, aside
+def _is_as_written(files: PackageFiles, key: str, aside: Aside) -> bool:
+    """Return whether nobody has saved a file since its text was put aside."""
+    try:
+        state = files.state_on_disk(key)
+    except OutputError:  # the user has put a link or a folder in its place
+        return False
+    return (state.text_sha256 if state else None) == aside.after
+
+
+def _follow(generation: Generation, former: Former, key: str, names: Mapping[str, str]) -> Former:
+    """Return a text with its base as they are at the new path of their file: with new names."""
+    from urdfsync.merge.renames import rename, without_clashes  # imports the parser
+
+    text, base = former.text.decode(errors="surrogateescape"), next(iter(former.bases.values()), None)
+    if base is not None:
+        base, text = rename(base, text, without_clashes(names, text))
+    class_name = (generation.inputs.robot.target.package, *class_parts(generation.inputs.folder.path(key)))
+    return Former(encode(with_within(text, ".".join(class_name))), *known_bases(base))
 
 
 def _deleted(generation: Generation, decision: Decision) -> Iterator[tuple[str, str]]:
@@ -76,28 +88,30 @@ def _deleted(generation: Generation, decision: Decision) -> Iterator[tuple[str, 
 
 
 def _replaced(
-    generation: Generation, decision: Decision, contents: Mapping[str, bytes | None], settled: Settled
+    generation: Generation, decision: Decision, contents: Mapping[str, bytes | None], names: Mapping[str, str]
 ) -> Iterator[tuple[str, Former]]:
-    """Yield the key and text of each file that the build itself writes over or deletes, but for what it generated."""
-    inputs = generation.inputs
+    """Yield the key and text of each file that the build writes over or deletes, but for what this machine made."""
+    files, last = generation.inputs.files, generation.inputs.last
     for action in decision.actions:
-        key, conflict = action.path, decision.disputed.get(action.path)
-        if not action.writes or key not in contents or action.role is Role.ORDER or key in settled.before:
+        key, is_moving = action.path, action.reason is Reason.MOVE
+        if not action.writes or key not in contents or action.role is Role.ORDER or action.reason is Reason.MOVED_AWAY:
             continue
-        if action.reason is Reason.MOVE:
-            is_other = conflict is not None and encode(conflict.kept) != contents[key]
-            if conflict is not None and is_other and action.origin not in settled.before:
-                yield key, Former(encode(conflict.kept), *known_bases(conflict.kept_base))
-        elif action.reason is not Reason.MOVED_AWAY:
-            text = inputs.files.read_on_disk(key)
-            if text not in (None, contents[key]) and state_of(text or b"").text_sha256 not in inputs.last.notes.written:
-                yield key, Former(text or b"", *_bases_given_back(generation, action, text or b""))
+        text = files.read(action.origin or key) if is_moving else files.read_on_disk(key)
+        if text is None or state_of(text).text_sha256 in last.notes.written:
+            continue
+        former = Former(text, *_bases_given_back(generation, action, text))
+        if is_moving:
+            former = _follow(generation, former, key, names)
+        if former.text != contents[key]:
+            yield key, former
 
 
 def _bases_given_back(generation: Generation, action: Action, text: bytes) -> tuple[FileRecord, Mapping[str, str]]:
     """Return what a text is an edit of, once it is given back."""
     inputs = generation.inputs
-    record = inputs.last.files.get(action.path, FileRecord())
+    record = inputs.last.files.get(
+        action.path if action.reason is not Reason.MOVE else action.origin or "", FileRecord()
+    )
     # else the next build would merge it again, or take it for the text that it wrote
     is_merge = (action.reason is Reason.MERGE or action.is_left_by_git) and inputs.always_merges
     is_own_base = state_of(text).text_sha256 in record.hashes

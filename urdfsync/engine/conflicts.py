@@ -31,12 +31,6 @@ class Conflict(msgspec.Struct, frozen=True):
     """None without a base. Its `text` is None if both sides changed the same, or if the result makes no sense."""
     origin: str | None = None
     """Path of the user's file, if its element was renamed; None if it is at `path`."""
-    kept: str = ""
-    """The user's text as it stays if he keeps it: at its new path, what was renamed has its new name in it."""
-    kept_base: str | None = None
-    """The base of that text."""
-    names: Mapping[str, str] = {}
-    """The new names that it gets, by the old ones."""
     files: Mapping[str, str] = {}
     """Where the versions are saved, by kind: paths below the robot's folder in `.urdfsync/conflicts`."""
     edited: str | None = None
@@ -45,13 +39,6 @@ class Conflict(msgspec.Struct, frozen=True):
     """Why there is no merge although the sides do not contradict each other, as a clause; empty if there is one."""
     refused: Mapping[Choice, str] = {}
     """Preferences of a side that would bring in a name that means nothing, with the reason as a clause."""
-
-    @property
-    def generated_before(self) -> str:
-        """The generated text with the names that the user's has at its present path."""
-        from urdfsync.merge.renames import rename
-
-        return rename(self.generated, "", {new: old for old, new in self.names.items()})[0]
 
     def merged(self, choice: Choice | None) -> str | None:
         """Return the merged text that a choice asks for; None if there is none."""
@@ -70,7 +57,6 @@ def find_conflict(
     `bases` are all texts that may be the base, best first; `names` has new names by the old ones.
     """
     from urdfsync.merge import merge
-    from urdfsync.merge.renames import rename, without_clashes
 
     is_modelica = action.path.endswith(".mo")
     merges = [merge(base, mine, generated, is_modelica=is_modelica, names=names) for base in bases]
@@ -83,10 +69,7 @@ def find_conflict(
         first = first.rejected
         rejected = "two branches recorded different bases, which give different merges"
     base = bases[0] if bases else None
-    followed = without_clashes(names, mine) if names and base and action.origin and base != generated else {}
-    kept_base, kept = rename(base, mine, followed) if base and followed else (base, mine)
-    texts = Conflict(action.path, base, mine, generated, first, action.origin, kept, kept_base, followed)
-    return msgspec.structs.replace(texts, rejected=rejected)
+    return Conflict(action.path, base, mine, generated, first, origin=action.origin, rejected=rejected)
 
 
 def over_bases(bases: Sequence[str], mine: str, *, is_modelica: bool) -> list[tuple[str, str]]:

@@ -16,14 +16,12 @@ from urdfsync.engine.fit import Misfit, Package, find_misfits
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import Inputs
 from urdfsync.engine.needed import keep_needed
-from urdfsync.engine.package_files import PackageFiles, encode
+from urdfsync.engine.package_files import PackageFiles
 from urdfsync.engine.package_names import names_of, renamed_names
 from urdfsync.engine.parents import SharedFile, merge_order
 from urdfsync.engine.rules import File, decide, put_off
 from urdfsync.files import shown
 from urdfsync.markers import find_markers, join_sides
-from urdfsync.modelica.files import class_parts
-from urdfsync.modelica.layout import with_within
 from urdfsync.modelica.lexer import words_in
 from urdfsync.modelica.literals import numbers_only
 from urdfsync.modelica.names import is_identifier
@@ -42,6 +40,8 @@ class Decision(msgspec.Struct, frozen=True):
     """Changes of files around the package."""
     misfits: tuple[Misfit, ...] = ()
     """Names in the user's files that mean nothing, and texts that are no Modelica."""
+    names: Mapping[str, str] = {}
+    """New names by the old ones, of all that has got another one, if edits or texts put aside follow."""
 
     @property
     def conflicts(self) -> tuple[Conflict, ...]:
@@ -63,7 +63,7 @@ def decide_package(generation: Generation) -> Decision:
     inputs, files = generation.inputs, generation.inputs.files
     actions = tuple(_adjust(generation, action) for action in decide(_find_files(generation), generation.moves))
     disputed = [action for action in actions if action.reason in DISPUTED and action.role is not Role.IMPORT]
-    names = _renamed(generation) if disputed else {}
+    names = renamed_names(generation) if disputed or inputs.last.aside else {}
     conflicts = {one.path: _conflict(generation, one, names) for one in disputed}
     conflicts = _without_misfits(generation, actions, conflicts)
     actions, merged = resolve(actions, conflicts, merging=inputs.robot.on_conflict == "merge")
@@ -81,7 +81,7 @@ def decide_package(generation: Generation) -> Decision:
     waiting = {action.path for action in all_actions if action.is_waiting}
     shared = [file for file in shared if files.key(file.path) not in waiting]
     misfits = find_misfits(generation, all_actions, {**orders, **merged})
-    return Decision(all_actions, {**orders, **merged}, conflicts, tuple(shared), tuple(misfits))
+    return Decision(all_actions, {**orders, **merged}, conflicts, tuple(shared), tuple(misfits), names)
 
 
 def _find_unknown(inputs: Inputs, known: Collection[str]) -> Iterator[str]:
@@ -102,10 +102,7 @@ def _find_files(generation: Generation) -> dict[str, File]:
         record = last.file(key, role, on_disk, generated)
         is_edited = isinstance(on_disk, str) and on_disk not in (generated, *record.hashes)
         is_text = role is not Role.IMPORT and not inputs.files.is_chosen(key)
-        if is_edited and is_text and (meaning := united.find_meaning(inputs, key)):
-            inputs.files.left_by_git[key] = meaning.contradictions
-            if meaning.text is not None:
-                inputs.files.overlay[key] = encode(meaning.text)
+        if is_edited and is_text and united.lay_over(inputs, key):
             on_disk = inputs.files.on_disk(key, role)
             record = last.file(key, role, on_disk, generated)
         files[key] = File(role, owner, record, on_disk, generated)
@@ -143,13 +140,6 @@ def _adjust(generation: Generation, action: Action) -> Action:
     return action
 
 
-def _renamed(generation: Generation) -> Mapping[str, str]:
-    """Return new names by the old ones, of all that has got another one since the last complete build."""
-    if not generation.inputs.last.files or not generation.is_structural:
-        return {}
-    return renamed_names(generation)
-
-
 def _conflict(generation: Generation, action: Action, names: Mapping[str, str]) -> Conflict:
     """Return the texts of a file that both sides changed; if its class is a folder now, mine is its `package.mo`."""
     key, files, last = action.origin or action.path, generation.inputs.files, generation.inputs.last
@@ -163,19 +153,13 @@ def _conflict(generation: Generation, action: Action, names: Mapping[str, str]) 
     if mine is None:
         package = files.text(f"{key.removesuffix('.mo')}/package.mo") or ""
         reason, base = "you made a folder of the class", bases[0] if bases else None
-        return Conflict(
-            action.path, base, package, generated, None, origin=action.origin, kept=package, rejected=reason
-        )
+        return Conflict(action.path, base, package, generated, None, origin=action.origin, rejected=reason)
     if contradictions := files.left_by_git.get(key):
         texts, why = (bases[0] if bases else None, mine, generated, None), united.describe(contradictions)
-        return Conflict(action.path, *texts, origin=action.origin, kept=mine, rejected=why)
+        return Conflict(action.path, *texts, origin=action.origin, rejected=why)
     if not names and bases:  # a choice was undone after the build that brought new names
         names = names_of(generation, last.notes.renamed, frozenset(words_in(bases[0])))
-    conflict = find_conflict(action, bases, mine, generated, names)
-    if action.origin and action.path.endswith(".mo"):
-        package = ".".join((generation.inputs.robot.target.package, *class_parts(path)))
-        conflict = msgspec.structs.replace(conflict, kept=with_within(conflict.kept, package))
-    return conflict
+    return find_conflict(action, bases, mine, generated, names)
 
 
 def _without_misfits(

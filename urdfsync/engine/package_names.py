@@ -37,7 +37,7 @@ def renamed_names(generation: Generation) -> dict[str, str]:
 
     Only names that the package has no more, and those of elements that have left them to others.
     """
-    inputs, renamed = generation.inputs, renamed_identifiers(generation)
+    inputs, renamed = generation.inputs, renamed_identifiers(generation) if generation.is_structural else {}
     if not renamed:
         return {}
     recorded = {inputs.last.folder.path(key): one for key, one in inputs.last.files.items() if one.hashes}

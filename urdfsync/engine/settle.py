@@ -47,8 +47,8 @@ class Settled(msgspec.Struct):
     """Hashes of generated texts that are given back."""
     before: dict[str, Former] = msgspec.field(default_factory=dict)
     """What was there before the choice."""
-    before_move: dict[str, Former] = msgspec.field(default_factory=dict)
-    """The same of a file that moves, as it would have moved without the choice."""
+    names: Mapping[str, str] = {}
+    """New names by the old ones, as they were before."""
     keys: set[str] = msgspec.field(default_factory=set)
     """The keys under which the choices were made that came about."""
 
@@ -59,7 +59,7 @@ def settle(generation: Generation, decision: Decision) -> Settled:
     A choice is passed over if one of its two texts is another one now, and if it does not settle its file. Raises
     OutputError for a file with markers of git that is to be kept.
     """
-    settled = Settled()
+    settled = Settled(names=decision.names)
     choices, folder = generation.inputs.options.choices, generation.inputs.folder
     by_path = {action.path: action for action in decision.actions}
     for key, chosen in choices.items():
@@ -102,8 +102,12 @@ def _settle(generation: Generation, decision: Decision, action: Action, chosen: 
         return False
     elif choice is Choice.KEEP:
         content = inputs.files.read(key)
-        if conflict and action.origin:  # it gets its new names once it moves
-            record, texts = known_bases(conflict.generated_before)
+        if conflict and action.origin:
+            from urdfsync.merge.renames import rename, without_clashes  # imports the parser
+
+            # the file gets its new names once it moves
+            names = {new: old for old, new in without_clashes(decision.names, conflict.mine).items()}
+            record, texts = known_bases(rename(conflict.generated, "", names)[0])
             settled.texts.update(texts)
         if markers := find_markers((content or b"").decode(errors="replace")):
             message, hint = "unresolved merge markers", "settle them in the file, then build again"
@@ -118,8 +122,6 @@ def _settle(generation: Generation, decision: Decision, action: Action, chosen: 
     former = inputs.last.files.get(key, FileRecord())
     if mine is not None and (choice is not Choice.UNDO or content != mine):  # else there is nothing to bring back
         settled.before[key] = Former(mine, former, inputs.last.bases(former))
-    if conflict and action.origin:
-        settled.before_move[key] = Former(encode(conflict.kept), *known_bases(conflict.kept_base))
     settled.contents[key], settled.bases[key] = content, record
     changes = {"path": key, "origin": None, "reason": reason, "choice": choice, "is_waiting": False}
     settled.actions[key] = msgspec.structs.replace(action, **changes)

@@ -18,7 +18,7 @@ from urdfsync.engine.actions import ORPHANS, Action, Reason
 from urdfsync.engine.conflicts import over_bases
 from urdfsync.engine.inputs import Inputs
 from urdfsync.engine.last_build import LastBuild
-from urdfsync.engine.package_files import PackageFiles, text_hash
+from urdfsync.engine.package_files import PackageFiles, encode, text_hash
 from urdfsync.engine.rules import NEVER_WRITTEN
 from urdfsync.merge.lines import compare, find_regions
 from urdfsync.revisions import Revision
@@ -46,20 +46,21 @@ class Sides(NamedTuple):
     theirs: str
 
 
-class Meaning(NamedTuple):
-    """What a file stands for that is as git left it, of the versions of two branches."""
+def lay_over(inputs: Inputs, key: str) -> bool:
+    """Lay what a file stands for over it if it still is what git made of the versions of two branches.
 
-    text: str | None
-    """None if the branches contradict each other."""
-    contradictions: tuple[str, ...] = ()
-    """The element that each is about; empty for lines, which have no names."""
-
-
-def find_meaning(inputs: Inputs, key: str) -> Meaning | None:
-    """Return what a file stands for if it still is what git made of the versions of two branches; None for any other.
-
-    Of versions that nobody edited that is one of them. Of edits it is their merge by elements.
+    Of versions that nobody edited that is one of them. Of edits it is their merge by elements, if there is one.
     """
+    found = _find_meaning(inputs, key)
+    if isinstance(found, str):
+        inputs.files.overlay[key] = encode(found)
+    if found is not None:
+        inputs.files.left_by_git[key] = () if isinstance(found, str) else found
+    return found is not None
+
+
+def _find_meaning(inputs: Inputs, key: str) -> str | tuple[str, ...] | None:
+    """Return what a file stands for, or the elements that the branches contradict each other about; None for others."""
     last, file, text = inputs.last, inputs.files.path(key), inputs.files.any_text(key)
     has_markers = bool(markers.find_markers(text))
     if not has_markers and not last.files.get(key, NEVER_WRITTEN).is_ambiguous:
@@ -68,15 +69,15 @@ def find_meaning(inputs: Inputs, key: str) -> Meaning | None:
     if sides is None and has_markers:
         ours, theirs = markers.read_sides(_plain(text))
         # they are what two builds wrote, so that nobody can have settled anything
-        return Meaning(ours) if _are_generated(last, (ours, theirs)) else None
+        return ours if _are_generated(last, (ours, theirs)) else None
     if sides and _are_generated(last, (sides.ours, sides.theirs)):
-        return Meaning(sides.ours)
+        return sides.ours
     if sides is None or not has_markers:
         return None
     return _merge_edits(last, key, sides)
 
 
-def _merge_edits(last: LastBuild, key: str, sides: Sides) -> Meaning:
+def _merge_edits(last: LastBuild, key: str, sides: Sides) -> str | tuple[str, ...]:
     """Merge two versions by their elements: as they are, or else as edits of one generated text.
 
     What two exports say otherwise is no contradiction of people.
@@ -89,7 +90,7 @@ def _merge_edits(last: LastBuild, key: str, sides: Sides) -> Meaning:
     pairs = [sides[1:], *((ours[base], theirs[base]) for base in ours if base in theirs)]
     merges = [merge_file(sides.base, *pair, ()) for pair in pairs]
     merged, contradictions = next((merge for merge in merges if not merge[1]), merges[0])
-    return Meaning(None, contradictions) if contradictions else Meaning(merged)
+    return contradictions or merged
 
 
 def describe(contradictions: Sequence[str]) -> str:
