@@ -197,7 +197,8 @@ def forge(random: Random) -> list[str]:
     """Forge the state in the working folder by one to three means; return what was done."""
     record, _ = statefile.loads(STATE.read_text(), "arm.state")
     assert record is not None
-    chosen = random.sample(FORGERIES, random.randint(1, 3))
+    # what changes a model needs one
+    chosen = sorted(random.sample(FORGERIES, random.randint(1, 3)), key=lambda forgery: forgery is no_model)
     for forgery in chosen:
         record = forgery(record, random) if len(record.files) > 1 else record  # another one has taken the files away
     text = statefile.dumps(record)

@@ -19,9 +19,9 @@ from support.branches import export, perform
 from support.commands import Execute
 from support.files import fresh_models, models, unchanged
 from support.git import NEEDS_GIT, Repository
-from support.networks import LADDER, MODEL, configure, failure, run
+from support.networks import LADDER, MODEL, R2, configure, failure, kinds, run
 
-from urdfsync.engine.actions import Choice
+from urdfsync.engine.actions import Choice, Reason
 from urdfsync.markers import find_markers, join_sides, read_sides
 
 pytestmark = NEEDS_GIT
@@ -157,7 +157,9 @@ def test_a_file_that_a_build_writes_can_be_named(stop: Stop, execute: Execute, c
 def test_a_contradiction_is_for_people(stop: Stop, execute: Execute, case: str, style: str) -> None:
     stop(case, style=style)
     before = marked()
-    assert "since both branches changed" in execute("build", code=3).words
+    said = execute("build", code=3).words
+    assert "since both branches changed" in said
+    assert ("its generated text changed too" in said) == (case == "edits-that-contradict")
     assert "since both branches changed" in execute("resolve", MODEL, "--merge", code=3).words
     assert marked() == before
     assert "unresolved merge markers" in execute("resolve", MODEL, "--keep", code=2).words
@@ -174,6 +176,33 @@ def test_a_contradiction_can_be_given_up(stop: Stop, execute: Execute, tmp_path:
     stop("edits-that-contradict")
     assert execute("resolve", MODEL, "--take")
     assert models() == fresh_models(tmp_path / "fresh")
+
+
+@pytest.mark.parametrize("branch", ["edits", "drops"])
+def test_a_file_that_one_branch_edits_and_the_other_drops_is_an_orphan(
+    project: Path, monkeypatch: pytest.MonkeyPatch, execute: Execute, branch: str
+) -> None:
+    export(list)
+    run()
+    repository = Repository(project, monkeypatch)
+    repository.commit()
+    for name, steps in (("edits", "note Elements/R2.mo mine"), ("drops", "drop R2")):
+        repository.git("checkout", "-q", "-b", name, "main")
+        perform(steps, run)
+        repository.commit()
+    repository.git("checkout", "-q", branch)
+    with contextlib.suppress(subprocess.CalledProcessError):
+        repository.git("merge", "-q", "drops" if branch == "edits" else "edits")
+    for _ in range(2):
+        assert kinds(run())[R2] is Reason.ORPHAN
+        assert "R2" in Path(LADDER, "Elements/package.order").read_text().split()
+    execute("resolve", R2, "--keep")
+    assert kinds(run())[R2] is Reason.UNKNOWN
+    execute("resolve", R2, "--undo")
+    repository.commit()
+    assert kinds(run())[R2] is Reason.ORPHAN, "it is recorded now"
+    execute("resolve", R2, "--take")
+    assert not Path(R2).exists()
 
 
 def test_without_a_repository_markers_between_generated_texts_are_nobodys(stop: Stop, tmp_path: Path) -> None:

@@ -41,7 +41,8 @@ WAYS = ("merge -q --no-edit {other}", "rebase -q {other}", "cherry-pick --keep-r
 ANSWERS = ("--merge", "--merge --prefer mine", "--merge --prefer generated", "--keep", "--take")
 TAMED = ("comment", "declaration", "equation", "remark", "number", "sensor", "mention")
 """Edits that only add something, or change one number."""
-_SHARED = re.compile(r"  // shared mine\d{6}$", re.MULTILINE)
+_SHARED = re.compile(r"  // shared mine\d{6}(?:\n(?=[})\]])|$)", re.MULTILINE)
+"""A remark; of what the last export made the last one in brackets, these are closed in the next line."""
 _OWN = re.compile(r"^.*mine\d{6}.*\n", re.MULTILINE)
 _TAG = re.compile(r"mine\d{6}|7171\.\d{6}")
 _DECLARED = re.compile(r"(?m)^  (?:(?:final|parameter|replaceable|inner|outer) )*[A-Z][\w.]* (\w+)")

@@ -69,6 +69,17 @@ def test_what_was_said_is_said_again(folder: Path, command: list[str], capsys: C
     assert "as before" in said.err or "stray-state" in said.out + said.err or command[-1] == "-q"
 
 
+def test_a_finding_is_not_repeated_once_it_was_told(folder: Path, capsys: Capture) -> None:
+    for word in ("stray", "strange"):
+        shutil.copy(".urdfsync/robots/arm.state", f".urdfsync/robots/{word}.state")
+        for command, is_new in ((STATUS, True), (BUILD, True), (BUILD, False), (STATUS, False)):
+            time.sleep(0.1)
+            capsys.readouterr()
+            if uptodate.print_answer(command) is None:
+                cli.main(command)
+            assert (f"`{word}`" in "".join(capsys.readouterr())) == is_new, (word, command)
+
+
 def test_a_check_says_nothing_of_a_build(folder: Path) -> None:
     save(*CHECK)
     assert saved(*BUILD) is None

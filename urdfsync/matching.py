@@ -113,10 +113,14 @@ class _Matcher:
         }
         self._added = {(key[0], aspects) for key, aspects in self._after.items() if key not in self._taken and aspects}
         self._spread(self._pairs, is_late=True)
-        renames = {old: new[1] for old, new in self._pairs.items() if old != new}
-        renames = dict(sorted(renames.items(), key=lambda item: (item[0][0] != "link", item[0])))
+        renames = {old: self._pairs[old][1] for old in self._in_order() if self._pairs.get(old, old) != old}
         doubts = self._doubts(by_name, votes)
         return Matching(renames, {key: doubts[key] for key in sorted(doubts) if key not in declared.values()})
+
+    def _in_order(self) -> list[ElementKey]:
+        """Return the old elements by kind, as the domain has these, and by name."""
+        kinds = {kind: number for number, kind in enumerate(dict.fromkeys(kind for kind, _ in self._old))}
+        return sorted(self._old, key=lambda key: (kinds[key[0]], key[1]))
 
     def _take(self, matches: Iterable[tuple[ElementKey, ElementKey]]) -> dict[ElementKey, ElementKey]:
         """Add matches of elements that have none yet, and return these."""
@@ -298,6 +302,7 @@ class _Matcher:
             if self._taken.get(key, key) == key and self._before.get(key) != aspects:
                 changed[key[0], aspects].append(key)
         removed = {(key[0], aspects) for key, aspects in self._before.items() if key not in self._pairs}
+        held = {(key[0], aspect): key[1] for key in self._in_order() for aspect in self._before[key]}
         doubts = dict[ElementKey, Doubt]()
         for key in by_name:
             is_other = self._before[key] != self._after[key] and not self._shared(key, key)
@@ -308,7 +313,10 @@ class _Matcher:
             is_elsewhere = self._contradicts(key) or (places and key not in self._places[key])
             if twins or votes.get(key) or is_former or is_shuffled or is_elsewhere:
                 likely = next(iter((*votes.get(key, ()), *twins, *places)), ("", ""))
-                doubts[key] = self._doubt(key, likely[1], is_other=is_other)
+                formers = [held.get((key[0], aspect), "") for aspect in self._after[key]] if is_other else []
+                former = next(filter(None, formers), "")
+                shared = self._shared((key[0], former), key) if former else ()
+                doubts[key] = Doubt(" ".join(key), former, shared, likely[1])
         for key in by_name:
             around = self._new[key].neighbours.values()
             if key not in doubts and around and all(one in doubts for one in around):
@@ -326,11 +334,6 @@ class _Matcher:
         before, after = self._old[key].neighbours, self._new[key].neighbours
         known = [self._pairs.get(one) == after[relation] for relation, one in before.items() if relation in after]
         return bool(known) and not any(known) and any(one in self._pairs for one in before.values())
-
-    def _doubt(self, key: ElementKey, moved_to: str, *, is_other: bool) -> Doubt:
-        alike = (one for one in self._old if one[0] == key[0] and self._shared(one, key)) if is_other else ()
-        former = min(alike, default=("", ""))[1]
-        return Doubt(" ".join(key), former, self._shared((key[0], former), key) if former else (), moved_to)
 
     def _shared(self, old: ElementKey, new: ElementKey) -> tuple[str, ...]:
         """Return the names of the aspects that two elements share."""

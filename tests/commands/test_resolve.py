@@ -347,6 +347,19 @@ def test_a_file_that_moves_can_be_kept_and_gets_its_new_name(moved: Path, execut
     execute("build", "--check")
 
 
+def test_a_file_that_moves_later_is_kept_as_it_is_until_then(moved: Path, execute: Execute) -> None:
+    edit(MODEL, '"Element R2"', '"Element R2, 1 %"')
+    old, new = Path(f"{LADDER}/Elements/R2.mo"), Path(f"{LADDER}/Elements/R5.mo")
+    mine = old.read_text()
+    assert execute("resolve", str(old), "--keep", code=3).err == ""
+    assert old.read_text() == mine
+    assert conflicts(execute) == ["Ladder.mo"]
+    execute("resolve", MODEL, "--take")
+    assert not old.exists()
+    assert new.read_text() == mine.replace("R2P", "R5P").replace("model R2", "model R5").replace("end R2", "end R5")
+    execute("build", "--check")
+
+
 # What is saved meanwhile
 
 

@@ -142,6 +142,8 @@ def test_what_the_user_does_with_a_file_that_is_his_is_his_business(project: Pat
     elif how == "empty":
         path.touch()
     assert not run(full=True).failed
+    resistor(150)
+    assert run().writes
     assert "Elements/C1.mo" not in Path(MANIFEST).read_text()
 
 

@@ -9,10 +9,10 @@ from pathlib import Path
 import pytest
 from support.commands import Execute
 from support.files import unchanged
-from support.networks import LADDER, RECORD, add_resistor, configure, conflicts, edit, resistor, run
+from support.networks import LADDER, MINE, R2, RECORD, add_resistor, configure, conflicts, edit, resistor, run
 
 from urdfsync import config
-from urdfsync.engine.actions import Choice, UsersChoice, sides_hash
+from urdfsync.engine.actions import Choice, Reason, UsersChoice, sides_hash
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
 
@@ -32,16 +32,46 @@ def deleted(execute: Execute, project: Path) -> Path:
     return orphan
 
 
-def test_an_orphan_that_was_deleted_can_be_given_back(deleted: Path, execute: Execute) -> None:
+def test_an_orphan_that_was_deleted_is_given_back_with_the_record_beside_it(deleted: Path, execute: Execute) -> None:
     edit("ladder.json", "220.5", "330")
     execute("build")
-    execute("resolve", str(deleted), "--undo")
+    assert execute("resolve", str(deleted), "--undo").err == ""
     for _ in range(2):
         assert deleted.read_text() == Path("mine.txt").read_text()
         listed = Path(LADDER, "Elements/package.order").read_text().split()
-        assert [name for name in listed if name.startswith("R2")] == ["R2"]
+        assert [name for name in listed if name.startswith("R2")] == ["R2", "R2Parameters"]
+        found = {action.path: action.reason for action in run(dry=True).actions}
+        assert found[f"{LADDER}/Elements/R2Parameters.mo"] is Reason.NEEDED
         execute("build", "--check")
     execute("resolve", str(deleted), "--undo", code=2)
+
+
+def test_a_model_is_given_back_with_the_classes_that_it_uses(project: Path, execute: Execute) -> None:
+    """They were deleted once no text used them any more."""
+    execute("build")
+    edit(MODEL, '"Element R2"', MINE)
+    edit("ladder.json", '{"name": "R2", "between": ["middle", "out"]', '{"name": "R3", "between": ["in", "out"]')
+    execute("resolve", MODEL, "--take")
+    assert not Path(R2).exists()
+    execute("resolve", MODEL, "--undo", code=3)
+    execute("resolve", MODEL, "--keep")
+    assert Path(R2).exists()
+
+
+def test_a_choice_that_changed_no_text_is_taken_back_once(deleted: Path, execute: Execute) -> None:
+    execute("resolve", str(deleted), "--undo")
+    execute("resolve", str(deleted), "--keep")
+    execute("resolve", str(deleted), "--undo")
+    assert run(dry=True).actions.decided[0].reason is Reason.ORPHAN
+    printed = execute("resolve", str(deleted), "--undo", "--quiet", code=2)
+    assert printed.errors == [line for line in printed.errors if "error: nothing to undo" in line] != []
+
+
+def test_nothing_to_undo_is_said_of_a_file_in_conflict_too(project: Path, execute: Execute) -> None:
+    execute("build")
+    edit(RECORD, "100", "101")
+    resistor(150)
+    assert "error: nothing to undo" in execute("resolve", RECORD, "--undo", "--quiet", code=3).err
 
 
 def test_a_file_that_took_the_place_of_a_deleted_one_stays(deleted: Path, execute: Execute) -> None:
@@ -231,3 +261,4 @@ def test_a_choice_can_be_undone_after_its_file_has_moved(project: Path, execute:
     assert not old.exists()
     execute("resolve", str(new), "--undo", code=None)
     assert "Real mine;" in new.read_text()
+    assert "end R8;" in new.read_text()

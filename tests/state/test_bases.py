@@ -76,6 +76,19 @@ def test_an_answer_depends_on_all_files_and_one_number_touches_two_at_most(proje
     assert mentioned() <= stored().keys()
 
 
+@pytest.mark.parametrize("damage", ["garbage", "0" * 64 + ' "text"', "<<<<<<< ours"])
+def test_a_damaged_line_is_a_warning_until_a_build_writes_the_file_anew(project: Path, damage: str) -> None:
+    run()
+    file, before = file_of(RECORD), file_of(RECORD).read_text()
+    file.write_text(f"{before}{damage}\n")
+    line = before.count("\n") + 1
+    for dry in (True, False):
+        (warning,) = [found for found in run(dry=dry).diagnostics if found.code == "broken-state"]
+        assert (warning.file, warning.line) == (file.as_posix(), line)
+    assert file.read_text() == before
+    assert not run().diagnostics
+
+
 TEMPLATES = "  Real heat;"
 """What new templates declare in the model of each element."""
 

@@ -182,7 +182,7 @@ def _compare(
         elif reason := next((one.refused.get(choice) for one in result.conflict_texts if one.path == path), None):
             hint = "prefer the other side, or use --edit"
             problems.append(Diagnostic(Severity.WARNING, "no-merge", reason, place, hint=hint))
-        elif not (before.is_conflict or before.is_left_by_git):
+        elif choice is Choice.UNDO or not (before.is_conflict or before.is_left_by_git):
             problems.append(_without_effect(choice, before, place))
     return accepted, problems
 

@@ -104,6 +104,7 @@ class Reason(enum.StrEnum):
               "{n} no longer generated but kept because your files need {them}")
     CONFLICT = ("conflict", Kind.CONFLICT, FileStatus.CONFLICT, "you edited it, and its generated text changed too",
                 "{n} conflict{s}")
+    MARKERS = "markers", Kind.CONFLICT, FileStatus.CONFLICT, "git could not merge the edits of two branches"
     UNOWNED = "unowned", Kind.CONFLICT, FileStatus.CONFLICT, "urdfsync did not write the file that is there"
     ASKED = "asked", Kind.CONFLICT, FileStatus.CONFLICT, "you edited it, and it may belong to another part now"
     UNKNOWN = "unknown", Kind.LEAVE, FileStatus.UNKNOWN, "nothing generates it, and nothing is recorded of it"
@@ -128,20 +129,9 @@ class Reason(enum.StrEnum):
 ORPHANS = frozenset(reason for reason in Reason if reason.status is FileStatus.ORPHAN)
 """Actions that leave a file although nothing generates it any longer."""
 CONFLICTS = frozenset(reason for reason in Reason if reason.kind is Kind.CONFLICT)
-DISPUTED = frozenset({Reason.CONFLICT, Reason.UNOWNED, Reason.ASKED, Reason.MOVE})
+DISPUTED = CONFLICTS | {Reason.MOVE}
 """Actions that the texts, or the user, decide on."""
-USERS = frozenset(
-    {
-        Reason.KEEP,
-        Reason.INCLUDED,
-        Reason.MERGE,
-        Reason.MOVE,
-        Reason.UNDO,
-        Reason.CONFLICT,
-        Reason.ASKED,
-        Reason.ORPHAN,
-    }
-)
+USERS = frozenset({Reason.KEEP, Reason.INCLUDED, Reason.MERGE, Reason.UNDO, Reason.ORPHAN}) | DISPUTED
 """Actions after which the file still has text of the user's."""
 
 

@@ -6,18 +6,19 @@ what can be given back forgets a text once its file is saved again and another b
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import PurePosixPath
 
-import msgspec
-
+from urdfsync.diagnostics import OutputError
 from urdfsync.domain import Role
-from urdfsync.engine.actions import Reason
+from urdfsync.engine.actions import Action, Reason
 from urdfsync.engine.decide import Decision
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.package_files import PackageFiles, encode, state_of
-from urdfsync.engine.settle import Settled, known_bases
+from urdfsync.engine.settle import Former, Settled, known_bases
 from urdfsync.files import digest
+from urdfsync.modelica.files import class_parts
+from urdfsync.modelica.layout import with_within
 from urdfsync.state.record import FileRecord
 from urdfsync.state.store import Aside
 
@@ -29,53 +30,92 @@ def put_aside(
 
     `contents` are those that the build writes, by key; None for a deletion.
     """
-    inputs, index, texts = generation.inputs, dict[str, Aside](), dict[str, bytes]()
-    on_disk = PackageFiles(inputs.config, inputs.robot) if settled.contents else inputs.files
+    inputs, folder = generation.inputs, generation.inputs.folder
     moved = {action.origin: action.path for action in decision.actions if action.origin and action.writes}
+    names = settled.names or decision.names
+    index, replaced = dict[str, Aside](), dict(_replaced(generation, decision, contents, names))
     for path, aside in inputs.last.aside.items():
-        key = inputs.folder.key(path)
-        if key in moved and on_disk.hash(key, Role.MODEL) == aside.after:
-            after = contents.get(moved[key])
-            aside = msgspec.structs.replace(aside, after=state_of(after or b"").text_sha256)
-            index[inputs.folder.path(moved[key])] = aside
-        elif not contents or on_disk.hash(key, Role.MODEL) == aside.after:
+        key = folder.key(path)
+        is_unsaved = _is_as_written(inputs.files, key, aside)
+        if key in moved and is_unsaved and (text := inputs.last.aside_text(aside.file)) is not None:
+            former = Former(text, FileRecord(aside.bases), aside.texts)
+            replaced.setdefault(moved[key], _follow(generation, former, moved[key], names))
+        elif is_unsaved or not contents:
             index[path] = aside
-
-    def add(key: str, text: bytes, record: FileRecord, bases: Mapping[str, str]) -> None:
-        path, after = PurePosixPath(inputs.folder.path(key)), contents.get(key, settled.contents.get(key))
-        file = path.with_name(f"{path.stem}.{digest(text)[:8]}{path.suffix}").as_posix()
-        sha256 = None if after is None else state_of(after).text_sha256
-        index[str(path)], texts[file] = Aside(file, sha256, record.hashes, dict(bases)), text
-
-    for key, before in settled.before.items():
-        if key not in moved:
-            add(key, *before)
-        elif key in settled.before_move:
-            add(moved[key], *settled.before_move[key])
-    for action in decision.actions:
-        key, conflict = action.path, decision.disputed.get(action.path)
-        if not action.writes or key not in contents or action.role is Role.ORDER or key in settled.before:
-            continue
-        if action.reason is Reason.MOVE:
-            is_other = conflict is not None and encode(conflict.kept) != contents[key]
-            if conflict is not None and is_other and action.origin not in settled.before:
-                add(key, encode(conflict.kept), *known_bases(conflict.kept_base))
-        elif (
-            action.reason is not Reason.MOVED_AWAY
-            and key not in moved
-            and (former := on_disk.read(key)) not in (None, contents[key])
-        ):
-            former_hash = state_of(former or b"").text_sha256
-            if former_hash in inputs.last.notes.written:
-                continue
-            record = inputs.last.files.get(key, FileRecord())
-            bases: Mapping[str, str] = inputs.last.bases(record)
-            # else the next build would merge it again, or take it for the text that it wrote
-            is_merge = (action.reason is Reason.MERGE or action.is_left_by_git) and inputs.always_merges
-            is_own_base = former_hash in record.hashes
-            if action.generated and action.role is not Role.IMPORT and (is_merge or is_own_base):
-                record, bases = known_bases(generation.package.content(inputs.folder.path(key)).decode())
-            elif is_own_base:
-                record, bases = FileRecord(), {}
-            add(key, former or b"", record, bases)
+    for key in settled.contents:
+        index.pop(folder.path(key), None)  # another choice follows, or this one is taken back
+    chosen = {
+        moved.get(key, key): _follow(generation, former, moved[key], names) if key in moved else former
+        for key, former in settled.before.items()
+    }
+    beside, texts = dict(_deleted(generation, decision)) if chosen else {}, dict[str, bytes]()
+    for key, former in {**replaced, **chosen}.items():
+        place, after = PurePosixPath(folder.path(key)), contents.get(key, settled.contents.get(key))
+        file = place.with_name(f"{place.stem}.{digest(former.text)[:8]}{place.suffix}").as_posix()
+        sha256, bases = None if after is None else state_of(after).text_sha256, (former.record.hashes, former.bases)
+        index[str(place)] = Aside(file, sha256, *bases, beside if key in chosen else {})
+        texts[file] = former.text
     return index, texts
+
+
+def _is_as_written(files: PackageFiles, key: str, aside: Aside) -> bool:
+    """Return whether nobody has saved a file since its text was put aside."""
+    try:
+        state = files.state_on_disk(key)
+    except OutputError:  # the user has put a link or a folder in its place
+        return False
+    return (state.text_sha256 if state else None) == aside.after
+
+
+def _follow(generation: Generation, former: Former, key: str, names: Mapping[str, str]) -> Former:
+    """Return a text with its base as they are at the new path of their file: with new names."""
+    from urdfsync.merge.renames import rename, without_clashes  # imports the parser
+
+    text, base = former.text.decode(errors="surrogateescape"), next(iter(former.bases.values()), None)
+    if base is not None:
+        base, text = rename(base, text, without_clashes(names, text))
+    class_name = (generation.inputs.robot.target.package, *class_parts(generation.inputs.folder.path(key)))
+    return Former(encode(with_within(text, ".".join(class_name))), *known_bases(base))
+
+
+def _deleted(generation: Generation, decision: Decision) -> Iterator[tuple[str, str]]:
+    """Yield the path and text of each model that goes with a choice, since nothing needs it any more."""
+    files, folder = generation.inputs.files, generation.inputs.folder
+    for action in decision.actions:
+        is_model = action.path.startswith(folder.key("")) and action.path.endswith(".mo")
+        if is_model and action.writes and action.reason is Reason.DELETE:
+            yield folder.path(action.path), files.text(action.path) or ""
+
+
+def _replaced(
+    generation: Generation, decision: Decision, contents: Mapping[str, bytes | None], names: Mapping[str, str]
+) -> Iterator[tuple[str, Former]]:
+    """Yield the key and text of each file that the build writes over or deletes, but for what this machine made."""
+    files, last = generation.inputs.files, generation.inputs.last
+    origins = {action.origin for action in decision.actions if action.origin and action.writes}
+    for action in decision.actions:
+        key, is_moving = action.path, action.reason is Reason.MOVE
+        if not action.writes or key not in contents or action.role is Role.ORDER or (key in origins and not is_moving):
+            continue  # the text goes elsewhere
+        text = files.read(action.origin or key) if is_moving else files.read_on_disk(key)
+        if text is None or state_of(text).text_sha256 in last.notes.written:
+            continue
+        former = Former(text, *_bases_given_back(generation, action, text))
+        if is_moving:
+            former = _follow(generation, former, key, names)
+        if former.text != contents[key]:
+            yield key, former
+
+
+def _bases_given_back(generation: Generation, action: Action, text: bytes) -> tuple[FileRecord, Mapping[str, str]]:
+    """Return what a text is an edit of, once it is given back."""
+    inputs = generation.inputs
+    record = inputs.last.files.get(
+        action.path if action.reason is not Reason.MOVE else action.origin or "", FileRecord()
+    )
+    # else the next build would merge it again, or take it for the text that it wrote
+    is_merge = (action.reason is Reason.MERGE or action.is_left_by_git) and inputs.always_merges
+    is_own_base = state_of(text).text_sha256 in record.hashes
+    if action.generated and action.role is not Role.IMPORT and (is_merge or is_own_base):
+        return known_bases(generation.package.content(inputs.folder.path(action.path)).decode())
+    return (FileRecord(), {}) if is_own_base else (record, inputs.last.bases(record))

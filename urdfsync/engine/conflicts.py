@@ -31,10 +31,6 @@ class Conflict(msgspec.Struct, frozen=True):
     """None without a base. Its `text` is None if both sides changed the same, or if the result makes no sense."""
     origin: str | None = None
     """Path of the user's file, if its element was renamed; None if it is at `path`."""
-    kept: str = ""
-    """The user's text as it stays if he keeps it: at its new path, what was renamed has its new name in it."""
-    kept_base: str | None = None
-    """The base of that text."""
     files: Mapping[str, str] = {}
     """Where the versions are saved, by kind: paths below the robot's folder in `.urdfsync/conflicts`."""
     edited: str | None = None
@@ -63,7 +59,6 @@ def find_conflict(
     `bases` are all texts that may be the base, best first; `names` has new names by the old ones.
     """
     from urdfsync.merge import merge
-    from urdfsync.merge.renames import rename, without_clashes
 
     is_modelica = action.path.endswith(".mo")
     merges = [merge(base, mine, generated, is_modelica=is_modelica, names=names) for base in bases]
@@ -76,11 +71,7 @@ def find_conflict(
         first = first.rejected
         rejected = "two branches recorded different bases, which give different merges"
     base = bases[0] if bases else None
-    kept_base, kept = base, mine
-    if names and base and action.origin and base != generated:
-        kept_base, kept = rename(base, mine, without_clashes(names, mine))
-    texts = base, mine, generated, first
-    return Conflict(action.path, *texts, origin=action.origin, kept=kept, kept_base=kept_base, rejected=rejected)
+    return Conflict(action.path, base, mine, generated, first, origin=action.origin, rejected=rejected)
 
 
 def over_bases(bases: Sequence[str], mine: str, *, is_modelica: bool) -> list[tuple[str, str]]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 
 import msgspec
 
@@ -15,6 +15,7 @@ from urdfsync.engine.conflicts import PREFERENCES, Conflict, find_conflict, reso
 from urdfsync.engine.edit_origins import EDITED, find_moved_edits
 from urdfsync.engine.fit import Misfit, Package, find_misfits
 from urdfsync.engine.generation import Generation
+from urdfsync.engine.inputs import Inputs
 from urdfsync.engine.needed import keep_needed
 from urdfsync.engine.package_files import PackageFiles
 from urdfsync.engine.package_names import names_of, renamed_names
@@ -24,8 +25,6 @@ from urdfsync.engine.rules import File, decide, put_off
 from urdfsync.files import shown
 from urdfsync.markers import find_markers, join_sides
 from urdfsync.matching import Doubt
-from urdfsync.modelica.files import class_parts
-from urdfsync.modelica.layout import with_within
 from urdfsync.modelica.lexer import words_in
 from urdfsync.modelica.literals import numbers_only
 from urdfsync.modelica.names import is_identifier
@@ -44,6 +43,8 @@ class Decision(msgspec.Struct, frozen=True):
     """Changes of files around the package."""
     misfits: tuple[Misfit, ...] = ()
     """Names in the user's files that mean nothing, and texts that are no Modelica."""
+    names: Mapping[str, str] = {}
+    """New names by the old ones, of all that has got another one, if edits or texts put aside follow."""
 
     @property
     def conflicts(self) -> tuple[Conflict, ...]:
@@ -67,7 +68,7 @@ def decide_package(generation: Generation) -> Decision:
     doubts = _find_doubts(generation, decided)
     actions = tuple(_adjust(generation, action, doubts) for action in decided)
     disputed = [action for action in actions if action.reason in DISPUTED and action.role is not Role.IMPORT]
-    names = _renamed(generation) if disputed else {}
+    names = renamed_names(generation) if disputed or inputs.last.aside else {}
     conflicts = {one.path: _conflict(generation, one, names, doubts) for one in disputed}
     conflicts = _without_misfits(generation, actions, conflicts)
     actions, merged = resolve(actions, conflicts, merging=inputs.robot.on_conflict == "merge")
@@ -79,21 +80,21 @@ def decide_package(generation: Generation) -> Decision:
     has_conflicts = any(action.is_conflict for action in actions)
     numbers = _renumbered(generation, actions, merged, conflicts) if has_conflicts else ()
     origins = set(generation.moves.values())
-    unknown = _find_unknown(generation, actions)
+    known = {action.path for action in (*actions, *order_actions)}
+    unknown = [Action(key, Reason.UNKNOWN, Role.MODEL) for key in _find_unknown(inputs, known)]
     all_actions = Actions(put_off((*actions, *order_actions, *unknown), numbers, origins, inputs.has_moved))
     waiting = {action.path for action in all_actions if action.is_waiting}
     shared = [file for file in shared if files.key(file.path) not in waiting]
     misfits = find_misfits(generation, all_actions, {**orders, **merged})
-    return Decision(all_actions, {**orders, **merged}, conflicts, tuple(shared), tuple(misfits))
+    return Decision(all_actions, {**orders, **merged}, conflicts, tuple(shared), tuple(misfits), names)
 
 
-def _find_unknown(generation: Generation, actions: Iterable[Action]) -> Iterator[Action]:
+def _find_unknown(inputs: Inputs, known: Collection[str]) -> Iterator[str]:
     """Yield the Modelica files in the package that nothing generates and that no record knows."""
-    inputs, known = generation.inputs, {action.path for action in actions}
     others = tuple(f"{inputs.files.key(one.folder)}/" for one in inputs.config.robots if one != inputs.robot)
-    for key in sorted(inputs.files.classes(inputs.folder) - known):
+    for key in sorted(inputs.files.classes(inputs.folder) - set(known)):
         if not key.startswith(others) and key.removesuffix("/package.mo") + ".mo" not in known:
-            yield Action(key, Reason.UNKNOWN, Role.MODEL)
+            yield key
 
 
 def _find_files(generation: Generation) -> dict[str, File]:
@@ -105,9 +106,8 @@ def _find_files(generation: Generation) -> dict[str, File]:
         on_disk = inputs.files.on_disk(key, role)
         record = last.file(key, role, on_disk, generated)
         is_edited = isinstance(on_disk, str) and on_disk not in (generated, *record.hashes)
-        is_text = role is not Role.IMPORT and key not in inputs.files.chosen
-        if is_edited and is_text and (meaning := united.find_meaning(inputs, key)):
-            inputs.files.meanings[key] = meaning
+        is_text = role is not Role.IMPORT and not inputs.files.is_chosen(key)
+        if is_edited and is_text and united.lay_over(inputs, key):
             on_disk = inputs.files.on_disk(key, role)
             record = last.file(key, role, on_disk, generated)
         files[key] = File(role, owner, record, on_disk, generated)
@@ -121,16 +121,20 @@ def _find_files(generation: Generation) -> dict[str, File]:
         path = last.folder.path(key)
         old = before.get(path)
         add(key, old.role if old else role_of(path), old.owner if old else "", None)
+    for key, record in united.find_left_records(inputs, _find_unknown(inputs, files)).items():
+        role = role_of(inputs.folder.path(key))
+        if not last.is_chosen(key, on_disk := inputs.files.on_disk(key, role)):
+            files[key] = File(role, "", record, on_disk, None)
     return files
 
 
 def _adjust(generation: Generation, action: Action, doubts: Mapping[str, Doubt]) -> Action:
     """Return the action that contents and options lead to, beyond what hashes say."""
     inputs = generation.inputs
-    meaning = inputs.files.meanings.get(action.path)
-    if meaning and meaning.contradictions and action.reason is Reason.KEEP:
-        return msgspec.structs.replace(action, reason=Reason.CONFLICT)
-    if meaning and not meaning.contradictions:
+    contradictions = inputs.files.left_by_git.get(action.path)
+    if contradictions and action.reason is Reason.KEEP:
+        return msgspec.structs.replace(action, reason=Reason.MARKERS)
+    if contradictions == ():
         action = msgspec.structs.replace(action, is_left_by_git=True)
     if action.path in doubts:
         return msgspec.structs.replace(action, reason=Reason.ASKED)
@@ -153,13 +157,6 @@ def _find_doubts(generation: Generation, actions: Sequence[Action]) -> dict[str,
     return {key: doubt for key, doubt in doubts.items() if doubt.element not in generation.answered}
 
 
-def _renamed(generation: Generation) -> Mapping[str, str]:
-    """Return new names by the old ones, of all that has got another one since the last complete build."""
-    if not generation.inputs.last.files or not generation.is_structural:
-        return {}
-    return renamed_names(generation)
-
-
 def _conflict(
     generation: Generation, action: Action, names: Mapping[str, str], doubts: Mapping[str, Doubt]
 ) -> Conflict:
@@ -175,22 +172,16 @@ def _conflict(
     if mine is None:
         package = files.text(f"{key.removesuffix('.mo')}/package.mo") or ""
         reason, base = "you made a folder of the class", bases[0] if bases else None
-        return Conflict(
-            action.path, base, package, generated, None, origin=action.origin, kept=package, rejected=reason
-        )
+        return Conflict(action.path, base, package, generated, None, origin=action.origin, rejected=reason)
     if doubt := doubts.get(action.path):
-        texts, asked = (bases[0] if bases else None, mine, generated, None), describe_doubt(doubt)
-        return Conflict(action.path, *texts, kept=mine, rejected=asked, moved_to=doubt.moved_to)
-    if (meaning := files.meanings.get(key)) and meaning.contradictions:
-        texts = bases[0] if bases else None, mine, generated, None
-        return Conflict(action.path, *texts, origin=action.origin, kept=mine, rejected=united.describe(meaning))
+        texts, why = (bases[0] if bases else None, mine, generated, None), describe_doubt(doubt)
+        return Conflict(action.path, *texts, rejected=why, moved_to=doubt.moved_to)
+    if contradictions := files.left_by_git.get(key):
+        texts, why = (bases[0] if bases else None, mine, generated, None), united.describe(contradictions)
+        return Conflict(action.path, *texts, origin=action.origin, rejected=why)
     if not names and bases:  # a choice was undone after the build that brought new names
         names = names_of(generation, last.notes.renamed, frozenset(words_in(bases[0])))
-    conflict = find_conflict(action, bases, mine, generated, names)
-    if action.origin and action.path.endswith(".mo"):
-        package = ".".join((generation.inputs.robot.target.package, *class_parts(path)))
-        conflict = msgspec.structs.replace(conflict, kept=with_within(conflict.kept, package))
-    return conflict
+    return find_conflict(action, bases, mine, generated, names)
 
 
 def _without_misfits(
@@ -269,8 +260,8 @@ def _refuse_markers(files: PackageFiles, actions: Iterable[Action], orders: Iter
     errors = []
     edited = [a for a in actions if a.mine not in (None, a.base, a.generated) and a.role is not Role.IMPORT]
     # what the branches contradict each other about is told as a conflict; the user asked for what is given back
-    told = {action.origin or action.path for action in edited if action.is_conflict} & files.meanings.keys()
-    told |= files.chosen.keys()
+    told = {action.origin or action.path for action in edited if action.is_conflict} & files.left_by_git.keys()
+    told |= files.overlay.keys()
     for key in dict.fromkeys((*(action.origin or action.path for action in edited), *orders)):
         found = find_markers(files.text(key) or "")
         if found and key not in told:

@@ -90,14 +90,17 @@ def _look(generation: Generation, commit: Revision, edited: Iterable[Action]) ->
         return {}
     try:
         record, _ = statefile.loads(contents[state].decode(errors="replace"), commit.label(state))
-        if record is None or record.snapshot is None or record.snapshot == inputs.last.record.snapshot:
+        if record is None or record.is_united or record.snapshot in (None, inputs.last.record.snapshot):
             return {}
         matching = find_matching(inputs.domain, record.snapshot, generation.now.snapshot, {})
+        known = inputs.domain.features(record.snapshot)
     except (StateError, *NO_MODEL):
         return {}
     doubts = dict[str, Doubt]()
     for action in same:
         kind, _, name = action.owner.partition(" ")
+        if (kind, name) not in known:
+            continue
         moved_to = matching.renames.get((kind, name), name)
         former = next((old for (one, old), new in matching.renames.items() if (one, new) == (kind, name)), "")
         if moved_to != name or former:

@@ -15,7 +15,7 @@ from urdfsync.engine.fit import Misfit
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import Inputs, orphaned_robots
 from urdfsync.engine.package_files import key_of
-from urdfsync.engine.package_names import begins_with, new_name, new_names, recently_renamed
+from urdfsync.engine.package_names import identifier_of, new_name, new_names, recently_renamed
 from urdfsync.files import shown
 from urdfsync.modelica.unresolved import Unresolved
 from urdfsync.state.store import Store
@@ -85,7 +85,8 @@ def _diagnose(generation: Generation, misfits: Sequence[Misfit]) -> Iterator[Dia
             hint="; ".join(filter(None, (hint, also))),
         )
         if first.use and new_name(first.use.part, renamed, first.use.candidates):
-            pairs[next(pair for pair in renamed.items() if begins_with(first.use.part, pair[0]))] = first
+            old = identifier_of(first.use.part, renamed)
+            pairs[old, renamed[old]] = first
     if pairs:
         command = " ".join(("urdfsync resolve --rename-uses", *(f"{old}={new}" for old, new in sorted(pairs))))
         message, place = "your files can get the new names", [*pairs.values()][-1]

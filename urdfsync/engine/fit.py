@@ -305,7 +305,8 @@ class Package(Mapping[str, bytes]):
         files, folder = self._inputs.files, self._inputs.folder
         replaced = list[tuple[str, str]]()
         if not all(action.is_waiting for action in self._actions):  # else the package is as it was before the choices
-            replaced += [(folder.path(key), text_of(text)) for key, text in files.replaced.items()]
+            chosen = (key for key in files.overlay if key.endswith(".mo") and files.is_chosen(key))
+            replaced += [(folder.path(key), text_of(files.read_on_disk(key) or b"")) for key in chosen]
         for action in self._actions:
             if action.writes and (key := action.origin or action.path).endswith(".mo"):
                 replaced.append((folder.path(action.path), files.any_text(key)))

@@ -49,6 +49,8 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
         if last.version is None or not matching.renames:
             return matching
         old = self.inputs.domain.features(last.version.snapshot)
+        if last.record.is_united:  # elements of both branches: nobody knows which of them a name was
+            return Matching(without_exchanges(matching, old).renames)
         found = {
             key: new for key, new in matching.renames.items() if key not in self._confirmed and key[1] not in declared
         }

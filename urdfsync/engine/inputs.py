@@ -21,7 +21,6 @@ from urdfsync.engine.program import program_hash
 from urdfsync.engine.source import Source
 from urdfsync.engine.users_files import UsersFiles, find_users_files
 from urdfsync.files import shown
-from urdfsync.state.notes import load as load_notes
 from urdfsync.state.record import Generator, Record
 from urdfsync.state.store import Store
 
@@ -83,7 +82,7 @@ def inspect(config: Config, robot: RobotConfig, options: BuildOptions) -> Inputs
     if record is None:  # was it built into this folder by another name, which is no longer configured?
         name = next((name for name, place in orphaned_robots(store, config) if place == folder), name)
         record = store.load(name)[0] if name != robot.name else None
-    notes = load_notes(store.folder, name)
+    damage, notes = damage or store.find_damaged_base(name), store.notes(name)
     if options.adopts and record and (record.snapshot is not None or record.is_united):
         message, hint = f"robot `{robot.name}` was built already", "`urdfsync resolve` settles its conflicts"
         place = shown(config.file), robot.lines[""]

@@ -47,6 +47,8 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
     _domain: Domain
     _robot: RobotConfig
     _templates: Templates
+    texts: Mapping[str, str] = {}
+    """Bases that choices bring, by hash."""
 
     @cached_property
     def folder(self) -> Folder:
@@ -72,10 +74,13 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
         record = self.files.get(key, NEVER_WRITTEN)
         if not isinstance(on_disk, str) or role is Role.IMPORT or on_disk in (generated, *record.hashes):
             return record
+        is_own = on_disk in self.notes.written or self.base(on_disk) is not None
+        return FileRecord((on_disk,)) if is_own and not self.is_chosen(key, on_disk) else record
+
+    def is_chosen(self, key: str, on_disk: OnDisk) -> bool:
+        """Return whether a choice on this machine, such as --undo, has made a file and its base what they are."""
         aside = self.aside.get(self.folder.path(key))
-        is_chosen = key in self._files.chosen or (aside is not None and aside.after == on_disk)  # such as by --undo
-        is_own = not is_chosen and (on_disk in self.notes.written or self.base(on_disk) is not None)
-        return FileRecord((on_disk,)) if is_own else record
+        return self._files.is_chosen(key) or (aside is not None and aside.after == on_disk)
 
     @cached_property
     def options(self) -> Any:
@@ -129,25 +134,25 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
             return True
         try:
             if role is Role.IMPORT:
-                return any(file.hash == sha256 for key, file in self.imports.items() if self._target(key) == path)
+                return any(file.hash == sha256 for key, file in self.imports.items() if self._targets.get(key) == path)
             return self.package is not None and path in self.package.artifacts and self.package.hash(path) == sha256
         except NO_MODEL:
             return False
 
     def base(self, sha256: str | None) -> str | None:
         """Return the text with this hash that was generated once; None if it is not stored."""
-        return self._store.base(self.name, sha256) if sha256 else None
+        return self.texts.get(sha256) or self._store.base(self.name, sha256) if sha256 else None
 
     def bases(self, record: FileRecord) -> dict[str, str]:
         """Return the texts of a file's bases that are stored, by hash."""
         return {sha256: text for sha256 in record.hashes if (text := self.base(sha256)) is not None}
 
-    def _target(self, key: str) -> str | None:
-        """Return where the recorded model has an imported file; None if it refers to none of this key."""
+    @cached_property
+    def _targets(self) -> Mapping[str, str]:
+        """The paths that the recorded model has for imported files, by their keys."""
         snapshot, lookup = self.record.snapshot or {}, Lookup(self._robot.source, ())
         dependencies = self._domain.dependencies(snapshot, lookup, self.options or self._robot.options, {})
-        places = (place for dependency in dependencies for place in itertools.islice(places_of(dependency), MOST_PARTS))
-        return dict(places).get(key)
+        return dict(place for each in dependencies for place in itertools.islice(places_of(each), MOST_PARTS))
 
     @cached_property
     def aside(self) -> Mapping[str, Aside]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Collection, Mapping
+from collections.abc import Collection
 from pathlib import Path
 from typing import NamedTuple
 
@@ -28,15 +28,6 @@ class Folder(str):
     def path(self, key: str) -> str:
         """Return the path of a file by its key; the key of one that is elsewhere."""
         return key.removeprefix(f"{self}/")
-
-
-class Meaning(NamedTuple):
-    """What a file stands for that is as git left it, of the versions of two branches."""
-
-    text: str | None
-    """None if the branches contradict each other."""
-    contradictions: tuple[str, ...] = ()
-    """The element that each is about; empty for lines, which have no names."""
 
 
 class FileState(NamedTuple):
@@ -72,23 +63,19 @@ def note_state(path: str, facts: tuple[int, ...], content: bytes) -> FileState:
 class PackageFiles:
     """The files of one robot's package, by their key: the path from the configuration's folder, POSIX."""
 
-    def __init__(
-        self,
-        config: Config,
-        robot: RobotConfig,
-        chosen: Mapping[str, bytes | None] = {},
-        replaced: Mapping[str, bytes] = {},
-    ) -> None:
-        """`chosen` are contents that count for those on disk, which are `replaced`; by key, None for no file."""
+    def __init__(self, config: Config, robot: RobotConfig) -> None:
         self.root = config.root
-        self.chosen, self.replaced = chosen, replaced
+        self.overlay: dict[str, bytes | None] = {}
+        """Contents that count for those on disk, by key: what choices make of files, and what those stand for that git
+        left. None for no file."""
+        self.left_by_git: dict[str, tuple[str, ...]] = {}
+        """Files that are as git left them, by key, and the elements about which two branches contradict each other.
+        Without contradictions, the overlay has what the file stands for."""
         self._prefix = os.path.join(os.path.normpath(config.root), "")  # noqa: PTH118 - strings: there are thousands
         self._trees = [Tree(robot.output), Tree(config.root)]
         self._tree_of: dict[str, Tree | None] = {}  # by folder
         self._states: dict[str, FileState | None] = {}
         """State of each file that was looked at, by absolute path."""
-        self.meanings: dict[str, Meaning] = {}
-        """Files that are as git left them, by key, and what they stand for: their texts count instead."""
 
     def key(self, path: Path) -> str:
         """Return the key of a file."""
@@ -102,23 +89,25 @@ class PackageFiles:
         """Return whether urdfsync may touch the file: it is below the output folder or the configuration's."""
         return self._tree(self._place(key).rpartition(os.sep)[0]) is not None
 
+    def is_chosen(self, key: str) -> bool:
+        """Return whether a choice has made the content of a file."""
+        return key in self.overlay and key not in self.left_by_git
+
     def read(self, key: str) -> bytes | None:
         """Return a file's content, None if there is none. Raises OutputError for links, folders, unreadable files."""
-        if key in self.chosen:
-            return self.chosen[key]
+        return self.overlay[key] if key in self.overlay else self.read_on_disk(key)
+
+    def read_on_disk(self, key: str) -> bytes | None:
+        """Return a file's content as it is on disk. Raises OutputError as `read`."""
         path = self._place(key)
         tree = self._tree(path.rpartition(os.sep)[0])
         return tree.read(path) if tree else None
 
     def text(self, key: str) -> str | None:
-        """Return a file as text; of one that git left, what it stands for. Raises OutputError as `text_on_disk`."""
-        meaning = self.meanings.get(key)
-        return meaning.text if meaning and meaning.text is not None else self.text_on_disk(key)
-
-    def text_on_disk(self, key: str) -> str | None:
-        """Return a file as text, as it is. Raises OutputError as `read`, and for what is not UTF-8."""
+        """Return a file as text. Raises OutputError as `read`, and for what is not UTF-8."""
         content = self.read(key)
-        self._states.setdefault(self._place(key), None if content is None else state_of(content))
+        if key not in self.overlay:
+            self._states.setdefault(self._place(key), None if content is None else state_of(content))
         try:
             return None if content is None else content.decode()
         except UnicodeDecodeError as error:
@@ -143,11 +132,16 @@ class PackageFiles:
 
     def state(self, key: str) -> FileState | None:
         """Return the state of a file when it was first seen, None if there was none. Raises OutputError as `read`."""
+        if key not in self.overlay:
+            return self.state_on_disk(key)
+        content = self.overlay[key]
+        return None if content is None else state_of(content)
+
+    def state_on_disk(self, key: str) -> FileState | None:
+        """Return the state of a file on disk when it was first seen. Raises OutputError as `read`."""
         path = self._place(key)
         if path not in self._states:
-            chosen = self.chosen.get(key)
-            state = state_of(chosen) if chosen is not None else None
-            self._states[path] = state if key in self.chosen else self._read_state(path)
+            self._states[path] = self._read_state(path)
         return self._states[path]
 
     def _read_state(self, path: str) -> FileState | None:
@@ -166,8 +160,6 @@ class PackageFiles:
 
     def hash(self, key: str, role: Role) -> str | None:
         """Return the hash of a file: of an imported one of its bytes, of others of their text; None for no file."""
-        if key in self.meanings:
-            return text_hash(self.text(key) or "")
         state = self.state(key)
         if state is None:
             return None
@@ -188,7 +180,7 @@ class PackageFiles:
 
     def has_classes(self, key: str, gone: Collection[str]) -> bool:
         """Return whether the folder of a `package.mo` holds classes other than it and those of the files in `gone`."""
-        folder, left = self.path(key).parent, {*gone, *(key for key, text in self.chosen.items() if text is None)}
+        folder, left = self.path(key).parent, {*gone, *(key for key, text in self.overlay.items() if text is None)}
         for path in map(folder.joinpath, dependencies.list_folder(folder)):
             package = path / "package.mo"
             if path.suffix == ".mo" and path.name != "package.mo" and dependencies.is_file(path):
@@ -205,14 +197,14 @@ class PackageFiles:
         folder = folder.removesuffix("/")
         place = str(self.path(folder))  # strings: there are thousands of files
         found = {folder + path[len(place) :].replace(os.sep, "/") for path in modelica_files(Path(place))}
-        chosen = {key for key in self.chosen if key.startswith(f"{folder}/") and key.endswith(".mo")}
-        return (found - chosen) | {key for key in chosen if self.chosen[key] is not None}
+        laid = {key for key in self.overlay if key.startswith(f"{folder}/") and key.endswith(".mo")}
+        return (found - laid) | {key for key in laid if self.overlay[key] is not None}
 
     def has_class(self, folder: str, name: str) -> bool:
         """Whether a folder has a file or a folder for this class. `classes` leaves out links, which count here."""
         place, key = self.path(folder), f"{folder.rstrip('/')}/{name}.mo"
-        if key in self.chosen:
-            return self.chosen[key] is not None
+        if key in self.overlay:
+            return self.overlay[key] is not None
         return dependencies.is_file(place / f"{name}.mo") or dependencies.is_folder(place / name)
 
     def _place(self, key: str) -> str:

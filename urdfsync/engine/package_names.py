@@ -12,7 +12,7 @@ from urdfsync.modelica.syntax import declared
 
 
 def renamed_identifiers(generation: Generation) -> dict[str, str]:
-    """Return old and new identifiers of elements since the last complete build, the longest old ones first."""
+    """Return new identifiers of elements by those of the last complete build, if they are others."""
     inputs = generation.inputs
     if inputs.last.version is None or generation.changes is None:
         return {}
@@ -23,13 +23,12 @@ def renamed_identifiers(generation: Generation) -> dict[str, str]:
         for name, identifier in identifiers.items():
             now = generation.renames.get((kind.removesuffix("s"), name), name)
             renamed[identifier] = new.get(kind, {}).get(now, identifier)
-    return {name: renamed[name] for name in sorted(renamed, key=len, reverse=True) if name != renamed[name]}
+    return {name: new for name, new in renamed.items() if name != new}
 
 
 def recently_renamed(generation: Generation) -> dict[str, str]:
-    """Return the renamed identifiers, and before them those that the last build on this machine renamed."""
-    both = {**generation.inputs.last.notes.renamed, **renamed_identifiers(generation)}
-    return {name: both[name] for name in sorted(both, key=len, reverse=True)}
+    """Return the renamed identifiers, and those that the last build on this machine renamed."""
+    return {**generation.inputs.last.notes.renamed, **renamed_identifiers(generation)}
 
 
 def renamed_names(generation: Generation) -> dict[str, str]:
@@ -37,7 +36,7 @@ def renamed_names(generation: Generation) -> dict[str, str]:
 
     Only names that the package has no more, and those of elements that have left them to others.
     """
-    inputs, renamed = generation.inputs, renamed_identifiers(generation)
+    inputs, renamed = generation.inputs, renamed_identifiers(generation) if generation.is_structural else {}
     if not renamed:
         return {}
     recorded = {inputs.last.folder.path(key): one for key, one in inputs.last.files.items() if one.hashes}
@@ -50,12 +49,10 @@ def names_of(generation: Generation, renamed: Mapping[str, str], before: frozens
     """Return the new names of those in `before` that have one by the renamed identifiers, by the old ones."""
     inputs, now = generation.inputs, known_names(generation)
     kinds = inputs.domain.names(generation.now.snapshot, inputs.robot.target).values()
-    # a name belongs to the longest identifier that it begins with
     identifiers = {identifier: identifier for names in kinds for identifier in names.values()} | dict(renamed)
-    longest = {name: identifiers[name] for name in sorted(identifiers, key=len, reverse=True)}
     names = dict[str, str]()
     for name in sorted(before):
-        known = longest if name in now else renamed
+        known = identifiers if name in now else renamed
         if name == inputs.last.target.name and name in now:
             continue
         if (new := new_name(name, known, now)) and new != name:
@@ -85,16 +82,19 @@ def new_name(part: str, renamed: Mapping[str, str], known: Collection[str]) -> s
 
 def new_names(part: str, renamed: Mapping[str, str]) -> Iterator[str]:
     """Yield the names that begin with a new identifier where this one begins with the old one, the likeliest first."""
-    for old, new in renamed.items():
-        if begins_with(part, old):
-            first = new[:1].upper() if part[:1].isupper() else new[:1].lower()
-            yield from dict.fromkeys((f"{first}{new[1:]}{part[len(old) :]}", f"{new}{part[len(old) :]}"))
-            return
+    if old := identifier_of(part, renamed):
+        new = renamed[old]
+        first = new[:1].upper() if part[:1].isupper() else new[:1].lower()
+        yield from dict.fromkeys((f"{first}{new[1:]}{part[len(old) :]}", f"{new}{part[len(old) :]}"))
 
 
-def begins_with(part: str, identifier: str) -> bool:
-    """Whether a name is made from an identifier: components, classes and connectors begin with it, in either case."""
-    return part.lower().startswith(identifier.lower())
+def identifier_of(part: str, identifiers: Collection[str]) -> str:
+    """Return the longest identifier that a name is made from: it begins with it, in either case; empty for none."""
+    for end in range(len(part), 0, -1):
+        for first in (part[0], part[0].lower(), part[0].upper()):
+            if (start := first + part[1:end]) in identifiers:
+                return start
+    return ""
 
 
 def class_of(path: str) -> str:

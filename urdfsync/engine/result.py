@@ -210,7 +210,8 @@ class Result(msgspec.Struct, frozen=True):
         """Return a phrase for each reason that is not `silent`, with the number of files, and for what waits."""
         reasons = Counter(action.reason for action in self.actions.decided if not action.is_waiting)
         reasons[Reason.UPDATE] += reasons.pop(Reason.CREATE, 0)
-        reasons[Reason.CONFLICT] += reasons.pop(Reason.UNOWNED, 0) + reasons.pop(Reason.ASKED, 0)
+        for conflict in (Reason.UNOWNED, Reason.MARKERS, Reason.ASKED):
+            reasons[Reason.CONFLICT] += reasons.pop(conflict, 0)
         phrases = []
         for reason in Reason:  # in the order in which they are told
             if (number := reasons[reason]) and reason not in silent and reason.done:

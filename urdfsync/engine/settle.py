@@ -7,7 +7,7 @@ files and bases are taken as the choices make them, and the build decides on tha
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TypeAlias
+from typing import NamedTuple
 
 import msgspec
 
@@ -26,8 +26,13 @@ _EDITED = frozenset({Reason.KEEP, Reason.INCLUDED, Reason.MOVE, Reason.MERGE})
 """Actions on files that the user edited, which he may replace by the generated ones."""
 
 
-Former: TypeAlias = tuple[bytes, FileRecord, Mapping[str, str]]
-"""A text, its record, and the texts of its bases that are known, by hash."""
+class Former(NamedTuple):
+    """A text that is replaced, and its base."""
+
+    text: bytes
+    record: FileRecord
+    bases: Mapping[str, str]
+    """The texts of its bases that are known, by hash."""
 
 
 class Settled(msgspec.Struct):
@@ -39,10 +44,12 @@ class Settled(msgspec.Struct):
     bases: dict[str, FileRecord] = msgspec.field(default_factory=dict)
     texts: dict[str, str] = msgspec.field(default_factory=dict)
     """Texts of bases that were put aside, by hash."""
+    generated: set[str] = msgspec.field(default_factory=set)
+    """Hashes of generated texts that are given back."""
     before: dict[str, Former] = msgspec.field(default_factory=dict)
     """What was there before the choice."""
-    before_move: dict[str, Former] = msgspec.field(default_factory=dict)
-    """The same of a file that moves, as it would have moved without the choice."""
+    names: Mapping[str, str] = {}
+    """New names by the old ones, as they were before."""
     answers: dict[ElementKey, str] = msgspec.field(default_factory=dict)
     """The names that elements have now, by the owners of files that might be others'."""
     keys: set[str] = msgspec.field(default_factory=set)
@@ -55,7 +62,7 @@ def settle(generation: Generation, decision: Decision) -> Settled:
     A choice is passed over if one of its two texts is another one now, and if it does not settle its file. Raises
     OutputError for a file with markers of git that is to be kept.
     """
-    settled = Settled()
+    settled = Settled(names=decision.names)
     choices, folder = generation.inputs.options.choices, generation.inputs.folder
     by_path = {action.path: action for action in decision.actions}
     for key, chosen in choices.items():
@@ -70,7 +77,7 @@ def _settle(generation: Generation, decision: Decision, action: Action, chosen: 
     """Add what one choice makes of its file; return whether it settles it."""
     inputs, choice, key = generation.inputs, chosen.choice, action.origin or action.path
     reason, record = Reason.KEEP, FileRecord((action.generated,) if action.generated else ())
-    content = mine = inputs.files.read(key) if action.mine is not None else None
+    content = mine = inputs.files.read_on_disk(key)
     conflict = decision.disputed.get(action.path)
     if action.reason is Reason.ASKED and choice in (Choice.KEEP, Choice.EDIT, Choice.MOVED):
         kind, _, name = action.owner.partition(" ")
@@ -94,6 +101,12 @@ def _settle(generation: Generation, decision: Decision, action: Action, chosen: 
             return False
         record = FileRecord(aside.bases)
         settled.texts.update(aside.texts)
+        for path, model in aside.beside.items():
+            if (place := inputs.folder.key(path)) not in settled.contents and inputs.files.read(place) is None:
+                settled.contents[place] = encode(model)
+                settled.bases[place], texts = known_bases(model)
+                settled.texts.update(texts)
+                settled.generated |= texts.keys()
     elif action.reason is Reason.ORPHAN and choice in (Choice.KEEP, Choice.TAKE):
         if choice is Choice.TAKE:
             content, reason, record = None, Reason.DELETE, inputs.last.files.get(key, FileRecord())
@@ -104,7 +117,14 @@ def _settle(generation: Generation, decision: Decision, action: Action, chosen: 
     elif not (action.is_conflict or conflict):
         return False
     elif choice is Choice.KEEP:
-        content = encode(conflict.kept) if conflict and (action.origin or key in inputs.files.meanings) else mine
+        content = inputs.files.read(key)
+        if conflict and action.origin:
+            from urdfsync.merge.renames import rename, without_clashes  # imports the parser
+
+            # the file gets its new names once it moves
+            names = {new: old for old, new in without_clashes(decision.names, conflict.mine).items()}
+            record, texts = known_bases(rename(conflict.generated, "", names)[0])
+            settled.texts.update(texts)
         if markers := find_markers((content or b"").decode(errors="replace")):
             message, hint = "unresolved merge markers", "settle them in the file, then build again"
             raise OutputError.of("merge-markers", message, shown(inputs.files.path(key)), markers[0][1], hint=hint)
@@ -116,10 +136,8 @@ def _settle(generation: Generation, decision: Decision, action: Action, chosen: 
     else:
         return False
     former = inputs.last.files.get(key, FileRecord())
-    if mine is not None:
-        settled.before[key] = mine, former, inputs.last.bases(former)
-    if conflict and action.origin:
-        settled.before_move[key] = encode(conflict.kept), *known_bases(conflict.kept_base)
+    if mine is not None and (choice is not Choice.UNDO or content != mine):  # else there is nothing to bring back
+        settled.before[key] = Former(mine, former, inputs.last.bases(former))
     settled.contents[key], settled.bases[key] = content, record
     changes = {"path": key, "origin": None, "reason": reason, "choice": choice, "is_waiting": False}
     settled.actions[key] = msgspec.structs.replace(action, **changes)
@@ -143,14 +161,15 @@ def known_bases(base: str | None) -> tuple[FileRecord, Mapping[str, str]]:
 def with_choices(generation: Generation, settled: Settled) -> Generation:
     """Return the same robot with its files and bases as choices have made them."""
     inputs = generation.inputs
-    replaced = {key: text for key, (text, _, _) in settled.before.items() if key.endswith(".mo")}
-    files = PackageFiles(inputs.config, inputs.robot, settled.contents, replaced)
+    files, left = PackageFiles(inputs.config, inputs.robot), inputs.files.left_by_git
+    files.overlay = {**inputs.files.overlay, **settled.contents}
+    files.left_by_git = {key: left[key] for key in left.keys() - settled.contents.keys()}
     recorded = {**inputs.last.record.files, **settled.bases}
     record = msgspec.structs.replace(
         inputs.last.record, files={key: file for key, file in recorded.items() if file.hashes}
     )
-    files.meanings.update((key, text) for key, text in inputs.files.meanings.items() if key not in settled.contents)
-    last = msgspec.structs.replace(inputs.last, record=record, _files=files)
+    notes = msgspec.structs.replace(inputs.last.notes, written=inputs.last.notes.written | settled.generated)
+    last = msgspec.structs.replace(inputs.last, record=record, notes=notes, texts=settled.texts, _files=files)
     inputs = msgspec.structs.replace(inputs, files=files, last=last)
     return msgspec.structs.replace(generation, inputs=inputs, answers=settled.answers)
 

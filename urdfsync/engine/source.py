@@ -32,7 +32,6 @@ from urdfsync.domain import Domain, Reading, Snapshot, Templates
 from urdfsync.engine.options import BuildOptions
 from urdfsync.files import digest, kind_of, shown, templates_digest
 from urdfsync.state.expansion import Expansion, dumps
-from urdfsync.state.notes import load as load_notes
 from urdfsync.state.store import Store
 
 if TYPE_CHECKING:
@@ -135,7 +134,7 @@ def read_source(config: Config, robot: RobotConfig, store: Store, options: Build
     inputs = expansion.Inputs(config.root, robot.source, (*robot.package_paths, *options.package_paths))
     made = store.load_expansion(name or robot.name)
     changed = inputs.find_changes(robot, made) if made else NEVER
-    is_noted = made is not None and expansion_hash(made) == load_notes(store.folder, name or robot.name).expansion
+    is_noted = made is not None and expansion_hash(made) == store.notes(name or robot.name).expansion
     if robot.command:
         is_there = is_file(robot.source)
         changed = changed or (() if is_there else (robot.source.name,))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 import msgspec
@@ -14,8 +14,9 @@ from urdfsync.engine.aside import put_aside
 from urdfsync.engine.decide import Decision
 from urdfsync.engine.edit_origins import EDITED, model_hash
 from urdfsync.engine.generation import Generation
+from urdfsync.engine.inputs import Inputs
 from urdfsync.engine.last_build import import_hash, option_values
-from urdfsync.engine.package_files import PackageFiles, encode, with_line_ends
+from urdfsync.engine.package_files import encode, with_line_ends
 from urdfsync.engine.package_names import renamed_identifiers
 from urdfsync.engine.parents import SharedFile
 from urdfsync.engine.proposals import save_versions
@@ -26,7 +27,6 @@ from urdfsync.engine.source import expansion_hash
 from urdfsync.files import shown
 from urdfsync.spelling import counted
 from urdfsync.state import bases, expansion, statefile
-from urdfsync.state.bases import DIGITS
 from urdfsync.state.notes import Notes, Use
 from urdfsync.state.record import FileRecord, Open, Record
 from urdfsync.state.store import Aside, StateHashes
@@ -58,37 +58,25 @@ def stage(
 ) -> Plan:
     """Return the plan with all that is to be written, in a dry run, too: one plan has one verdict."""
     inputs, store, robot = generation.inputs, generation.inputs.store, generation.inputs.robot
-    record = None if inputs.options.removes else _record(generation, decision)
     actions = actions_after(decision.actions, settled)
-    files = _file_changes(generation, decision, settled)
+    files, versions, notes = (
+        _file_changes(generation, decision, settled),
+        save_versions(inputs, decision.conflicts),
+        None,
+    )
     is_writing = bool(files) or any(action.writes for action in actions)
-    contents = {key: change.content for key, change in files.items()}
-    index, texts = put_aside(generation, decision, contents, settled) if record else ({}, {})
-    changes, drawing = [*files.values()], None
-    diagnostics += _tell_aside(generation, actions, index, texts)
-    if inputs.options.draw:
-        imports = generation.imported.imports
-        picture = inputs.domain.drawing(generation.now.snapshot, imports, robot.target, robot.options)
-        if picture is not None:
-            drawing = store.drawing(robot.name)
-            changes += store.save(drawing, picture.encode())
-
-    names = {inputs.last.name} - {robot.name} if record else {inputs.last.name, robot.name}
-    state = [change for name in names for change in store.remove(name)]
-    versions = save_versions(inputs, decision.conflicts)
-    if record:
-        state += store.for_git()
-        changes += versions.changes
-        changes += store.save_aside(robot.name, index, texts)
-        state += _state_changes(generation, decision, record, index, settled, is_writing=is_writing or bool(state))
-        is_late = inputs.last.record.files and decision.is_complete
-        if is_late and not (is_writing or inputs.options.renews):
-            state = []
+    drawing = _draw(generation) if inputs.options.draw else []
+    changes = [*files.values(), *drawing]
+    if inputs.options.removes:
+        state = [change for name in {inputs.last.name, robot.name} for change in store.remove(name)]
+    else:
+        record = _record(generation, decision)
+        index, texts = put_aside(generation, decision, {key: one.content for key, one in files.items()}, settled)
+        diagnostics += _tell_aside(generation, actions, index, texts, settled)
+        changes += [*versions.changes, *store.save_aside(robot.name, index, texts)]
+        state = _state_changes(generation, decision, record, index, settled, is_writing=is_writing)
+        notes = _notes(generation, decision, record, versions.noted, uses, is_writing=is_writing)
     changes += state
-    above = {inputs.files.path(inputs.last.folder).parent, store.folder}
-    folders = {folder for change in changes if change.content is None for folder in change.path.parents}
-    emptied = [folder for folder in folders if not above.isdisjoint(folder.parents)]
-    emptied.sort(key=lambda folder: len(folder.parts), reverse=True)
     news = generation.changes
     if news and not is_writing and decision.is_complete:
         # the record may keep the old generator and options then, so that each later plan would tell them again
@@ -105,22 +93,36 @@ def stage(
         renews=bool(state),
         stale=inputs.source.stale,
         is_broken=any(misfit.is_broken for misfit in decision.misfits),
-        drawing=drawing,
+        drawing=store.drawing(robot.name) if drawing else None,
         changes=news if news and (news.changes or news.generator) else None,
         conflict_texts=versions.conflicts,
         settled=frozenset(settled.keys),
     )
-    notes = _notes(generation, decision, record, versions.noted, uses, is_writing=is_writing) if record else None
-    return Plan(result, store.hashes(), decision.shared, tuple(changes), tuple(emptied), notes)
+    return Plan(result, store.hashes(), decision.shared, tuple(changes), _emptied(inputs, changes), notes)
+
+
+def _draw(generation: Generation) -> list[FileChange]:
+    """Return how the robot's diagram gets to its file."""
+    inputs, robot, imports = generation.inputs, generation.inputs.robot, generation.imported.imports
+    picture = inputs.domain.drawing(generation.now.snapshot, imports, robot.target, robot.options)
+    return inputs.store.save(inputs.store.drawing(robot.name), picture.encode()) if picture is not None else []
+
+
+def _emptied(inputs: Inputs, changes: Iterable[FileChange]) -> tuple[Path, ...]:
+    """Return the folders of the package and the state that may be empty then, innermost first."""
+    above = {inputs.files.path(inputs.last.folder).parent, inputs.store.folder}
+    folders = {folder for change in changes if change.content is None for folder in change.path.parents}
+    below = [folder for folder in folders if not above.isdisjoint(folder.parents)]
+    return tuple(sorted(below, key=lambda folder: len(folder.parts), reverse=True))
 
 
 def _tell_aside(
-    generation: Generation, actions: Actions, index: Mapping[str, Aside], texts: Mapping[str, bytes]
+    generation: Generation, actions: Actions, index: Mapping[str, Aside], texts: Mapping[str, bytes], settled: Settled
 ) -> tuple[Diagnostic, ...]:
     """Return a note if texts are replaced that this machine did not generate, without a word of the user's."""
     inputs = generation.inputs
-    told = (Reason.MERGE, Reason.MOVE, Reason.UNDO)
-    known = {inputs.folder.path(action.path) for action in actions if action.choice or action.reason in told}
+    told, chosen = (Reason.MERGE, Reason.MOVE, Reason.UNDO), settled.actions.keys()
+    known = {inputs.folder.path(one.path) for one in actions if one.reason in told or {one.path, one.origin} & chosen}
     new = sorted(path for path, aside in index.items() if aside.file in texts and path not in known)
     if not new:
         return ()
@@ -142,9 +144,7 @@ def _notes(
 ) -> Notes | None:
     """Return what this machine knows after a build; None if that is nothing new."""
     inputs, old, imports = generation.inputs, generation.inputs.last.notes, generation.imported
-    recorded = {
-        sha256 for files in (inputs.last.files, record.files) for file in files.values() for sha256 in file.hashes
-    }
+    recorded = inputs.last.record.hashes | record.hashes
     texts, expanded = generation.package.notes(), inputs.source.expansion
     made = {sha256 for _, sha256 in texts.values()} | {imports.imports[key].target_hash for key in imports.converted}
     made_here = imports.converted | {key for key, file in inputs.last.imports.items() if file.is_noted}
@@ -164,7 +164,7 @@ def _notes(
         edited={action.path: action.mine for action in decision.actions if action.reason in EDITED and action.mine},
         uses=uses,
     )
-    return None if new == old and not inputs.former_name else new
+    return None if new == old and not (inputs.former_name or inputs.options.choices) else new
 
 
 def _record(generation: Generation, decision: Decision) -> Record:
@@ -213,17 +213,16 @@ def _confirmed(generation: Generation, decision: Decision) -> frozenset[str]:
 def _file_changes(generation: Generation, decision: Decision, settled: Settled) -> dict[str, FileChange]:
     """Return the changes of the package's files by key, but for those in which other robots may have a part."""
     inputs, changes = generation.inputs, dict[str, FileChange]()
-    on_disk = PackageFiles(inputs.config, inputs.robot) if settled.contents else inputs.files
     shared = {inputs.files.key(file.path) for file in decision.shared}
     decided = {action.path: action for action in decision.actions}
 
     def change(key: str, content: bytes | None, *, is_moved: bool = False) -> None:
-        state = on_disk.state(key)
+        state = inputs.files.state_on_disk(key)
         old = state.sha256 if state else None
         changes[key] = FileChange(inputs.files.path(key), content, old, is_moved)
 
     for key, content in settled.contents.items():
-        if not (key in decided and decided[key].writes) and content != on_disk.read(key):
+        if not (key in decided and decided[key].writes) and content != inputs.files.read_on_disk(key):
             change(key, content)
     for action in decision.actions:
         if action.writes and action.path not in shared:
@@ -258,48 +257,36 @@ def _state_changes(
     *,
     is_writing: bool,
 ) -> list[FileChange]:
-    """Return the changes of the recorded state: the expanded source, the bases, and the record as the last one."""
+    """Return the changes of the recorded state, the record as the last one.
+
+    A build of some commands that has nothing else to write leaves a complete state to the next one.
+    """
     inputs, store, expanded = generation.inputs, generation.inputs.store, generation.inputs.source.expansion
-    name, changes = inputs.robot.name, list[FileChange]()
+    name, last = inputs.robot.name, inputs.last
+    if last.record.files and decision.is_complete and not (is_writing or inputs.options.renews):
+        return []
+    changes = [*(store.remove(last.name) if last.name != name else ()), *store.for_git()]
     if not inputs.source.stale:
         changes += store.save(store.expansion(name), expansion.dumps(expanded) if expanded else None)
     recorded = store.save(store.path(name), statefile.dumps(record).encode())
     is_writing = is_writing or bool(changes or recorded)
-    changes += _base_changes(generation, decision, record, aside, settled, is_writing=is_writing)
-    return changes + recorded
 
-
-def _base_changes(
-    generation: Generation,
-    decision: Decision,
-    record: Record,
-    aside: Mapping[str, Aside],
-    settled: Settled,
-    *,
-    is_writing: bool,
-) -> list[FileChange]:
-    """Return how the texts that the record mentions get to the bases, and how old ones go.
-
-    A text that is missing or damaged is written if it is generated now. One that no state mentions any more, neither
-    the record before nor the one after, goes with a complete build that writes something: alone it is no reason.
-    """
-    inputs, last = generation.inputs, generation.inputs.last
-    old = {sha256 for file in last.record.files.values() for sha256 in file.hashes}
-    new = {sha256 for file in record.files.values() for sha256 in file.hashes}
-    needed = {*old, *new, *(sha256 for text in aside.values() for sha256 in text.bases)}
-    stored = {digit: inputs.store.bases(last.name, digit) for digit in DIGITS}
-    missing, package = dict[str, str](), generation.package
-    if absent := new - {sha256 for texts in stored.values() for sha256 in texts or ()}:
+    # A text that is missing or damaged is written if it is generated now. One that no state mentions any more, neither
+    # the record before nor the one after, goes with a complete build that writes something: alone it is no reason.
+    needed = {*last.record.hashes, *record.hashes, *(sha256 for text in aside.values() for sha256 in text.bases)}
+    stored = {digit: store.bases(last.name, digit) for digit in bases.DIGITS}
+    absent = record.hashes - {sha256 for texts in stored.values() for sha256 in texts or ()}
+    missing, package = {sha256: settled.texts[sha256] for sha256 in absent & settled.texts.keys()}, generation.package
+    if absent:
         made = generation.paths_by_hash  # an element may get another name yet
-        missing = {sha256: package.content(made[sha256]).decode() for sha256 in absent & made.keys()}
-        missing |= {sha256: settled.texts[sha256] for sha256 in absent & settled.texts.keys()}
+        missing |= {sha256: package.content(made[sha256]).decode() for sha256 in absent & made.keys()}
     cleans = decision.is_complete and (is_writing or bool(missing))
     # git may have united lines, which have an order
-    is_whole = inputs.options.full or inputs.former_name or (last.record.is_united and is_writing)
-    changes = list[FileChange]()
+    is_united = last.record.is_united and is_writing
+    is_whole = inputs.options.full or inputs.former_name or inputs.damage or is_united
     for digit, texts in stored.items():
         after = {sha256: text for sha256, text in (texts or {}).items() if not cleans or sha256 in needed}
         after |= {sha256: text for sha256, text in missing.items() if sha256[0] == digit}
         if is_whole or texts is None or after.keys() != texts.keys():
-            changes += inputs.store.save(inputs.store.base_file(inputs.robot.name, digit), bases.dumps(after))
-    return changes
+            changes += store.save(store.base_file(name, digit), bases.dumps(after))
+    return changes + recorded

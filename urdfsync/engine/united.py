@@ -12,16 +12,18 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import msgspec
 
-from urdfsync import dependencies, markers
-from urdfsync.diagnostics import SourceError
+from urdfsync import dependencies, git, markers
+from urdfsync.diagnostics import SourceError, StateError
 from urdfsync.engine.actions import ORPHANS, Action, Reason
 from urdfsync.engine.conflicts import over_bases
 from urdfsync.engine.inputs import Inputs
 from urdfsync.engine.last_build import LastBuild
-from urdfsync.engine.package_files import Meaning, PackageFiles, text_hash
+from urdfsync.engine.package_files import PackageFiles, encode, text_hash
 from urdfsync.engine.rules import NEVER_WRITTEN
 from urdfsync.merge.lines import compare, find_regions
 from urdfsync.revisions import Revision
+from urdfsync.state import statefile
+from urdfsync.state.record import FileRecord
 
 if TYPE_CHECKING:
     import pygit2
@@ -44,11 +46,21 @@ class Sides(NamedTuple):
     theirs: str
 
 
-def find_meaning(inputs: Inputs, key: str) -> Meaning | None:
-    """Return what a file stands for if it still is what git made of the versions of two branches; None for any other.
+def lay_over(inputs: Inputs, key: str) -> bool:
+    """Lay what a file stands for over it if it still is what git made of the versions of two branches.
 
-    Of versions that nobody edited that is one of them. Of edits it is their merge by elements.
+    Of versions that nobody edited that is one of them. Of edits it is their merge by elements, if there is one.
     """
+    found = _find_meaning(inputs, key)
+    if isinstance(found, str):
+        inputs.files.overlay[key] = encode(found)
+    if found is not None:
+        inputs.files.left_by_git[key] = () if isinstance(found, str) else found
+    return found is not None
+
+
+def _find_meaning(inputs: Inputs, key: str) -> str | tuple[str, ...] | None:
+    """Return what a file stands for, or the elements that the branches contradict each other about; None for others."""
     last, file, text = inputs.last, inputs.files.path(key), inputs.files.any_text(key)
     has_markers = bool(markers.find_markers(text))
     if not has_markers and not last.files.get(key, NEVER_WRITTEN).is_ambiguous:
@@ -57,15 +69,15 @@ def find_meaning(inputs: Inputs, key: str) -> Meaning | None:
     if sides is None and has_markers:
         ours, theirs = markers.read_sides(_plain(text))
         # they are what two builds wrote, so that nobody can have settled anything
-        return Meaning(ours) if _are_generated(last, (ours, theirs)) else None
+        return ours if _are_generated(last, (ours, theirs)) else None
     if sides and _are_generated(last, (sides.ours, sides.theirs)):
-        return Meaning(sides.ours)
+        return sides.ours
     if sides is None or not has_markers:
         return None
     return _merge_edits(last, key, sides)
 
 
-def _merge_edits(last: LastBuild, key: str, sides: Sides) -> Meaning:
+def _merge_edits(last: LastBuild, key: str, sides: Sides) -> str | tuple[str, ...]:
     """Merge two versions by their elements: as they are, or else as edits of one generated text.
 
     What two exports say otherwise is no contradiction of people.
@@ -78,12 +90,12 @@ def _merge_edits(last: LastBuild, key: str, sides: Sides) -> Meaning:
     pairs = [sides[1:], *((ours[base], theirs[base]) for base in ours if base in theirs)]
     merges = [merge_file(sides.base, *pair, ()) for pair in pairs]
     merged, contradictions = next((merge for merge in merges if not merge[1]), merges[0])
-    return Meaning(None, contradictions) if contradictions else Meaning(merged)
+    return contradictions or merged
 
 
-def describe(meaning: Meaning) -> str:
+def describe(contradictions: Sequence[str]) -> str:
     """Say what two branches contradict each other about, as a clause."""
-    elements = [element for element in dict.fromkeys(meaning.contradictions) if element]
+    elements = [element for element in dict.fromkeys(contradictions) if element]
     return f"git's markers are in it, since both branches changed {' and '.join(elements) or 'the same lines'}"
 
 
@@ -107,7 +119,7 @@ def settled_texts(files: PackageFiles, actions: Iterable[Action], merged: Contai
 
 def _are_generated(last: LastBuild, texts: Iterable[str]) -> bool:
     """Return whether builds wrote all of these texts."""
-    recorded = {sha256 for record in last.files.values() for sha256 in record.hashes}
+    recorded = last.record.hashes
     return all(sha256 in recorded or last.base(sha256) is not None for sha256 in map(text_hash, texts))
 
 
@@ -138,6 +150,37 @@ def find_sides(file: Path, text: str) -> Sides | None:
         return next((sides for sides in candidates if sides.ours == sides.theirs or _is_untouched(text, sides)), None)
     except (SourceError, pygit2.GitError, KeyError, OSError, ValueError):
         return None  # as without a repository: one that is damaged, or lacks commits, tells no versions
+
+
+def find_left_records(inputs: Inputs, keys: Iterable[str]) -> dict[str, FileRecord]:
+    """Return the records of files of which git says that one branch edited and the other deleted them, by key.
+
+    Git leaves such a file in the working tree, and unites the recorded states to one without it.
+    """
+    top = Path(git.find_top(inputs.config.root) or "")
+    folder = top / ".git"
+    if folder.is_file():  # of a working tree beside the first one
+        folder = top / folder.read_text(errors="replace").removeprefix("gitdir: ").strip()
+    if not any((folder / name).exists() for name in (*_UNDER_WAY, "SQUASH_MSG")):
+        return {}  # importing pygit2 takes 55 ms
+    import pygit2
+
+    dependencies.mark_incomplete()  # a commit changes the answer, and no file
+    wanted = {os.path.relpath(os.path.realpath(inputs.files.path(key)), top).replace(os.sep, "/"): key for key in keys}
+    found = dict[str, FileRecord]()
+    try:
+        for base, ours, theirs in Revision(top, "HEAD").repository.index.conflicts or ():
+            left = ours or theirs
+            if not (base and left and left.path in wanted) or (ours and theirs):
+                continue
+            for name in ("HEAD",) if ours else _UNDER_WAY:
+                state = _read(name, inputs.store.path(inputs.last.name))
+                record = statefile.loads(state, name)[0] if state else None
+                if record and (file := record.files.get(wanted[left.path])):
+                    found[wanted[left.path]] = file
+    except (SourceError, StateError, pygit2.GitError, KeyError, OSError):
+        return found  # as in `find_sides`
+    return found
 
 
 def _staged(repository: pygit2.Repository, file: Path, text: str) -> Iterator[Sides]:

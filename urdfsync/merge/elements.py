@@ -128,7 +128,11 @@ def _merge_whole(path: Path, base: Node | None, mine: Node, generated: Node) -> 
         if text is not None and (is_users or is_same(Leaf(text), generated)):
             return [text]
     if base and not is_users:
-        return [generated.text, *(f" {note}" for note in _new_comments(mine.text, base.text))]
+        pieces = list[Piece]([generated.text])
+        for note in (note for note in comments(mine.text) if note not in comments(base.text)):
+            lead = re.search(rf"\n[ \t]*(?={re.escape(note)})", mine.text)
+            append_blanks(pieces, f"{lead[0] if lead else ' '}{note}")
+        return pieces
     if _is_rounding(mine, generated) or (base and _is_rounding(base, generated)):
         return [mine.text]
     return [_contradiction(path, base, mine, generated)]
@@ -168,12 +172,6 @@ def _is_rounding(old: Node, new: Node) -> bool:
         )
         for value, new_value in zip(old.words, new.words, strict=True)
     )
-
-
-def _new_comments(mine: str, base: str) -> list[str]:
-    """Return the user's comments in a text that is removed; those to the end of a line end one."""
-    old = comments(base)
-    return [f"{note}\n" if note.startswith("//") else note for note in comments(mine) if note not in old]
 
 
 class _Item(msgspec.Struct, eq=False):

@@ -10,6 +10,7 @@ from collections.abc import Sequence
 import msgspec
 
 from urdfsync.config import STATE_FOLDER
+from urdfsync.dependencies import depend_on
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.engine.result import Result
 from urdfsync.files import digest
@@ -24,6 +25,7 @@ def show_findings(console: Console, result: Result, diagnostics: Sequence[Diagno
     Errors, and what is wrong with Modelica files, are said as long as they are true.
     """
     folder = result.root / STATE_FOLDER
+    depend_on(notes.place(folder, result.robot))  # a saved answer repeats no finding that was told since
     known = notes.load(folder, result.robot)
     before, keys = known.said, list(map(_key, diagnostics))
     new = [

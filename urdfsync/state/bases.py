@@ -39,3 +39,10 @@ def loads(content: bytes) -> Mapping[str, str]:
         if digest(text.encode()).encode() == sha256:
             texts[sha256.decode()] = text
     return texts
+
+
+@functools.lru_cache(maxsize=2 * len(DIGITS))
+def find_damage(content: bytes) -> int:
+    """Return the number of the first line of a file that has no text of its hash; 0 if there is none."""
+    texts, lines = loads(content), enumerate(content.split(b"\n"), 1)
+    return next((n for n, line in lines if line and line.partition(b" ")[0].decode(errors="replace") not in texts), 0)

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync.dependencies import MAX_FILE
+from urdfsync.dependencies import MAX_FILE, STAT, note_content
 from urdfsync.files import TEMPORARY
 from urdfsync.state import file_operations
 
@@ -62,6 +62,7 @@ def load(state_folder: Path, robot: str) -> Notes:
         with os.fdopen(os.open(file, flags), "rb") as opened:
             status = os.fstat(opened.fileno())
             content = opened.read() if status.st_size <= MAX_FILE else b""
+        note_content(STAT, file, content)
         notes = msgspec.json.decode(content, type=Notes)
     except (OSError, ValueError, RecursionError):
         return Notes()

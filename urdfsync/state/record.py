@@ -89,6 +89,11 @@ class Record(msgspec.Struct, frozen=True, kw_only=True):
     is_united: bool = False
     """Whether git has united two states, or lines are lost, and no build was complete since."""
 
+    @property
+    def hashes(self) -> set[str]:
+        """The hashes of the bases of all files."""
+        return {sha256 for file in self.files.values() for sha256 in file.hashes}
+
 
 def role_of(path: str) -> Role:
     """Return what a recorded file is that nothing generates any more, by its path below the package."""

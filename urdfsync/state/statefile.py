@@ -98,7 +98,7 @@ def loads(text: str, file: str) -> tuple[Record | None, Diagnostic | None]:
     for what a newer urdfsync wrote.
     """
     values: dict[str, list[Any]] = {word: [] for word in (*_FACTS, "file")}
-    damage: Diagnostic | None = None
+    found: Diagnostic | None = None
     lines = dict[str, int]()
     for number, content in enumerate(text.split("\n"), 1):
         if content and not content.startswith("#"):
@@ -107,26 +107,26 @@ def loads(text: str, file: str) -> tuple[Record | None, Diagnostic | None]:
         try:
             word, value = _parse(content)
         except (KeyError, ValueError, RecursionError) as error:
-            damage = damage or _damage(file, number, _what_is_wrong(content, error))
+            found = found or damage(file, number, _what_is_wrong(content, error))
             continue
         if word == "release" and _numbers(value) > _numbers(__version__):
             message = f"urdfsync {value} wrote this state, which is newer than this one ({__version__})"
             raise StateError.of("newer-state", message, file, number, hint="update urdfsync")
         values[word].append(value)
     if missing := [word for word in _HEADINGS if not values[word]]:
-        return None, damage or _damage(file, 1, f"it has no {', '.join(missing)}" if lines else "it is empty")
+        return None, found or damage(file, 1, f"it has no {', '.join(missing)}" if lines else "it is empty")
     package, folder = values["package"][-1], values["folder"][-1]
     if not _is_normal(folder) or folder.split("/")[-len(package.split(".")) :] != package.split("."):
-        return None, _damage(file, _line_of(lines, folder), f"{folder!r} is no folder of the package `{package}`")
+        return None, damage(file, _line_of(lines, folder), f"{folder!r} is no folder of the package `{package}`")
     paths = [("file", value, value[0]) for value in values["file"]]
     paths += [("import", value, value[1].target) for value in values["import"]]
     for word, value, path in paths:
         if not _belongs(path, is_import=word == "import"):
             message = f"the path {path!r} does not belong to the package `{package}`"
-            damage = damage or _damage(file, _line_of(lines, path), message)
+            found = found or damage(file, _line_of(lines, path), message)
             values[word].remove(value)
     facts = [content for content in lines if not content.startswith(_SUM)]
-    return _record(values, is_whole=values["sum"] == [_sum(facts)]), damage
+    return _record(values, is_whole=values["sum"] == [_sum(facts)]), found
 
 
 def _line_of(lines: Mapping[str, int], text: str) -> int:
@@ -202,7 +202,8 @@ def _what_is_wrong(content: str, error: Exception) -> str:
     return f"no fact of urdfsync{reason}"
 
 
-def _damage(file: str, line: int, message: str) -> Diagnostic:
+def damage(file: str, line: int, message: str) -> Diagnostic:
+    """Return the warning of a line that can't be read."""
     message = f"the recorded state is damaged: {message}"
     return Diagnostic(Severity.WARNING, "broken-state", message, file, line, hint=_HINT)
 

@@ -14,6 +14,7 @@ from urdfsync.diagnostics import Diagnostic
 from urdfsync.files import Tree, digest, normalised, shown
 from urdfsync.state import bases, expansion, notes, statefile
 from urdfsync.state.expansion import Expansion
+from urdfsync.state.notes import Notes
 from urdfsync.state.record import Record
 from urdfsync.state.transaction import FileChange
 
@@ -51,6 +52,8 @@ class Aside(msgspec.Struct, frozen=True, omit_defaults=True):
     """Hashes of what the text is an edit of, once it is given back."""
     texts: Mapping[str, str] = {}
     """The texts of these bases that are known, by hash."""
+    beside: Mapping[str, str] = {}
+    """The texts of models that nobody edited and that went with it, by path below the package."""
 
 
 class Store:
@@ -61,6 +64,7 @@ class Store:
         self._tree = Tree(root)
         self._contents: dict[Path, bytes | None] = {}
         """Of each file that was loaded; None for no file."""
+        self._notes: dict[str, Notes] = {}
 
     def names(self) -> list[str]:
         """The robots that have a record, by their names."""
@@ -86,6 +90,12 @@ class Store:
         content = self._bytes(self.expansion(robot))
         return None if content is None else expansion.loads(content)
 
+    def notes(self, robot: str) -> Notes:
+        """Return what this machine has noted of its work on a robot."""
+        if robot not in self._notes:
+            self._notes[robot] = notes.load(self.folder, robot)
+        return self._notes[robot]
+
     def base(self, robot: str, sha256: str) -> str | None:
         """The text with this hash (see `text_digest`) that was generated once for a robot; None if it is lost."""
         return (self.bases(robot, sha256[0]) or {}).get(sha256)
@@ -95,13 +105,22 @@ class Store:
         content = self._bytes(self.base_file(robot, digit))
         return None if content is None else bases.loads(content)
 
+    def find_damaged_base(self, robot: str) -> Diagnostic | None:
+        """Return a warning of the first line in the bases that can't be read."""
+        for file in self.base_files(robot):
+            if line := bases.find_damage(self._bytes(file) or b""):
+                return statefile.damage(shown(file), line, "it has no text of this hash")
+        return None
+
     def aside(self, robot: str) -> Mapping[str, Aside]:
         """Return what was put aside, by path below the package; nothing if that can't be read."""
         try:
             index = msgspec.json.decode(self._bytes(self.aside_file(robot)) or b"{}", type=dict[str, Aside])
         except (ValueError, RecursionError):  # it may be a stranger's
             return {}
-        return {path: one for path, one in index.items() if statefile.is_inside(path) and statefile.is_inside(one.file)}
+        return {
+            path: one for path, one in index.items() if all(map(statefile.is_inside, (path, one.file, *one.beside)))
+        }
 
     def aside_text(self, robot: str, file: str) -> bytes | None:
         """Return a text that was put aside, by its path below the robot's folder."""
@@ -160,9 +179,12 @@ class Store:
         return {path.relative_to(folder).as_posix(): self._bytes(path) or b"" for path in existing}
 
     def persons_proposals(self, robot: str, noted: Mapping[str, tuple[str, str]]) -> set[str]:
-        """Return the proposed merges that are not as urdfsync has `noted` them, by path: a person changed them."""
-        existing = {path: digest(content) for path, content in self.conflict_files(robot).items() if ".merge" in path}
-        return {path for path, sha256 in existing.items() if sha256 != noted.get(path, ("", ""))[0]}
+        """Return the proposed merges that are not as urdfsync has `noted` them, by path: a person changed them.
+
+        A blank one has nothing of a person's, and can't be edited further.
+        """
+        proposals = {path: text for path, text in self.conflict_files(robot).items() if ".merge" in path}
+        return {path for path, text in proposals.items() if text.strip() and digest(text) != noted.get(path, ("",))[0]}
 
     def save_conflicts(self, robot: str, contents: Mapping[str, bytes], kept: Collection[str] = ()) -> list[FileChange]:
         """Return the writes that bring versions to the robot's folder, by path; all others go, but those `kept`."""
@@ -173,7 +195,7 @@ class Store:
     def remove(self, robot: str) -> list[FileChange]:
         """Return how all goes that was recorded of a robot; texts that are a person's stay."""
         files = (*self.base_files(robot), self.drawing(robot), self.expansion(robot), notes.place(self.folder, robot))
-        persons = self.persons_proposals(robot, notes.load(self.folder, robot).proposals)
+        persons = self.persons_proposals(robot, self.notes(robot).proposals)
         changes = [change for path in (*files, self.path(robot)) for change in self.save(path, None)]
         return [*self.save_conflicts(robot, {}, persons), *changes]
 

@@ -24,7 +24,7 @@ _CHANGES, _FILES, _EFFECTS = 60, 12, 8
 _DOUBTS = 6
 """So many elements that may be other parts are named."""
 _SILENT = frozenset({Reason.UNCHANGED, Reason.KEEP, Reason.FORGET})
-_EDITED = USERS | {Reason.UNOWNED, Reason.MOVED_AWAY}
+_EDITED = USERS | {Reason.MOVED_AWAY}
 """Actions on files that the user edited: these are always named."""
 
 

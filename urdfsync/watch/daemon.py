@@ -15,16 +15,16 @@ import contextlib
 import math
 import os
 import time
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from queue import Empty, SimpleQueue
 
 import msgspec
 
 from urdfsync import config
-from urdfsync.config import STATE_FOLDER, Config, RobotConfig, warnings
+from urdfsync.config import STATE_FOLDER, Config, warnings
 from urdfsync.dependencies import STAT
-from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity, internal_error
+from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
 from urdfsync.engine.build import WAITING, build
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Result
@@ -303,7 +303,7 @@ class Daemon:
         self._building = [watched.name for watched in robots if watched.is_told]
         self._show_all(list(map(events.Building, self._building)))
         has_other_entries = False
-        for result in self._results([watched.robot for watched in robots]):
+        for result in build(self._config, [watched.robot for watched in robots], self._build_options):
             watched = self._robots[result.robot]
             has_other_entries |= watched.take(result.reads, {self._config_file: self._config_hash})
             watched.is_confirmed = not result.writes
@@ -327,19 +327,6 @@ class Daemon:
                 self._rest(watched)
             else:  # most likely its own writes: confirmed without a word
                 watched.settle(time.monotonic() + self._options.settle, is_told=False)
-
-    def _results(self, robots: list[RobotConfig]) -> Iterator[Result]:
-        """Build robots. A bug that one robot meets is its error, and the others are built."""
-        while robots:
-            try:
-                for result in build(self._config, tuple(robots), self._build_options):
-                    robots.pop(0)
-                    yield result
-            except Exception as error:  # noqa: BLE001 - going on is safe: the next build reads everything from the disk
-                robot, bug = robots.pop(0), internal_error(error, "the robot can't be built: ")
-                yield Result(
-                    robot.name, robot.target.package, robot.folder, self._config.root, diagnostics=(bug,), failed=True
-                )
 
     def _rest(self, watched: WatchedRobot) -> None:
         """Leave a robot alone until something changes, or for a while if it failed; check its package otherwise."""

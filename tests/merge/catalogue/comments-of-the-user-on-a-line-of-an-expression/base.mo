@@ -1,0 +1,5 @@
+model A
+  parameter Real a[:, 2] = {
+      {1, 2},
+      {1, 2}};
+end A;

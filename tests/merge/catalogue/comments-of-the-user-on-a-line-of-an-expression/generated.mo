@@ -1,0 +1,6 @@
+model A
+  parameter Real a[:, 2] = {
+      {1, 2},
+      {1, 2},
+      {3, 4}};
+end A;

@@ -1,0 +1,6 @@
+model A
+  parameter Real a[:, 2] = {
+      {1, 2},
+  // m
+      {1, 2}};
+end A;
