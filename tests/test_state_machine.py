@@ -469,7 +469,8 @@ class Walk(RuleBasedStateMachine):
         self.conflicts = {
             one["path"]: one["origin"] or one["path"] for one in check["actions"] if one["kind"] == "conflict"
         }
-        reasons = {one["origin"] or one["path"]: one["reason"] for one in status["actions"] if one["status"]}
+        ours = [one for one in status["actions"] if one["status"] and one["reason"] != "unknown"]
+        reasons = {one["origin"] or one["path"]: one["reason"] for one in ours}
         files = {one["file"] for one in check["diagnostics"] if one["severity"] != "note" and one["file"]}
         self.broken = sorted(files & reasons.keys()) if check["is_broken"] else []
         if check["in_step"]:

@@ -19,6 +19,8 @@ from urdfsync.engine.generation import Generation
 from urdfsync.engine.package_files import PackageFiles, encode, text_hash, with_line_ends
 from urdfsync.files import shown
 from urdfsync.markers import find_markers
+from urdfsync.modelica.files import class_parts
+from urdfsync.modelica.layout import with_within
 from urdfsync.spelling import nearest
 from urdfsync.state.record import FileRecord, role_of
 
@@ -123,7 +125,8 @@ def _settle(generation: Generation, decision: Decision, action: Action, chosen: 
 
             # the file gets its new names once it moves
             names = {new: old for old, new in without_clashes(decision.names, conflict.mine).items()}
-            record, texts = known_bases(rename(conflict.generated, "", names)[0])
+            package = ".".join((inputs.last.target.package, *class_parts(inputs.last.folder.path(key))))
+            record, texts = known_bases(with_within(rename(conflict.generated, "", names)[0], package))
             settled.texts.update(texts)
         if markers := find_markers((content or b"").decode(errors="replace")):
             message, hint = "unresolved merge markers", "settle them in the file, then build again"

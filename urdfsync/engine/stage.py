@@ -65,8 +65,10 @@ def stage(
         None,
     )
     is_writing = bool(files) or any(action.writes for action in actions)
-    drawing = _draw(generation) if inputs.options.draw else []
-    changes = [*files.values(), *drawing]
+    model = generation.now.snapshot, generation.imported.imports, robot.target, robot.options
+    picture = inputs.domain.drawing(*model) if inputs.options.draw else None
+    drawing = None if picture is None else store.drawing(robot.name)
+    changes = [*files.values(), *(store.save(drawing, picture.encode()) if picture and drawing else ())]
     if inputs.options.removes:
         state = [change for name in {inputs.last.name, robot.name} for change in store.remove(name)]
     else:
@@ -93,19 +95,12 @@ def stage(
         renews=bool(state),
         stale=inputs.source.stale,
         is_broken=any(misfit.is_broken for misfit in decision.misfits),
-        drawing=store.drawing(robot.name) if drawing else None,
+        drawing=drawing,
         changes=news if news and (news.changes or news.generator) else None,
         conflict_texts=versions.conflicts,
         settled=frozenset(settled.keys),
     )
     return Plan(result, store.hashes(), decision.shared, tuple(changes), _emptied(inputs, changes), notes)
-
-
-def _draw(generation: Generation) -> list[FileChange]:
-    """Return how the robot's diagram gets to its file."""
-    inputs, robot, imports = generation.inputs, generation.inputs.robot, generation.imported.imports
-    picture = inputs.domain.drawing(generation.now.snapshot, imports, robot.target, robot.options)
-    return inputs.store.save(inputs.store.drawing(robot.name), picture.encode()) if picture is not None else []
 
 
 def _emptied(inputs: Inputs, changes: Iterable[FileChange]) -> tuple[Path, ...]:
