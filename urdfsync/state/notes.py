@@ -13,7 +13,7 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync.dependencies import MAX_FILE
+from urdfsync.facts import MAX_FILE
 from urdfsync.files import TEMPORARY
 from urdfsync.state import file_operations
 
