@@ -13,6 +13,7 @@ from pathlib import Path
 from unittest import mock
 
 import pytest
+from benchmarks.robots import write_workspace
 from hypothesis import given
 from hypothesis import strategies as st
 from support import answers
@@ -494,6 +495,19 @@ def test_a_build_that_has_no_answer_and_nothing_to_do_imports_no_library(folder:
     names, said = imported("-c", FULL, *BUILD)
     assert said == f"{IN_STEP}\n"
     assert not names & {"jinja2", "rich", "lxml", "numpy", "yourdfpy"}
+
+
+def test_a_changed_number_of_a_package_that_nobody_edited_imports_no_parser(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(write_workspace(tmp_path / "place", 1, 2))
+    assert cli.main(["build", "-q"]) == 0
+    Path("robot0.urdf").write_text(Path("robot0.urdf").read_text().replace('mass value="1"', 'mass value="2"', 1))
+    names, said = imported("-c", FULL, *BUILD)
+    assert "1 file written" in said
+    assert not {name for name in names if name.startswith("urdfsync.merge")}
+    ours = {f"urdfsync.modelica.{name}" for name in ("files", "literals", "names")}
+    assert {name for name in names if name.startswith("urdfsync.modelica.")} == ours
 
 
 def test_python_looks_for_no_garbage_at_its_end() -> None:
