@@ -127,7 +127,7 @@ def modelica_library() -> Iterator[Path]:
 
     Checks in this process parse its files once, and hash it and their compiler once: each would do that for a second.
     """
-    from urdfsync.modelica.files import parse_file
+    from urdfsync.modelica.stored import parse_file
 
     try:
         folder = find_standard_library()["Modelica"].parent

@@ -125,7 +125,7 @@ def test_it_loads_no_more_than_the_up_to_date_check(built: Path) -> None:
     assert done.stdout.splitlines() == ["ladder", "filter"]
     loaded = set(done.stderr.split())
     assert {name for name in loaded if name.startswith("urdfsync.")} <= {
-        f"urdfsync.{name}" for name in ("__main__", "uptodate", "dependencies", "streams", "completion")
+        f"urdfsync.{name}" for name in ("__main__", "uptodate", "facts", "streams", "completion")
     }
     assert not loaded & {"argparse", "msgspec", "json"}
 

@@ -11,7 +11,7 @@ from support import xacros
 from support.networks import RECORD, configure, resistor, run, run_all
 
 from urdfsync import dependencies
-from urdfsync.dependencies import LSTAT, MODELICA, NAMES, NOTHING, STAT, STAT_TYPE, VARIABLE
+from urdfsync.facts import LSTAT, MODELICA, NAMES, NOTHING, STAT, STAT_TYPE, VARIABLE, check_path
 from urdfsync.files import digest
 
 
@@ -37,12 +37,12 @@ def test_environment_variables_are_recorded(monkeypatch: pytest.MonkeyPatch) -> 
     for value in (None, "", "0.5", "0.6"):
         if value is not None:
             monkeypatch.setenv("LENGTH", value)
-        before = dependencies.check_path(VARIABLE, "LENGTH")
+        before = check_path(VARIABLE, "LENGTH")
         with dependencies.Dependencies() as found:
             assert dependencies.read_variable("LENGTH") == value
         assert found.entries == {(VARIABLE, "LENGTH"): before}
         monkeypatch.setenv("LENGTH", "another")
-        assert dependencies.check_path(VARIABLE, "LENGTH") != before
+        assert check_path(VARIABLE, "LENGTH") != before
 
 
 def test_what_changes_or_fails_meanwhile_makes_the_record_incomplete(tmp_path: Path) -> None:
@@ -109,6 +109,6 @@ def test_a_build_lists_what_it_wrote_as_it_is_then(project: Path) -> None:
     result = run()
     assert result.writes
     for entry, facts in result.reads.entries.items():
-        assert dependencies.check_path(*entry) == facts, entry
+        assert check_path(*entry) == facts, entry
     record = project / RECORD
     assert result.reads.hashes[LSTAT, str(record)] == digest(record.read_bytes())

@@ -8,11 +8,13 @@ a text that stays in a file. `pytest -k NAME` runs one.
 from __future__ import annotations
 
 import contextlib
+import itertools
 import re
 import shutil
 import subprocess
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 from support.branches import export, perform
@@ -68,13 +70,23 @@ def stop(project: Path, monkeypatch: pytest.MonkeyPatch, execute: Execute) -> St
     return bring
 
 
+NAMES = sorted(folder.name for folder in CASES.iterdir())
+# where git keeps what it is at work on does not depend on how it marks: in other ways than `merge`, one style a case
+ALL: list[Any] = [
+    *itertools.product(["merge"], STYLES, NAMES),
+    *(
+        pytest.param(way, STYLES[(number + shift) % len(STYLES)], name, marks=pytest.mark.slow)
+        for shift, way in enumerate([*WAYS][1:])
+        for number, name in enumerate(NAMES)
+    ),
+]
+
+
 def marked() -> dict[str, str]:
     return {path: text for path, text in models().items() if find_markers(text)}
 
 
-@pytest.mark.parametrize("case", sorted(folder.name for folder in CASES.iterdir()))
-@pytest.mark.parametrize("style", STYLES)
-@pytest.mark.parametrize("way", [way if way == "merge" else pytest.param(way, marks=pytest.mark.slow) for way in WAYS])
+@pytest.mark.parametrize(("way", "style", "case"), ALL)
 def test_merges(stop: Stop, tmp_path: Path, case: str, way: str, style: str) -> None:
     stop(case, way, style)
     before = marked()

@@ -13,6 +13,7 @@ from pathlib import Path
 from unittest import mock
 
 import pytest
+from benchmarks.robots import write_workspace
 from hypothesis import given
 from hypothesis import strategies as st
 from support import answers
@@ -21,7 +22,7 @@ from support.cases import often
 from support.meshes import stl
 from support.screen import print_on_terminal
 
-from urdfsync import cli, dependencies, streams, uptodate
+from urdfsync import cli, facts, streams, uptodate
 from urdfsync.checks import afterbuild
 from urdfsync.dependencies import Dependencies
 from urdfsync.engine import plan
@@ -39,7 +40,7 @@ IN_STEP = "arm: in step, 17 files, 1 kept because you edited it\nleg: in step, 1
 
 @pytest.fixture(autouse=True)
 def _soon_old(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(dependencies, "YOUNG", 50_000_000)  # else each test would wait for two seconds
+    monkeypatch.setattr(facts, "YOUNG", 50_000_000)  # else each test would wait for two seconds
 
 
 @pytest.fixture
@@ -219,6 +220,14 @@ def test_so_does_the_program(folder: Path) -> None:
     assert {plan.__file__, cli.__file__} <= set(checks[1::3])
 
 
+def test_a_file_is_looked_at_once(folder: Path) -> None:
+    """Its stat values show its type as well."""
+    save(*BUILD)
+    checks = Path(STAMP).read_text(errors="surrogateescape").split("\0\0")[2].split("\0")
+    looks = {(check.partition(" ")[0], path) for check, path in zip(checks[::3], checks[1::3], strict=True)}
+    assert len(looks) == len(checks) // 3 > 33
+
+
 def test_what_does_not_matter_does_not_end_it(folder: Path) -> None:
     save(*BUILD)
     for path in ("notes.txt", "modelica/notes.txt", "modelica/Leg/notes.txt", "robots/other.urdf", ".urdfsync/own.txt"):
@@ -256,9 +265,9 @@ def test_what_becomes_of_a_source_mesh_is_told(folder: Path, command: list[str],
 def test_young_files_are_compared_by_content(folder: Path, path: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """The clock of a file system may stand still between a look and a change: stat values do not tell them apart."""
     now = time.time_ns()
-    monkeypatch.setattr(dependencies, "YOUNG", 60_000_000_000)
+    monkeypatch.setattr(facts, "YOUNG", 60_000_000_000)
     monkeypatch.setattr(
-        dependencies, "stat_of", lambda status: (status.st_mode, status.st_ino, status.st_dev, status.st_size, now, now)
+        facts, "stat_of", lambda status: (status.st_mode, status.st_ino, status.st_dev, status.st_size, now, now)
     )
     monkeypatch.setattr(Dependencies, "add_modules", lambda _: None)  # which would be young, too
     for _ in range(2):  # the first one in a copy notes that it wrote this folder
@@ -273,7 +282,7 @@ def test_young_files_are_compared_by_content(folder: Path, path: str, monkeypatc
 def test_once_its_files_are_old_stat_values_tell(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     Path(URDF).touch()
     with monkeypatch.context() as patch:
-        patch.setattr(dependencies, "YOUNG", 60_000_000_000)
+        patch.setattr(facts, "YOUNG", 60_000_000_000)
         patch.setattr(Dependencies, "add_modules", lambda _: None)
         for _ in range(2):
             assert cli.main(BUILD) == 0
@@ -476,13 +485,13 @@ def imported(*arguments: str) -> tuple[set[str], str]:
 @pytest.mark.slow
 def test_nothing_heavy_is_imported(folder: Path) -> None:
     answers.until(Path(STAMP).exists, lambda: imported("-c", FULL, *BUILD))  # by the whole program
-    time.sleep(dependencies.YOUNG / 1e9 + 2)  # the copy is young for two seconds
+    time.sleep(facts.YOUNG / 1e9 + 2)  # the copy is young for two seconds
     imported("-m", "urdfsync", *BUILD)
     anyway, _ = imported("-c", "import runpy")
     names = imported("-m", "urdfsync", *BUILD)
     assert names[1] == f"{IN_STEP}\n"
-    ours = {f"urdfsync.{name}" for name in ("uptodate", "dependencies", "streams")}
-    light = {"__future__", "_contextvars", "collections.abc", "contextvars", "errno", "runpy", "time"}
+    ours = {f"urdfsync.{name}" for name in ("uptodate", "facts", "streams")}
+    light = {"__future__", "atexit", "errno", "gc", "runpy", "time"}
     assert names[0] - anyway - ours <= {"urdfsync", *light}
     Path(URDF).touch()
     assert imported("-c", FULL, *BUILD)[1] == imported("-m", "urdfsync", *BUILD)[1] == names[1]
@@ -497,6 +506,25 @@ def test_a_build_that_has_no_answer_and_nothing_to_do_imports_no_library(folder:
     names, said = imported("-c", FULL, *BUILD)
     assert said == f"{IN_STEP}\n"
     assert not names & {"jinja2", "rich", "lxml", "numpy", "yourdfpy"}
+
+
+def test_a_changed_number_of_a_package_that_nobody_edited_imports_no_parser(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(write_workspace(tmp_path / "place", 1, 2))
+    assert cli.main(["build", "-q"]) == 0
+    Path("robot0.urdf").write_text(Path("robot0.urdf").read_text().replace('mass value="1"', 'mass value="2"', 1))
+    names, said = imported("-c", FULL, *BUILD)
+    assert "1 file written" in said
+    assert not {name for name in names if name.startswith("urdfsync.merge")}
+    ours = {f"urdfsync.modelica.{name}" for name in ("files", "literals", "names")}
+    assert {name for name in names if name.startswith("urdfsync.modelica.")} == ours
+
+
+def test_python_looks_for_no_garbage_at_its_end() -> None:
+    last = "import atexit, gc; atexit.register(lambda: print(gc.get_freeze_count() > 0))"
+    _, said = imported("-c", f"{last}; from urdfsync.__main__ import main; main()", "--version")
+    assert said.endswith("True\n")
 
 
 FULL = "import sys; from urdfsync.cli import main; sys.exit(main())"

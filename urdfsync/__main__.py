@@ -1,10 +1,14 @@
 """The program's start: `urdfsync`, or `python -m urdfsync`."""
 
+import atexit
+import gc
 import sys
 
 
 def main() -> int:
     """Run the command line; returns the exit code."""
+    # else Python looks for garbage in all that is loaded, and then ends: 40 of 290 ms of a build, 3 of 40 of no work
+    atexit.register(gc.freeze)
     try:
         from urdfsync import uptodate  # here, so that Ctrl-C during the import leaves no traceback
 

@@ -12,7 +12,7 @@ import os
 import sys
 
 from urdfsync import uptodate
-from urdfsync.dependencies import read_unrecorded
+from urdfsync.facts import read_unrecorded
 
 SHELLS = ("bash", "zsh", "fish")
 _SHELLS = os.path.join(os.path.dirname(__file__), "shells")

@@ -7,7 +7,6 @@ means is named by `depend_on`, or makes the list incomplete (`mark_incomplete`).
 
 from __future__ import annotations
 
-import errno
 import os
 import stat
 import sys
@@ -15,32 +14,26 @@ import time
 from collections.abc import Iterable, Iterator, Mapping
 from contextvars import ContextVar, Token
 
-Stat = tuple[int, int, int, int, int, int]
-"""Mode, inode, device, size in bytes, and the times of change of content and of status in ns. Only ever compared."""
-
-YOUNG = 2_000_000_000
-"""Nanoseconds after a change in which a file is read again, whatever its stat values are."""
-MAX_FILE = 100_000_000
-"""Bytes of a file that is read. More is no source, mesh or output, but may be a stranger's, to fill the memory."""
-_ABSENT = (errno.ENOENT, errno.ENOTDIR, errno.ELOOP, errno.EBADF)
-"""Errors that say that nothing is at a path; the same as for pathlib."""
-_NONBLOCK = getattr(os, "O_NONBLOCK", 0)
-
-LSTAT, STAT = "lstat", "stat"
-"""How the content of a file is checked: by its `Stat`, and by its hash if that is known; with `LSTAT` links themselves,
-with `STAT` what they lead to. Files that builds write are read by `LSTAT`, all others by `STAT`."""
-CONTENTS = (LSTAT, STAT)
-LSTAT_TYPE, STAT_TYPE = "lstat type", "stat type"
-"""How a path is checked by its file type alone."""
-NAMES, MODELICA = "names", "modelica"
-"""How a folder is checked: by all names in it, or by those that matter to Modelica."""
-LISTINGS = (NAMES, MODELICA)
-VARIABLE = "variable"
-"""How an environment variable is checked, whose name stands in the place of a path: by its value."""
-NOTHING = (0,)
-"""The facts about a path without a file."""
-Entry = tuple[str, str]
-"""A check, and the path or variable that it is of."""
+from urdfsync.facts import (
+    CONTENTS,
+    LSTAT,
+    LSTAT_TYPE,
+    MODELICA,
+    NAMES,
+    STAT,
+    STAT_TYPE,
+    VARIABLE,
+    Entry,
+    check_path,
+    checksum,
+    facts_of,
+    failed,
+    hash_content,
+    is_young,
+    names_in,
+    read_unrecorded,
+    stat_of,
+)
 
 
 class Dependencies:
@@ -101,7 +94,7 @@ class Dependencies:
             self.entries[entry], content = check_path(*entry), written.get(entry[1])
             self.hashes.pop(entry, None)
             if content is not None and entry[0] in CONTENTS:
-                self.hashes[entry] = _hash(content)
+                self.hashes[entry] = hash_content(content)
 
     def add_modules(self) -> None:
         """Record the program itself, which a developer may change; Python goes by its version."""
@@ -134,49 +127,12 @@ def include(other: Dependencies) -> None:
             dependencies.add_hash(entry, sha256)
 
 
-def is_young(facts: tuple[int, ...], now: int) -> bool:
-    """Whether a file changed less than two seconds before `now` (ns), or later.
-
-    The next change may show the same stat values, since no clock of a file system is coarser than that of FAT.
-    """
-    return max(facts[-2:]) > now - YOUNG
-
-
-def stat_of(status: os.stat_result) -> Stat:
-    """Return the values that differ once a file has changed."""
-    return status.st_mode, status.st_ino, status.st_dev, status.st_size, status.st_mtime_ns, status.st_ctime_ns
-
-
-def check_path(check: str, path: str | os.PathLike[str]) -> tuple[int, ...]:
-    """Return the facts about a path now, in the form of `Dependencies.entries`."""
-    try:
-        return _facts(check, path)
-    except OSError as error:
-        return _failed(error)
-
-
-def _facts(check: str, path: str | os.PathLike[str]) -> tuple[int, ...]:
-    if check == VARIABLE:
-        value = os.environ.get(os.fspath(path))
-        return (-1,) if value is None else tuple(value.encode(errors="surrogateescape"))
-    if check in LISTINGS:
-        with os.scandir(path) as entries:
-            return _names(check, entries)
-    try:
-        status = os.stat(path, follow_symlinks=check in (STAT, STAT_TYPE))
-    except OSError as error:
-        if error.errno in _ABSENT:
-            return NOTHING
-        raise
-    return stat_of(status) if check in CONTENTS else (stat.S_IFMT(status.st_mode),)
-
-
 def _look(check: str, path: str | os.PathLike[str]) -> tuple[int, ...]:
     """Return the facts about a path now, and record them. Raises OSError if the system does not tell."""
     try:
-        facts = _facts(check, path)
+        facts = facts_of(check, path)
     except OSError as error:
-        _record(check, path, _failed(error))
+        _record(check, path, failed(error))
         mark_incomplete()
         raise
     _record(check, path, facts)
@@ -186,10 +142,6 @@ def _look(check: str, path: str | os.PathLike[str]) -> tuple[int, ...]:
 def _record(check: str, path: str | os.PathLike[str], facts: tuple[int, ...]) -> None:
     if (dependencies := _current.get()) is not None:
         dependencies.add(check, path, facts)
-
-
-def _failed(error: OSError) -> tuple[int, ...]:
-    return (-(error.errno or 1),)
 
 
 def file_type(path: str | os.PathLike[str], *, follow: bool = True) -> int:
@@ -225,33 +177,7 @@ def note_content(check: str, path: str | os.PathLike[str], content: bytes) -> No
     """Record what was read of a file, if it is so young that its stat values may not tell the next change."""
     dependencies, entry = _current.get(), (check, os.fspath(path))
     if dependencies is not None and entry in dependencies.hashes:
-        dependencies.add_hash(entry, _hash(content))
-
-
-def hash_file(path: str) -> str:
-    """Return the hash of a file's content now. Raises OSError."""
-    return _hash(read_unrecorded(path))
-
-
-def _hash(content: bytes) -> str:
-    from hashlib import sha256  # 3 ms, and saved answers of old files do without
-
-    return sha256(content).hexdigest()
-
-
-def read_unrecorded(path: str | os.PathLike[str]) -> bytes:
-    """Read a file as `read_file` does, without recording it: where `read_stat` has, or no answer depends on it."""
-    # a pipe would wait for somebody who writes to it
-    with open(path, "rb", buffering=0, opener=lambda path, flags: os.open(path, flags | _NONBLOCK)) as file:
-        status = os.fstat(file.fileno())
-        if not stat.S_ISREG(status.st_mode):
-            raise OSError(errno.EINVAL, "it is no regular file", os.fspath(path))
-        if status.st_size > MAX_FILE:
-            raise OSError(errno.EFBIG, f"it has more than {MAX_FILE:,} bytes", os.fspath(path))
-        if status.st_size:
-            return file.read()
-        # a file of the system may say that it is empty, and never end
-        return file.read(MAX_FILE) or b""
+        dependencies.add_hash(entry, hash_content(content))
 
 
 def read_stat(path: str | os.PathLike[str]) -> tuple[int, ...]:
@@ -277,32 +203,15 @@ def _scan(check: str, folder: str | os.PathLike[str]) -> list[os.DirEntry[str]]:
         with os.scandir(folder) as entries:
             found = list(entries)
     except OSError as error:
-        _record(check, folder, _failed(error))
+        _record(check, folder, failed(error))
         raise
-    _record(check, folder, _names(check, found))
+    _record(check, folder, names_in(check, found))
     return found
 
 
 def note_names(folder: str | os.PathLike[str], names: Iterable[str]) -> None:
     """Record the names in a folder that was listed by other means."""
-    _record(NAMES, folder, _checksum(names))
-
-
-def _names(check: str, entries: Iterable[os.DirEntry[str]]) -> tuple[int, ...]:
-    """Return number and checksum of the names that count: to Modelica, those of its files and of visible folders."""
-    return _checksum(
-        entry.name
-        for entry in entries
-        if check == NAMES
-        or (not entry.name.startswith(".") and (entry.name.endswith(".mo") or entry.is_dir(follow_symlinks=False)))
-    )
-
-
-def _checksum(names: Iterable[str]) -> tuple[int, ...]:
-    """Return the number of names and a checksum, for which their order does not matter."""
-    ordered = sorted(names)
-    # the hash of an integer is the same in each process
-    return len(ordered), hash(int.from_bytes("/".join(ordered).encode(errors="surrogateescape")))
+    _record(NAMES, folder, checksum(names))
 
 
 def depend_on(path: str | os.PathLike[str]) -> None:

@@ -10,17 +10,9 @@ import stat
 from collections.abc import Sequence
 from pathlib import Path
 
-from urdfsync.dependencies import (
-    LSTAT,
-    Dependencies,
-    file_type,
-    note_content,
-    read_file,
-    read_stat,
-    read_unrecorded,
-    walk_files,
-)
+from urdfsync.dependencies import Dependencies, file_type, note_content, read_file, read_stat, walk_files
 from urdfsync.diagnostics import OutputError
+from urdfsync.facts import LSTAT, read_unrecorded
 
 TEMPORARY = ".urdfsync-tmp"
 """Suffix of the files that are written before they replace their targets."""

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from support.networks import LADDER, run
 
-from urdfsync import config, dependencies
+from urdfsync import config, facts
 from urdfsync.domain import Role
 from urdfsync.engine.package_files import PackageFiles
 from urdfsync.engine.rules import CLASS_FOLDER
@@ -28,7 +28,7 @@ def files() -> PackageFiles:
 def old(project: Path, monkeypatch: pytest.MonkeyPatch) -> bytes:
     """The content of a file that was read when it was no longer young."""
     run()
-    monkeypatch.setattr(dependencies, "YOUNG", -(10**12))
+    monkeypatch.setattr(facts, "YOUNG", -(10**12))
     assert files().state(FILE)
     return Path(FILE).read_bytes()
 

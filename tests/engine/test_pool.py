@@ -21,12 +21,13 @@ from support.replay import contents
 
 from urdfsync import config
 from urdfsync.config import Config, RobotConfig
-from urdfsync.dependencies import STAT, Dependencies
+from urdfsync.dependencies import Dependencies
 from urdfsync.diagnostics import ConfigError, UrdfsyncError
 from urdfsync.engine import pool
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.pool import plan_in_worker
+from urdfsync.facts import STAT
 from urdfsync.workers import Workers, workers
 
 COUNT = 8

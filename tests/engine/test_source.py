@@ -21,7 +21,7 @@ from support.meshes import stl
 from support.replay import contents
 from support.xacros import EXPANDED, RECORD
 
-from urdfsync import dependencies
+from urdfsync import facts
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.engine.source import Source
 from urdfsync.state.expansion import dumps, loads
@@ -202,7 +202,7 @@ def test_arguments_and_variables_are_inputs(project: Path, execute: Execute, mon
 def test_a_variable_is_part_of_the_saved_answer(
     project: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(dependencies, "YOUNG", 50_000_000)
+    monkeypatch.setattr(facts, "YOUNG", 50_000_000)
     files = {"arm.urdf.xacro": xacros.ARM.replace('default="0.5"', 'default="$(optenv LONG 2)"')}
     xacros.write(project, files, xacros.CONFIG.replace("arguments = { length = 0.5 }\n", ""))
     execute("build")
@@ -213,7 +213,7 @@ def test_a_variable_is_part_of_the_saved_answer(
 
 
 def test_the_saved_answer_knows_each_input(built: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(dependencies, "YOUNG", 50_000_000)
+    monkeypatch.setattr(facts, "YOUNG", 50_000_000)
     for name in ("masses.yaml", "parts/beam.xacro", "arm.urdf.xacro"):
         save("build")
         assert saved("build") is not None

@@ -10,7 +10,6 @@ import pytest
 
 from urdfsync.modelica.classes import Node
 from urdfsync.modelica.files import (
-    StoredClasses,
     TooManyFoldersError,
     class_of_file,
     class_parts,
@@ -22,6 +21,7 @@ from urdfsync.modelica.files import (
     text_of,
 )
 from urdfsync.modelica.scopes import Scopes
+from urdfsync.modelica.stored import StoredClasses
 from urdfsync.modelica.unresolved import unresolved
 
 

@@ -9,8 +9,8 @@ import pytest
 from support.plant import PLANT, USER, classes_in, library_classes, stored_below
 
 from urdfsync.modelica.classes import Node, Type
-from urdfsync.modelica.files import StoredClasses
 from urdfsync.modelica.scopes import ANYTHING, INTERFACES, Element, Missing, Scopes
+from urdfsync.modelica.stored import StoredClasses
 from urdfsync.modelica.syntax import Name
 
 

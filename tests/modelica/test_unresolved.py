@@ -10,8 +10,8 @@ import pytest
 from support.plant import MARKED_PLANT, MARKED_USER, PLANT, USER, classes_in, library_classes, stored_below
 
 from urdfsync.modelica.classes import Node
-from urdfsync.modelica.files import StoredClasses
 from urdfsync.modelica.scopes import Scopes
+from urdfsync.modelica.stored import StoredClasses
 from urdfsync.modelica.unresolved import Unresolved, UnresolvedKind, unresolved
 
 

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from urdfsync.diagnostics import ConfigError
-from urdfsync.modelica.files import StoredClasses
 from urdfsync.modelica.scopes import Scopes
+from urdfsync.modelica.stored import StoredClasses
 from urdfsync.simulation.models import Input, Model, find_model
 
 RUN = """within Plant;

@@ -9,7 +9,7 @@ from pathlib import Path
 from unittest import mock
 
 from support.meshes import stl
-from urdfsync import cli, dependencies, uptodate
+from urdfsync import cli, facts, uptodate
 
 LIMIT = 60.0
 """Seconds after which an answer is not saved any more."""
@@ -66,7 +66,7 @@ def built(folder: Path) -> Path:
 def until(is_done: Callable[[], bool], step: Callable[[], object]) -> None:
     """Repeat a step until an answer is saved: that takes as long as its dependencies are young, which is short here."""
     end = time.monotonic() + LIMIT
-    with mock.patch.object(dependencies, "YOUNG", SHORT):
+    with mock.patch.object(facts, "YOUNG", SHORT):
         while not is_done():
             step()
             assert time.monotonic() < end, "no answer was saved"

@@ -44,7 +44,12 @@ _BEYOND = {"clash", "wrong-rename", "toml-syntax"}
 
 def is_valid(text: str) -> bool:
     """Whether a configuration is as the schema says."""
-    return bool(_validator(tuple(sys.path)).is_valid(tomllib.loads(text)))
+    return _is_valid(text, tuple(sys.path))
+
+
+@functools.lru_cache(maxsize=100)
+def _is_valid(text: str, path: tuple[str, ...]) -> bool:
+    return bool(_validator(path).is_valid(tomllib.loads(text)))
 
 
 @functools.cache

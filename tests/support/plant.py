@@ -9,7 +9,7 @@ import pytest
 
 from support.corpus import REPOSITORY
 from urdfsync.checks import libraries
-from urdfsync.modelica.files import StoredClasses
+from urdfsync.modelica.stored import StoredClasses
 
 MARKED_PLANT = """\
 package Plant "A crane of two links"

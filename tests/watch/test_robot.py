@@ -10,8 +10,9 @@ from pathlib import Path
 import msgspec
 import pytest
 
-from urdfsync import config, dependencies
-from urdfsync.dependencies import STAT, Dependencies, file_type, list_folder, read_file, read_variable, scan_modelica
+from urdfsync import config, facts
+from urdfsync.dependencies import Dependencies, file_type, list_folder, read_file, read_variable, scan_modelica
+from urdfsync.facts import STAT
 from urdfsync.files import Tree
 from urdfsync.watch.robot import WatchedRobot
 
@@ -19,7 +20,7 @@ from urdfsync.watch.robot import WatchedRobot
 @pytest.fixture(params=[True, False], ids=["young", "old"])
 def robot(folder: Path, request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> WatchedRobot:
     """A robot with a source, templates and a model; its files are young or old when they are read."""
-    monkeypatch.setattr(dependencies, "YOUNG", 10**18 if request.param else 0)
+    monkeypatch.setattr(facts, "YOUNG", 10**18 if request.param else 0)
     for path in ("arm.urdf", "own/a.jinja", "models/Own.mo", "Arm.mo"):
         Path(path).parent.mkdir(parents=True, exist_ok=True)
         Path(path).write_text("old")

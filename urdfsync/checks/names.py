@@ -16,9 +16,10 @@ from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import brings_back
 from urdfsync.files import shown
 from urdfsync.modelica.classes import Node
-from urdfsync.modelica.files import StoredClasses, class_of_file, files_that_use, parse_file, place_of, text_of
+from urdfsync.modelica.files import class_of_file, files_that_use, place_of, text_of
 from urdfsync.modelica.layout import check_class_file
 from urdfsync.modelica.scopes import Scopes
+from urdfsync.modelica.stored import StoredClasses, parse_file
 from urdfsync.modelica.unresolved import Unresolved, UnresolvedKind, unresolved
 
 

@@ -13,8 +13,8 @@ from pathlib import Path, PurePosixPath
 from urdfsync.checks.package import PackageTexts, RobotPackage
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.files import normalised
-from urdfsync.modelica.files import class_path
-from urdfsync.modelica.layout import PACKAGE_FILE, check_class_file, check_order, check_places
+from urdfsync.modelica.files import PACKAGE_FILE, class_path
+from urdfsync.modelica.layout import check_class_file, check_order, check_places
 from urdfsync.modelica.names import is_identifier
 from urdfsync.modelica.syntax import StoredText, declared
 

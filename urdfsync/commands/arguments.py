@@ -14,9 +14,9 @@ import msgspec
 
 from urdfsync.api import load
 from urdfsync.config import Config, RobotConfig
-from urdfsync.dependencies import read_unrecorded
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.engine.options import BuildOptions
+from urdfsync.facts import read_unrecorded
 from urdfsync.output.console import Console, Format
 
 CODES = (

@@ -18,13 +18,14 @@ from urdfsync import config as configuration
 from urdfsync import git, hook, uptodate
 from urdfsync.commands import arguments
 from urdfsync.config import FILE_NAME, STATE_FOLDER, Config, RobotConfig
-from urdfsync.dependencies import LISTINGS, LSTAT, VARIABLE, Dependencies
+from urdfsync.dependencies import Dependencies
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError, findings_of
 from urdfsync.engine import parents
 from urdfsync.engine.actions import ORPHANS, Reason
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Exit, Result, exit_code
+from urdfsync.facts import LISTINGS, LSTAT, VARIABLE
 from urdfsync.files import shown
 from urdfsync.output.console import Console
 from urdfsync.output.results import show_result

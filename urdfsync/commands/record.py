@@ -10,9 +10,9 @@ import msgspec
 
 from urdfsync.api import record
 from urdfsync.commands import arguments
-from urdfsync.dependencies import read_unrecorded
 from urdfsync.diagnostics import OutputError
 from urdfsync.engine.result import Exit
+from urdfsync.facts import read_unrecorded
 from urdfsync.files import normalised, shown
 from urdfsync.modelica.names import is_class_name
 from urdfsync.output.console import Console, line

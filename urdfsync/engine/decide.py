@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING
 
 import msgspec
 
@@ -13,10 +14,10 @@ from urdfsync.engine import united
 from urdfsync.engine.actions import DISPUTED, ORPHANS, Action, Actions, Choice, Reason
 from urdfsync.engine.conflicts import PREFERENCES, Conflict, find_conflict, resolve
 from urdfsync.engine.edit_origins import EDITED, find_moved_edits
-from urdfsync.engine.fit import Misfit, Package, find_misfits
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import Inputs
 from urdfsync.engine.needed import keep_needed
+from urdfsync.engine.package_after import PackageAfter
 from urdfsync.engine.package_files import PackageFiles
 from urdfsync.engine.package_names import names_of, renamed_names
 from urdfsync.engine.parents import SharedFile, merge_order
@@ -25,10 +26,12 @@ from urdfsync.engine.rules import File, decide, put_off
 from urdfsync.files import shown
 from urdfsync.markers import find_markers, join_sides
 from urdfsync.matching import Doubt
-from urdfsync.modelica.lexer import words_in
 from urdfsync.modelica.literals import numbers_only
 from urdfsync.modelica.names import is_identifier
 from urdfsync.state.record import role_of
+
+if TYPE_CHECKING:
+    from urdfsync.engine.fit import Misfit
 
 
 class Decision(msgspec.Struct, frozen=True):
@@ -85,7 +88,7 @@ def decide_package(generation: Generation) -> Decision:
     all_actions = Actions(put_off((*actions, *order_actions, *unknown), numbers, origins, inputs.has_moved))
     waiting = {action.path for action in all_actions if action.is_waiting}
     shared = [file for file in shared if files.key(file.path) not in waiting]
-    misfits = find_misfits(generation, all_actions, {**orders, **merged})
+    misfits = _find_misfits(generation, all_actions, {**orders, **merged})
     return Decision(all_actions, {**orders, **merged}, conflicts, tuple(shared), tuple(misfits), names)
 
 
@@ -179,6 +182,8 @@ def _conflict(
     if contradictions := files.left_by_git.get(key):
         texts, why = (bases[0] if bases else None, mine, generated, None), united.describe(contradictions)
         return Conflict(action.path, *texts, origin=action.origin, rejected=why)
+    from urdfsync.modelica.lexer import words_in  # imports the parser
+
     if not names and bases:  # a choice was undone after the build that brought new names
         names = names_of(generation, last.notes.renamed, frozenset(words_in(bases[0])))
     return find_conflict(action, bases, mine, generated, names)
@@ -218,6 +223,8 @@ def _bad_merges(
     planned, merged = resolve(actions, preferred, merging=True)
     if not merged:
         return {}
+    from urdfsync.engine.fit import Package
+
     package = Package(generation, keep_needed(generation, planned, merged), merged, is_open=True)
     new = package.misfits(merged.keys())
     if not new:
@@ -230,6 +237,18 @@ def _bad_merges(
         if misfits and key in merged and merged[key] != conflict.mine:
             reasons[key] = f"in the merge, {misfits[0].finding.message} (line {misfits[0].finding.line})"
     return reasons
+
+
+def _find_misfits(generation: Generation, actions: Sequence[Action], texts: Mapping[str, str]) -> Sequence[Misfit]:
+    """Find what does not fit in the files that the user wrote, once all actions are done but those that wait."""
+    if generation.inputs.has_moved and any(action.is_waiting for action in actions):
+        return ()  # the package stays where it was
+    package = PackageAfter(generation, actions, texts)
+    if not package.users and not package.extended_orders:
+        return ()
+    from urdfsync.engine.fit import Package  # imports the parser: 15 of 220 ms of a build
+
+    return Package(generation, actions, texts).misfits()
 
 
 def _renumbered(

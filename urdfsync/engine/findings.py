@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING
 
 import msgspec
 
@@ -11,14 +12,16 @@ from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import ChangeClass, brings_back
 from urdfsync.engine.actions import Actions
 from urdfsync.engine.decide import Decision
-from urdfsync.engine.fit import Misfit
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import Inputs, orphaned_robots
 from urdfsync.engine.package_files import key_of
 from urdfsync.engine.package_names import identifier_of, new_name, new_names, recently_renamed
 from urdfsync.files import shown
-from urdfsync.modelica.unresolved import Unresolved
 from urdfsync.state.store import Store
+
+if TYPE_CHECKING:
+    from urdfsync.engine.fit import Misfit
+    from urdfsync.modelica.unresolved import Unresolved
 
 CONNECTORS = "connector-changed"
 """Code of the notes on what users may connect to."""
@@ -66,13 +69,13 @@ def _diagnose(generation: Generation, misfits: Sequence[Misfit]) -> Iterator[Dia
     if not misfits:
         return
     inputs, renamed = generation.inputs, recently_renamed(generation)
-    places = dict[tuple[object, ...], list[Misfit]]()
+    places: dict[tuple[object, ...], list[Misfit]] = {}
     for misfit in misfits:
         if misfit.key or misfit.file in inputs.users_files.mentioning:  # others are left in a former folder
             finding = misfit.finding
             what = misfit.use.part if misfit.use else (misfit.lacking or finding.message, finding.code, finding.line)
             places.setdefault((misfit.file, what), []).append(misfit)
-    pairs = dict[tuple[str, str], Misfit]()
+    pairs: dict[tuple[str, str], Misfit] = {}
     for first, *more in places.values():
         finding = first.finding
         lines = [*map(str, sorted({misfit.finding.line for misfit in more} - {finding.line}))]

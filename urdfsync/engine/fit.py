@@ -10,33 +10,28 @@ those that mention a name which an edit adds, changes or takes away; of generate
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from functools import cached_property
 from pathlib import Path, PurePosixPath
-from typing import NamedTuple
 
 import msgspec
 
 from urdfsync.config import find_own_library
 from urdfsync.dependencies import is_file
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.domain import Role
-from urdfsync.engine.actions import Action, Reason
-from urdfsync.engine.generation import Generation
-from urdfsync.engine.package_files import encode, text_hash
+from urdfsync.engine.package_after import PackageAfter, as_file
 from urdfsync.engine.package_names import class_of, declared_names
 from urdfsync.files import shown
 from urdfsync.modelica.classes import Node
 from urdfsync.modelica.files import (
+    PACKAGE_FILE,
     ClassName,
-    StoredClasses,
     class_of_file,
     class_parts,
-    files_that_use,
     place_of,
     text_of,
 )
-from urdfsync.modelica.layout import PACKAGE_FILE, check_class_file, check_order, check_places
+from urdfsync.modelica.layout import check_class_file, check_order, check_places
 from urdfsync.modelica.scopes import Element, Scopes
 from urdfsync.modelica.statements import (
     TOO_LONG,
@@ -48,6 +43,7 @@ from urdfsync.modelica.statements import (
     parse_without,
     plain_statements,
 )
+from urdfsync.modelica.stored import StoredClasses
 from urdfsync.modelica.syntax import declared
 from urdfsync.modelica.unresolved import Unresolved, UnresolvedKind, unresolved
 
@@ -86,124 +82,16 @@ class Misfit(msgspec.Struct, frozen=True):
         return self.use.part if self.use else self.finding.code
 
 
-class _File(NamedTuple):
-    """A file of the package after the build."""
-
-    key: str
-    text: str | None = None
-    """A text that the build writes, other than the generated one."""
-    is_generated: bool = False
-    is_edited: bool = False
-    """Whether the user wrote in it."""
-    is_users: bool = False
-    """Whether it is the user's own."""
-    is_expected: bool = True
-    """Whether a file of its name is generated."""
-
-
-class Package(Mapping[str, bytes]):
-    """The files of a robot's package as a build leaves them, by their paths below it, and the user's around it.
-
-    Contents are made when they are asked for: rendering 4,000 takes a second.
-    """
-
-    def __init__(
-        self,
-        generation: Generation,
-        actions: Sequence[Action],
-        merged: Mapping[str, str],
-        contents: Mapping[Path, bytes] | None = None,
-        former_names: Collection[str] = (),
-        *,
-        is_open: bool = False,
-    ) -> None:
-        """`merged` are texts that the build writes, by key; `contents` counts for what is in files of the user's.
-
-        Files that use one of the `former_names` have to do with the package, too. If it `is_open` what becomes of files
-        in conflict, they may have anything.
-        """
-        self._generation, self._inputs, self._actions = generation, generation.inputs, actions
-        self._contents, self._read_contents = contents or {}, dict[str, bytes]()
-        self._generated, self._readings, self._differences = (
-            set[bytes](),
-            dict[bytes, Reading](),
-            dict[str, Difference](),
-        )
-        self._files = self._files_after(merged, is_open=is_open)
-        orders = (one.path for one in actions if one.role is Role.ORDER and not one.is_waiting and one.path in merged)
-        self._orders = {self._inputs.folder.path(key): merged[key] for key in orders}
-        self.around = self._files_around(former_names)
-
-    def _files_after(self, merged: Mapping[str, str], *, is_open: bool) -> dict[str, _File]:
-        """Return the files of the package after the build, by their paths below it."""
-        inputs, files, found = self._inputs, self._inputs.files, dict[str, _File]()
-        inside, classes, keys = inputs.folder.key(""), set[str](), set[str]()
-        for action in self._actions:
-            key = action.path
-            if action.reason is Reason.UNKNOWN or action.role in (Role.ORDER, Role.IMPORT):
-                continue
-            if not (key.endswith(".mo") and key.startswith(inside)):
-                continue
-            keys.add(key)
-            classes |= {key} if action.generated else set()
-            file = _File(key, is_expected=action.generated is not None)
-            if not action.is_waiting and key in merged:
-                is_edited = text_hash(merged[key]) != action.generated
-                found[inputs.folder.path(key)] = file._replace(text=merged[key], is_edited=is_edited)
-            elif is_open and action.is_conflict:
-                found[inputs.folder.path(key)] = file._replace(text="")
-            elif action.keeps_text:
-                is_forgotten = action.reason is Reason.FORGET
-                if (sha256 := files.hash(key, action.role)) and not is_forgotten:
-                    record = inputs.last.files.get(key)
-                    known = (action.generated, *(record.hashes if record else ()))
-                    is_edited = action.reason is Reason.ORPHAN or sha256 not in known
-                    found[inputs.folder.path(key)] = file._replace(is_edited=is_edited)
-            elif not action.is_deletion:
-                found[inputs.folder.path(key)] = file._replace(is_generated=True)
-        for key in sorted(filter(files.can_read, files.classes(inputs.folder) - keys)):
-            is_expected = _as_file(key) in classes
-            found[inputs.folder.path(key)] = _File(key, is_edited=True, is_users=True, is_expected=is_expected)
-        return found
-
-    def _files_around(self, former_names: Collection[str]) -> dict[Path, bytes]:
-        """Return the user's files outside of the package that may use it."""
-        inputs, files = self._inputs, self._inputs.files
-        found = {**inputs.users_files.mentioning, **files_that_use(inputs.users_files.all, former_names)}
-        if inputs.has_moved:
-            keys = {action.path for action in self._actions}
-            rest = files.classes(inputs.last.folder) - keys - inputs.last.files.keys()
-            found |= {files.path(key): encode(files.any_text(key)) for key in sorted(rest)}
-        return {path: self._contents.get(path, content) for path, content in found.items()}
-
-    def __getitem__(self, path: str) -> bytes:
-        """Return what is in a file of the package. Raises KeyError."""
-        if path not in self._read_contents:
-            file, files = self._files[path], self._inputs.files
-            if file.is_generated:
-                content = self._generation.package.content(path)
-                self._generated.add(content)
-            else:
-                content = encode(files.any_text(file.key) if file.text is None else file.text)
-            self._read_contents[path] = self._contents.get(files.path(file.key), content) if file.is_edited else content
-        return self._read_contents[path]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._files)
-
-    def __len__(self) -> int:
-        return len(self._files)
+class Package(PackageAfter):
+    """The package after a build, with the meaning of all names in it."""
 
     @cached_property
-    def users(self) -> dict[Path, bytes]:
-        """Contents of all files that the user wrote or edited, by their absolute paths."""
-        edited = {path: file for path, file in self._files.items() if file.is_edited}
-        return {**{self._inputs.files.path(file.key): self[path] for path, file in edited.items()}, **self.around}
+    def _readings(self) -> dict[bytes, Reading]:
+        return {}
 
     @cached_property
-    def own(self) -> set[Path]:
-        """The files that the user wrote, and not only edited."""
-        return {self._inputs.files.path(file.key) for file in self._files.values() if file.is_users} | {*self.around}
+    def _differences(self) -> dict[str, Difference]:
+        return {}
 
     def class_name(self, path: str) -> ClassName:
         """Return the full name of the class that a file is for, by its path below the package."""
@@ -267,7 +155,7 @@ class Package(Mapping[str, bytes]):
         # first the names of classes that generated texts mention, and that are not there
         before = self._inputs.last.files
         expected = set(map(self._inputs.folder.path, before)) if self._is_waiting else set(artifacts)
-        missing = expected - set(map(_as_file, self)) - self._files.keys()
+        missing = expected - set(map(as_file, self)) - self._files.keys()
         names, classes = {class_of(path) for path in missing if path.endswith(".mo")}, set[str]()
         edited = [path for path, file in self._files.items() if file.is_edited]
         for path in edited:
@@ -292,7 +180,7 @@ class Package(Mapping[str, bytes]):
     def _generated_text(self, path: str) -> str:
         """Return the text in the place of an edited one that all other generated texts fit; empty if there is none."""
         inputs, artifacts = self._inputs, self._generation.package.artifacts
-        place = path if path in artifacts else _as_file(path)
+        place = path if path in artifacts else as_file(path)
         if not self._is_waiting:
             return self._generation.package.content(place).decode() if place in artifacts else ""
         if inputs.last.package and place in inputs.last.package.artifacts:
@@ -335,13 +223,8 @@ class Package(Mapping[str, bytes]):
     def _look_at_orders(self) -> Iterator[Misfit]:
         """Look for lines of the user's in a `package.order` that name nothing."""
         inputs, files, orders = self._inputs, self._inputs.files, self._generation.package.orders
-        users = [f"{path.removesuffix('.mo')}.order" for path, file in self._files.items() if file.is_users]
-        texts = {path: files.any_text(inputs.folder.key(path)) for path in users if path.endswith("package.order")}
-        for path, text in (texts | self._orders).items():
+        for path, (text, lines) in self.extended_orders.items():
             names, folder = orders.get(path, ()), path.removesuffix("package.order")
-            lines = {line.strip() for line in text.split("\n")} - {"", *names}
-            if not lines:
-                continue
             below = (other.removeprefix(folder) for other in self if other.startswith(folder))
             package, key = f"{folder}{PACKAGE_FILE}", inputs.folder.key(path)
             inside = self._declared(package)
@@ -428,15 +311,3 @@ def _faults(
         uses = unresolved(node, scopes, all_libraries=True, lost=lost, passed=reading.passed)
         for use in sorted((one for one in uses if one.kind not in _LEGAL), key=lambda one: one.line):
             yield use, Diagnostic(Severity.ERROR, "unresolved", use.message, line=use.line)
-
-
-def _as_file(path: str) -> str:
-    """Return the path of the file that a class has as long as it is no folder."""
-    return f"{path.removesuffix('/package.mo').removesuffix('.mo')}.mo"
-
-
-def find_misfits(generation: Generation, actions: Sequence[Action], merged: Mapping[str, str]) -> list[Misfit]:
-    """Find what does not fit in the files that the user wrote, once all actions are done but those that wait."""
-    if generation.inputs.has_moved and any(action.is_waiting for action in actions):
-        return []  # the package stays where it was
-    return Package(generation, actions, merged).misfits()

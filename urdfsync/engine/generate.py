@@ -13,7 +13,6 @@ from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
 from urdfsync.domain import Artifact, Domain, Import, Order, Snapshot, Target, Templates
 from urdfsync.files import digest, normalised, shown, text_digest
 from urdfsync.modelica.files import class_path
-from urdfsync.modelica.layout import check_class_file
 
 if TYPE_CHECKING:
     from urdfsync.render import Renderer
@@ -201,6 +200,8 @@ def _render(renderer: Renderer, artifact: Artifact, package: str) -> bytes:
 
 def _check_text(renderer: Renderer, artifact: Artifact, package: str, text: str) -> None:
     """Raise ConfigError for a text from a template of the user's that is not the class that its file is for."""
+    from urdfsync.modelica.layout import check_class_file  # imports the parser: 8 of 220 ms of a build
+
     path = PurePosixPath(artifact.path)
     findings = check_class_file(text, path, ".".join((package, *class_path(path).parts)))[1]
     for wrong in findings:

@@ -15,11 +15,12 @@ from typing import Any
 import msgspec
 
 from urdfsync.config import RobotConfig
-from urdfsync.dependencies import MAX_FILE, file_type, read_file
+from urdfsync.dependencies import file_type, read_file
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError, StateError
 from urdfsync.domain import Dependency, Domain, Import, Lookup, Snapshot, further_key
 from urdfsync.engine import ros_packages
 from urdfsync.engine.options import BuildOptions
+from urdfsync.facts import MAX_FILE
 from urdfsync.files import digest
 
 _POINTER = b"version https://git-lfs"

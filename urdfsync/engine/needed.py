@@ -10,8 +10,8 @@ import msgspec
 
 from urdfsync.domain import Role
 from urdfsync.engine.actions import Action, Reason
-from urdfsync.engine.fit import Package
 from urdfsync.engine.generation import Generation
+from urdfsync.engine.package_after import PackageAfter
 from urdfsync.engine.package_files import encode
 from urdfsync.engine.package_names import class_of
 from urdfsync.modelica.files import code_of, text_of
@@ -53,7 +53,7 @@ def _find_mentioned(generation: Generation, actions: Sequence[Action], merged: M
     or shown by what stays.
     """
     inputs, before = generation.inputs, generation.inputs.last.package
-    package = Package(generation, actions, merged)
+    package = PackageAfter(generation, actions, merged)
     words = {inputs.files.key(file): code_words(content) for file, content in package.users.items()}
     all_words = set().union(*words.values())
     # names that a file has since it was generated so before: the user kept it as it was

@@ -13,6 +13,7 @@ from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import OutputError
 from urdfsync.domain import Role
 from urdfsync.engine.rules import CLASS_FOLDER, OnDisk
+from urdfsync.facts import is_young
 from urdfsync.files import Tree, digest, placed, shown, text_digest
 
 
@@ -55,7 +56,7 @@ def unchanged_state(path: str, facts: tuple[int, ...]) -> FileState | None:
 def note_state(path: str, facts: tuple[int, ...], content: bytes) -> FileState:
     """Return the state of a file that was read, and remember it by its stat values before that."""
     state = state_of(content)
-    if len(facts) > 1 and not dependencies.is_young(facts, time.time_ns()):  # else there was no file
+    if len(facts) > 1 and not is_young(facts, time.time_ns()):  # else there was no file
         _unchanged[path] = facts, state
     return state
 

@@ -7,8 +7,6 @@ from pathlib import PurePosixPath
 
 from urdfsync.engine.generation import Generation
 from urdfsync.modelica.files import class_path
-from urdfsync.modelica.statements import parse_without, plain_statements
-from urdfsync.modelica.syntax import declared
 
 
 def renamed_identifiers(generation: Generation) -> dict[str, str]:
@@ -104,5 +102,8 @@ def class_of(path: str) -> str:
 
 def declared_names(texts: Iterable[str]) -> frozenset[str]:
     """Return the names of all classes and components that texts declare."""
+    from urdfsync.modelica.statements import parse_without, plain_statements  # imports the parser
+    from urdfsync.modelica.syntax import declared
+
     read = (parse_without(text, plain_statements(text)).stored for text in texts)
     return frozenset(declaration.path[-1] for stored in read for declaration in declared(stored.classes))

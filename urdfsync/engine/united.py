@@ -20,7 +20,6 @@ from urdfsync.engine.inputs import Inputs
 from urdfsync.engine.last_build import LastBuild
 from urdfsync.engine.package_files import PackageFiles, encode, text_hash
 from urdfsync.engine.rules import NEVER_WRITTEN
-from urdfsync.merge.lines import compare, find_regions
 from urdfsync.revisions import Revision
 from urdfsync.state import statefile
 from urdfsync.state.record import FileRecord
@@ -247,6 +246,8 @@ def _is_untouched(text: str, sides: Sides) -> bool:
 
 
 def _changes(old: str, new: str) -> _Changes:
+    from urdfsync.merge.lines import compare
+
     lines, new_lines = _lines(old), _lines(new)
     return Counter(
         _change(lines[change.start : change.stop], new_lines[change.new_start : change.new_stop])
@@ -256,6 +257,8 @@ def _changes(old: str, new: str) -> _Changes:
 
 def _apart(sides: Sides) -> tuple[_Changes, _Changes]:
     """Return the changes of either side that touch none of the other one."""
+    from urdfsync.merge.lines import find_regions
+
     lines = [_lines(text) for text in sides]
     ours, theirs = _Changes(), _Changes()
     for region in find_regions(*lines):

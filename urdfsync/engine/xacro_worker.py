@@ -27,8 +27,9 @@ from xml.parsers import expat
 
 import msgspec
 
-from urdfsync.dependencies import MAX_FILE, list_folder, read_unrecorded
+from urdfsync.dependencies import list_folder
 from urdfsync.engine import ros_packages
+from urdfsync.facts import MAX_FILE, read_unrecorded
 from urdfsync.file_kinds import FileKind, find_conflict, find_kind
 from urdfsync.files import text_digest
 from urdfsync.processes import limits, reserve_stdout

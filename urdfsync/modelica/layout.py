@@ -6,14 +6,13 @@ from collections.abc import Collection, Iterable, Iterator, Mapping
 from pathlib import PurePosixPath
 
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.modelica.files import class_parts
+from urdfsync.modelica.files import PACKAGE_FILE, class_parts
 from urdfsync.modelica.lexer import find_markers, lex
 from urdfsync.modelica.names import within
 from urdfsync.modelica.parser import parse
 from urdfsync.modelica.syntax import StoredText
 from urdfsync.spelling import nearest
 
-PACKAGE_FILE = "package.mo"
 _BYTE_ORDER_MARK = "\ufeff"
 _ALLOWED_TWICE = ("has the equation", "connects", "extends")  # the language has nothing against these
 

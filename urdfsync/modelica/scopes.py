@@ -12,8 +12,8 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple
 
 from urdfsync.modelica.classes import OPAQUE, Node, Scoped, Type, Types, predefined
-from urdfsync.modelica.files import StoredClasses
 from urdfsync.modelica.names import FUNCTIONS
+from urdfsync.modelica.stored import StoredClasses
 from urdfsync.modelica.syntax import Component, Extends, Name
 
 _NUMBER = "value quantity min max start fixed"

@@ -9,7 +9,6 @@ from urdfsync.diagnostics import Diagnostic
 from urdfsync.engine.actions import ORPHANS, Action, FileStatus, Kind, Reason
 from urdfsync.engine.result import Checked, Result
 from urdfsync.files import shown
-from urdfsync.output.build_section import build_section
 from urdfsync.output.conflicts import conflict_lines
 from urdfsync.output.console import Console, StyledLine, first_lines, has_marks, line
 from urdfsync.output.phrases import change_lines, reason
@@ -61,7 +60,10 @@ def change_line(text: str) -> StyledLine:
 
 def show_result(console: Console, result: Result, *, explain: bool = False, named: Container[str] = ()) -> None:
     """Show what was done with one robot; `named` files are listed."""
-    console.add(result, build_section)
+    if console.is_document:
+        from urdfsync.output.build_section import build_section  # 2 of 220 ms of a build
+
+        console.add(result, build_section)
     show_lines(console, result, build_lines(result, console, explain=explain, named=named), result.diagnostics)
 
 

@@ -21,9 +21,9 @@ from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, UrdfsyncErro
 from urdfsync.domain import Bench
 from urdfsync.engine.options import BuildOptions
 from urdfsync.files import shown
-from urdfsync.modelica.files import StoredClasses
 from urdfsync.modelica.names import STANDARD_LIBRARIES
 from urdfsync.modelica.scopes import Scopes
+from urdfsync.modelica.stored import StoredClasses
 from urdfsync.simulation.models import Model, find_model
 from urdfsync.simulation.results import SimulateOptions
 from urdfsync.simulation.values import find_unknown, read_values

@@ -13,7 +13,8 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync.dependencies import MAX_FILE, STAT, note_content
+from urdfsync.dependencies import note_content
+from urdfsync.facts import MAX_FILE, STAT
 from urdfsync.files import TEMPORARY
 from urdfsync.state import file_operations
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import msgspec
 
 from urdfsync.config import Config
-from urdfsync.dependencies import LISTINGS, Entry
+from urdfsync.facts import LISTINGS, Entry
 
 _MAX_STEPS = 1000
 """Folders and links on the way to a file: links may lead in a circle."""

@@ -10,19 +10,10 @@ from typing import TypeAlias
 import msgspec
 
 from urdfsync.config import RobotConfig
-from urdfsync.dependencies import (
-    CONTENTS,
-    LSTAT,
-    STAT,
-    STAT_TYPE,
-    VARIABLE,
-    Dependencies,
-    Entry,
-    check_path,
-    read_unrecorded,
-)
+from urdfsync.dependencies import Dependencies
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.engine.package_files import note_state, unchanged_state
+from urdfsync.facts import CONTENTS, LSTAT, STAT, STAT_TYPE, VARIABLE, Entry, check_path, read_unrecorded
 
 _TOLD = (STAT, STAT_TYPE, LSTAT)
 """Checks of which a change is told, an input before outputs: not names in a folder, nor states of other robots."""

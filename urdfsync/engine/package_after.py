@@ -1,0 +1,149 @@
+"""The files of a robot's package as a build leaves them, and those of the user's around it.
+
+Apart from `fit`, which resolves names in them: a build of a package that nobody edited imports no parser.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from functools import cached_property
+from pathlib import Path
+from typing import NamedTuple
+
+from urdfsync.domain import Role
+from urdfsync.engine.actions import Action, Reason
+from urdfsync.engine.generation import Generation
+from urdfsync.engine.package_files import encode, text_hash
+from urdfsync.modelica.files import files_that_use
+
+
+def as_file(path: str) -> str:
+    """Return the path of the file that a class has as long as it is no folder."""
+    return f"{path.removesuffix('/package.mo').removesuffix('.mo')}.mo"
+
+
+class _File(NamedTuple):
+    """A file of the package after the build."""
+
+    key: str
+    text: str | None = None
+    """A text that the build writes, other than the generated one."""
+    is_generated: bool = False
+    is_edited: bool = False
+    """Whether the user wrote in it."""
+    is_users: bool = False
+    """Whether it is the user's own."""
+    is_expected: bool = True
+    """Whether a file of its name is generated."""
+
+
+class PackageAfter(Mapping[str, bytes]):
+    """The files of a robot's package as a build leaves them, by their paths below it, and the user's around it.
+
+    Contents are made when they are asked for: rendering 4,000 takes a second.
+    """
+
+    def __init__(
+        self,
+        generation: Generation,
+        actions: Sequence[Action],
+        merged: Mapping[str, str],
+        contents: Mapping[Path, bytes] | None = None,
+        former_names: Collection[str] = (),
+        *,
+        is_open: bool = False,
+    ) -> None:
+        """`merged` are texts that the build writes, by key; `contents` counts for what is in files of the user's.
+
+        Files that use one of the `former_names` have to do with the package, too. If it `is_open` what becomes of files
+        in conflict, they may have anything.
+        """
+        self._generation, self._inputs, self._actions = generation, generation.inputs, actions
+        self._contents, self._read_contents, self._generated = contents or {}, dict[str, bytes](), set[bytes]()
+        self._files = self._files_after(merged, is_open=is_open)
+        orders = (one.path for one in actions if one.role is Role.ORDER and not one.is_waiting and one.path in merged)
+        self._orders = {self._inputs.folder.path(key): merged[key] for key in orders}
+        self.around = self._files_around(former_names)
+
+    def _files_after(self, merged: Mapping[str, str], *, is_open: bool) -> dict[str, _File]:
+        """Return the files of the package after the build, by their paths below it."""
+        inputs, files, found = self._inputs, self._inputs.files, dict[str, _File]()
+        inside, classes, keys = inputs.folder.key(""), set[str](), set[str]()
+        for action in self._actions:
+            key = action.path
+            if action.reason is Reason.UNKNOWN or action.role in (Role.ORDER, Role.IMPORT):
+                continue
+            if not (key.endswith(".mo") and key.startswith(inside)):
+                continue
+            keys.add(key)
+            classes |= {key} if action.generated else set()
+            file = _File(key, is_expected=action.generated is not None)
+            if not action.is_waiting and key in merged:
+                is_edited = text_hash(merged[key]) != action.generated
+                found[inputs.folder.path(key)] = file._replace(text=merged[key], is_edited=is_edited)
+            elif is_open and action.is_conflict:
+                found[inputs.folder.path(key)] = file._replace(text="")
+            elif action.keeps_text:
+                is_forgotten = action.reason is Reason.FORGET
+                if (sha256 := files.hash(key, action.role)) and not is_forgotten:
+                    record = inputs.last.files.get(key)
+                    known = (action.generated, *(record.hashes if record else ()))
+                    is_edited = action.reason is Reason.ORPHAN or sha256 not in known
+                    found[inputs.folder.path(key)] = file._replace(is_edited=is_edited)
+            elif not action.is_deletion:
+                found[inputs.folder.path(key)] = file._replace(is_generated=True)
+        for key in sorted(filter(files.can_read, files.classes(inputs.folder) - keys)):
+            is_expected = as_file(key) in classes
+            found[inputs.folder.path(key)] = _File(key, is_edited=True, is_users=True, is_expected=is_expected)
+        return found
+
+    def _files_around(self, former_names: Collection[str]) -> dict[Path, bytes]:
+        """Return the user's files outside of the package that may use it."""
+        inputs, files = self._inputs, self._inputs.files
+        found = {**inputs.users_files.mentioning, **files_that_use(inputs.users_files.all, former_names)}
+        if inputs.has_moved:
+            keys = {action.path for action in self._actions}
+            rest = files.classes(inputs.last.folder) - keys - inputs.last.files.keys()
+            found |= {files.path(key): encode(files.any_text(key)) for key in sorted(rest)}
+        return {path: self._contents.get(path, content) for path, content in found.items()}
+
+    def __getitem__(self, path: str) -> bytes:
+        """Return what is in a file of the package. Raises KeyError."""
+        if path not in self._read_contents:
+            file, files = self._files[path], self._inputs.files
+            if file.is_generated:
+                content = self._generation.package.content(path)
+                self._generated.add(content)
+            else:
+                content = encode(files.any_text(file.key) if file.text is None else file.text)
+            self._read_contents[path] = self._contents.get(files.path(file.key), content) if file.is_edited else content
+        return self._read_contents[path]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._files)
+
+    def __len__(self) -> int:
+        return len(self._files)
+
+    @cached_property
+    def users(self) -> dict[Path, bytes]:
+        """Contents of all files that the user wrote or edited, by their absolute paths."""
+        edited = {path: file for path, file in self._files.items() if file.is_edited}
+        return {**{self._inputs.files.path(file.key): self[path] for path, file in edited.items()}, **self.around}
+
+    @cached_property
+    def own(self) -> set[Path]:
+        """The files that the user wrote, and not only edited."""
+        return {self._inputs.files.path(file.key) for file in self._files.values() if file.is_users} | {*self.around}
+
+    @cached_property
+    def extended_orders(self) -> dict[str, tuple[str, set[str]]]:
+        """Text of each `package.order` with lines that no generated class has, and these lines, by path."""
+        inputs, files, orders = self._inputs, self._inputs.files, self._generation.package.orders
+        users = [f"{path.removesuffix('.mo')}.order" for path, file in self._files.items() if file.is_users]
+        texts = {path: files.any_text(inputs.folder.key(path)) for path in users if path.endswith("package.order")}
+        found = dict[str, tuple[str, set[str]]]()
+        for path, text in (texts | self._orders).items():
+            if lines := {line.strip() for line in text.split("\n")} - {"", *orders.get(path, ())}:
+                found[path] = text, lines
+        return found

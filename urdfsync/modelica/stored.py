@@ -1,0 +1,151 @@
+"""Classes by their full names, for the resolution of names: of a robot's package, of the user's files, of libraries.
+
+Files of libraries are read when a name needs them.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import functools
+import os
+from collections.abc import Callable, Iterable, Mapping
+from pathlib import Path
+
+from urdfsync.dependencies import is_file, read_file
+from urdfsync.modelica.classes import OPAQUE, Node
+from urdfsync.modelica.files import NOT_CLASSES, PACKAGE_FILE, ClassName, class_of_file, class_parts, place_of, text_of
+from urdfsync.modelica.names import STANDARD_LIBRARIES
+from urdfsync.modelica.parser import parse
+from urdfsync.modelica.syntax import StoredText
+
+
+class StoredClasses:
+    """The classes that are stored in files, for one robot's package; files are known by their absolute paths."""
+
+    def __init__(
+        self,
+        package: str,
+        folder: Path,
+        texts: Mapping[str, bytes],
+        others: Mapping[Path, bytes],
+        find: Callable[[str], Path | None],
+        read: Callable[[bytes], StoredText] | None = None,
+        former_package: str = "",
+    ) -> None:
+        """`texts` are the files of the robot's package by their path below `folder`, `others` files of the user's.
+
+        `find` gives the folder or file of any other top-level class, None if there is none; `read` parses a file if
+        names are resolved in others alone. Of `former_package`, nothing on disk counts.
+        """
+        self._find = functools.cache(lambda name: find(name) or self._beside(name))
+        self._read = read or parse_file
+        self._folders: dict[Path, None] = {}
+        self._not_on_disk = [tuple(name.split(".")) for name in (package, former_package) if name]
+        self._below, self._texts, self._others = f"{folder}{os.sep}", texts, others
+        self.own: dict[ClassName, str] = {}
+        """The files of the robot's package, by the full names of their classes."""
+        self.users: dict[ClassName, Node] = {}
+        """The classes of the user's files, by their full names; of several of one name the first."""
+        self.all_users: list[Node] = []
+        """The classes of the user's files, in the order of the files."""
+        self.unread: list[Path] = []
+        """Files of the user that are no Modelica, or not where their class belongs: its classes are unknown."""
+        self.libraries = {*STANDARD_LIBRARIES}
+        """Libraries that need not be installed: their classes are not looked for."""
+        self.seen: dict[ClassName, str | None] = {}
+        """The classes that were asked for, and their files; None where there is none."""
+        prefix = tuple(package.split("."))
+        for path in texts:
+            if path.endswith(".mo") and f"/{NOT_CLASSES}/" not in f"/{path}":
+                self.own[(*prefix, *class_parts(path))] = self._below + path
+        for file, content in others.items():
+            stored = self._read(content)
+            self.libraries.update(stored.libraries)
+            around = tuple(stored.within.split(".")) if stored.within else ()
+            folder_around, expected = place_of(file, others)
+            self._folders[folder_around] = None
+            if stored.is_broken or (expected and around != expected):
+                self.unread.append(file)
+                continue
+            for definition in stored.classes:
+                name = (*around, definition.name.parts[0])
+                self.all_users.append(Node(definition, name, str(file)))
+                self.users.setdefault(name, self.all_users[-1])
+
+    def stored(self, name: ClassName) -> Node | None:
+        """Return the class with this full name, `OPAQUE` if it can't be read; None if there is no file of it."""
+        file = self.seen[name] = self.file(name)
+        if file is None:
+            return None
+        if name in self.users and name not in self.own:  # another one each time: a node has what was resolved with it
+            return Node(self.users[name].definition, name, file)
+        try:
+            text = self._read(self.content(file))
+        except OSError:
+            return OPAQUE
+        definition = next((definition for definition in text.classes if definition.name.parts[0] == name[-1]), None)
+        return OPAQUE if definition is None or text.is_broken else Node(definition, name, file)
+
+    def file(self, name: ClassName) -> str | None:
+        """Return the file in which a class is stored; None if there is none."""
+        if name in self.own:
+            return self.own[name]
+        if name in self.users:
+            return self.users[name].file
+        if any(name[: len(package)] == package for package in self._not_on_disk):
+            return None
+        # a file that stands in a wrong place may be meant for any package that lacks its class
+        path = self._file(name) or next((path for path in self.unread if name[-1] == class_of_file(path)), None)
+        return str(path) if path else None
+
+    def content(self, file: str) -> bytes:
+        """Return the content of a file. Raises OSError."""
+        if (path := self.path_below(file)) in self._texts:
+            return self._texts[path]
+        other = self._others.get(Path(file))
+        return read_file(file) if other is None else other
+
+    def path_below(self, file: str) -> str:
+        """Return the path of a file below the robot's package; empty if it is elsewhere."""
+        return file.removeprefix(self._below) if file.startswith(self._below) else ""
+
+    def has_library(self, name: str) -> bool:
+        """Whether a library need not be at hand: a `uses` annotation around the package, or of the user's, names it."""
+        if name in self.libraries:
+            return True
+        for package in self._not_on_disk[:1]:
+            for end in range(1, len(package) + 1):
+                file = self.seen[package[:end]] = self.file(package[:end])
+                with contextlib.suppress(OSError):
+                    if file and name in self._read(self.content(file)).libraries:
+                        return True
+        return False
+
+    def names_in(self, name: ClassName) -> Iterable[str]:
+        """Return the names of classes that are stored below this package; of the empty name, top-level ones."""
+        names = {other[len(name)] for other in (*self.users, *self.own) if other[:-1] == name or not name}
+        path = self._file(name) if name and name not in self.own else None
+        if path is not None and path.name == PACKAGE_FILE:
+            for entry in path.parent.iterdir():
+                if (entry / PACKAGE_FILE).is_file() or (entry.suffix == ".mo" and entry.name != PACKAGE_FILE):
+                    names.add(entry.name.removesuffix(".mo"))
+        return names
+
+    def _beside(self, name: str) -> Path | None:
+        """Return the folder or file of a top-level class that stands beside one of the user's; None for none."""
+        places = (folder / end for folder in self._folders for end in (f"{name}/{PACKAGE_FILE}", f"{name}.mo"))
+        file = next((place for place in places if is_file(place)), None)
+        return file.parent if file and file.name == PACKAGE_FILE else file
+
+    def _file(self, name: ClassName) -> Path | None:
+        """Return the file of a library in which a class is stored."""
+        root = self._find(name[0])
+        if root is None or root.suffix == ".mo":
+            return root if len(name) == 1 else None
+        folder = root.joinpath(*name[1:])
+        return next((path for path in (folder / PACKAGE_FILE, Path(f"{folder}.mo")) if is_file(path)), None)
+
+
+def parse_file(content: bytes) -> StoredText:
+    """Parse the content of a file."""
+    return parse(text_of(content))
