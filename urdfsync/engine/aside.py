@@ -18,7 +18,6 @@ from urdfsync.engine.package_files import PackageFiles, encode, state_of
 from urdfsync.engine.settle import Former, Settled, known_bases
 from urdfsync.files import digest
 from urdfsync.modelica.files import class_parts
-from urdfsync.modelica.layout import with_within
 from urdfsync.state.record import FileRecord
 from urdfsync.state.store import Aside
 
@@ -70,6 +69,7 @@ def _is_as_written(files: PackageFiles, key: str, aside: Aside) -> bool:
 def _follow(generation: Generation, former: Former, key: str, names: Mapping[str, str]) -> Former:
     """Return a text with its base as they are at the new path of their file: with new names."""
     from urdfsync.merge.renames import rename, without_clashes  # imports the parser
+    from urdfsync.modelica.layout import with_within
 
     text, base = former.text.decode(errors="surrogateescape"), next(iter(former.bases.values()), None)
     if base is not None:

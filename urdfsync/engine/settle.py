@@ -20,7 +20,6 @@ from urdfsync.engine.package_files import PackageFiles, encode, text_hash, with_
 from urdfsync.files import shown
 from urdfsync.markers import find_markers
 from urdfsync.modelica.files import class_parts
-from urdfsync.modelica.layout import with_within
 from urdfsync.spelling import nearest
 from urdfsync.state.record import FileRecord, role_of
 
@@ -125,6 +124,8 @@ def _settle(generation: Generation, decision: Decision, action: Action, chosen: 
 
             # the file gets its new names once it moves
             names = {new: old for old, new in without_clashes(decision.names, conflict.mine).items()}
+            from urdfsync.modelica.layout import with_within  # imports the parser
+
             package = ".".join((inputs.last.target.package, *class_parts(inputs.last.folder.path(key))))
             record, texts = known_bases(with_within(rename(conflict.generated, "", names)[0], package))
             settled.texts.update(texts)
