@@ -31,9 +31,9 @@ def find_uses(generation: Generation, decision: Decision) -> dict[str, Use]:
     uses = {path: use for path, use in inputs.last.notes.uses.items() if use.facts == _facts(Path(path))}
     if not decision.is_complete:
         return uses
-    if names := other_parts(generation):
-        own = (inputs.files.path(action.path) for action in decision.actions if action.reason is Reason.UNKNOWN)
-        for path in (*inputs.users_files.mentioning, *own):
+    own = (inputs.files.path(action.path) for action in decision.actions if action.reason is Reason.UNKNOWN)
+    if (files := [*inputs.users_files.mentioning, *own]) and (names := other_parts(generation)):
+        for path in files:
             if used := {name: names[name] for name in _lines(path, names)}:
                 uses[str(path)] = Use(_facts(path), used)
     elements = generation.other_elements

@@ -62,8 +62,9 @@ def other_parts(generation: Generation) -> dict[str, str]:
     """Return names that the package has as before, but for other parts, and the new names of the former ones."""
     if not generation.other_elements:
         return {}
-    now = known_names(generation)
-    return {name: new for name, new in renamed_names(generation).items() if name in now}
+    names = renamed_names(generation)
+    now = known_names(generation) if names else ()
+    return {name: new for name, new in names.items() if name in now}
 
 
 def known_names(generation: Generation) -> frozenset[str]:
