@@ -287,7 +287,6 @@ def hand(path: Path, kind: str) -> str:
 
 def plan() -> Result:
     (result,) = build(configuration := load("urdfsync.toml"), configuration.robots, BuildOptions())
-    assert not result.failed, result.diagnostics
     return result
 
 
@@ -295,6 +294,8 @@ def meetings(source: bytes, random: Random) -> Iterator[tuple[Renumbering, str, 
     """Each kind of export meets each kind of edit of one element: what becomes of the edit."""
     Path("r.urdf").write_bytes(source)
     built = plan()
+    if built.failed:
+        pytest.skip("it has no package")
     shutil.copytree("modelica", "../built", dirs_exist_ok=True)
     shutil.copytree(".urdfsync", "../state", dirs_exist_ok=True)
     owners = sorted({action.owner for action in built.actions if action.owner.startswith(("link ", "joint "))})
@@ -309,6 +310,7 @@ def meetings(source: bytes, random: Random) -> Iterator[tuple[Renumbering, str, 
             continue
         Path("r.urdf").write_bytes(exported.source)
         result = plan()
+        assert not result.failed, result.diagnostics
         part, _, name = owner.partition(" ")
         expected = exported.names.get((part, name), name)
         holders = [
