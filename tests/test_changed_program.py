@@ -69,3 +69,30 @@ def test_every_verdict_sees_a_changed_line(
     finally:
         (program / name).write_text(before)
     assert call(program, "build", "--check") == 1
+
+
+@pytest.mark.slow
+def test_edits_follow_when_the_program_gives_an_element_another_identifier(
+    program: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("arm.urdf").write_text(ELBOW_ARM.replace('"fore"', '"fore arm"').replace('"base"', '"the base"'))
+    Path("urdfsync.toml").write_text('[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\n')
+    assert call(program, "build") == 0
+    links, robot = Path("modelica/Arm/Links"), Path("modelica/Arm/Arm.mo")
+    (old,) = (path.stem for path in links.glob("Fore_arm_??????.mo"))
+    component = f"f{old[1:]}"
+    edit(links / f"{old}.mo", "\nequation", "\n  Real mine = m;\n\nequation")
+    edit(robot, "\nequation", f"\n  Real mine = {component}.m;\n\nequation")
+    edit(program / "urdfsync/urdf/names.py", "_DIGITS = 6\n", "_DIGITS = 7\n")
+    try:
+        assert call(program, "build", "--quiet") == 3
+        assert call(program, "resolve", str(robot), "--merge") == 0
+        assert call(program, "build", "--check") == 0
+    finally:
+        edit(program / "urdfsync/urdf/names.py", "_DIGITS = 7\n", "_DIGITS = 6\n")
+    (new,) = (path.stem for path in links.glob("Fore_arm_???????.mo"))
+    assert new.startswith(old)
+    assert "Real mine = m;" in (links / f"{new}.mo").read_text()
+    assert f"Real mine = f{new[1:]}.m;" in robot.read_text()
+    assert len([*links.iterdir()]) == 6, "no orphans: two models, two records, package.mo and its order"

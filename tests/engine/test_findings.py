@@ -31,15 +31,15 @@ def test_a_leaf_that_gets_a_child_loses_its_frame_and_both_commands_say_so(arm: 
     (arm / "arm.urdf").write_text(urdfs.robot(*LINKS, SWING, GRIP))
     hint = 'set `frames = ["arm"]` to bring it back'
     printed = execute("diff", "arm.urdf", code=1)
-    assert f"link arm frame arm_linkFrame is gone ({hint}) link hand frame now handFrame" in printed.words
+    assert f"link arm frame arm_link_be5539Frame is gone ({hint}) link hand frame now handFrame" in printed.words
     assert printed.err == "", "what the effects say is not said twice"
     notes = [
         "arm.urdf: note: there is more to connect to: `handFrame` [connector-changed]",
-        f"arm.urdf:4: note: link arm: its frame `arm_linkFrame` is gone; {hint} [connector-changed]",
+        f"arm.urdf:4: note: link arm: its frame `arm_link_be5539Frame` is gone; {hint} [connector-changed]",
     ]
     assert execute("status", code=1).errors == notes
     assert execute("build").errors == notes
-    assert "arm_linkFrame" not in (arm / "modelica/Arm/Arm.mo").read_text()
+    assert "arm_link_be5539Frame" not in (arm / "modelica/Arm/Arm.mo").read_text()
     assert "connector-changed" not in execute("build").words
 
 
@@ -48,10 +48,12 @@ def test_a_model_of_the_users_that_uses_a_frame_that_goes_is_told_how_it_comes_b
 ) -> None:
     (arm / "Cell.mo").write_text(
         "model Cell\n  Arm.Arm robot; Modelica.Mechanics.MultiBody.Interfaces.Frame_a x;\n"
-        "equation\n  connect(robot.arm_linkFrame, x);\nend Cell;\n"
+        "equation\n  connect(robot.arm_link_be5539Frame, x);\nend Cell;\n"
     )
     (arm / "arm.urdf").write_text(urdfs.robot(*LINKS, SWING, GRIP))
-    expected = 'Cell.mo:4: warning: Arm has no `arm_linkFrame`; set `frames = ["arm"]` to bring it back [unresolved]'
+    expected = (
+        'Cell.mo:4: warning: Arm has no `arm_link_be5539Frame`; set `frames = ["arm"]` to bring it back [unresolved]'
+    )
     for command, code in (("diff", 1), ("status", 1), ("build", 0)):
         assert expected in execute(command, code=code).errors
     with (arm / "urdfsync.toml").open("a") as file:
@@ -64,7 +66,7 @@ def test_what_goes_with_its_element_is_named_and_of_much_that_is_new_only_the_nu
 ) -> None:
     (arm / "arm.urdf").write_text(urdfs.robot(LINKS[0]))
     found = execute("build").words
-    assert all(f"its {name} is gone" in found for name in ("frame `arm_linkFrame`", "axis `swingAxis`"))
+    assert all(f"its {name} is gone" in found for name in ("frame `arm_link_be5539Frame`", "axis `swingAxis`"))
     joints = [urdfs.joint(f"j{number}", "continuous", "base", f"l{number}") for number in range(2)]
     (arm / "arm.urdf").write_text(urdfs.robot(LINKS[0], *(urdfs.link(f"l{n}", 1.0) for n in range(2)), *joints))
     words = "more to connect to: `l0Frame`, `l1Frame`, `j0Axis`, `j0Support`, `j0_phi`, `j0_tau`, 4 more [conn"

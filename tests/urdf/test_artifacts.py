@@ -127,9 +127,9 @@ def test_every_template_is_in_use() -> None:
 def test_a_start_position_stands_in_a_record_and_the_models_begin_there(inputs: str, words: str) -> None:
     made = package_of(
         *map(urdfs.link, "abc"),
-        urdfs.joint("a joint", "continuous", "a", "b"),
-        urdfs.joint("b joint", "continuous", "a", "c"),
-        start={"a joint": 0.5},
+        urdfs.joint("a_joint", "continuous", "a", "b"),
+        urdfs.joint("b_joint", "continuous", "a", "c"),
+        start={"a_joint": 0.5},
         inputs=inputs,
         approach=("package", "record"),
     ).texts
@@ -141,13 +141,13 @@ def test_a_start_position_stands_in_a_record_and_the_models_begin_there(inputs: 
 
 
 def test_roles_and_owners() -> None:
-    robot = Robot("r", (Link("a"), Link("b")), (Joint("a", "fixed", "a", "b"),))
+    robot = Robot("r", (Link("a"), Link("b")), (Joint("a-b", "fixed", "a", "b"),))
     options = Options(approach=("package", "record"), base="floating")
     files = {each.path: each for each in artifacts(robot, {}, Target("R", "R"), options)}
     found = {path: (each.role, each.owner) for path, each in files.items() if isinstance(each, Artifact)}
     assert found["Links/A.mo"] == (Role.MODEL, "link a")
     assert found["Links/AParameters.mo"] == (Role.RECORD, "link a")
-    assert found["Joints/A_joint.mo"] == (Role.MODEL, "joint a")
+    assert found["Joints/A__b.mo"] == (Role.MODEL, "joint a-b")
     assert found["R.mo"] == found["RRun.mo"] == found["RTest.mo"] == (Role.MODEL, "robot")
     assert found["RStance.mo"] == found["RParameters.mo"] == (Role.RECORD, "robot")
     assert found["package.mo"] == found["Links/package.mo"] == (Role.PACKAGE, "robot")

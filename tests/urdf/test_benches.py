@@ -14,9 +14,9 @@ from urdfsync.urdf.robot import Joint, Limit, Mimic, Transmission
 
 TARGET = Target("Plant.Arm", "Arm")
 ARM = tree(
-    Joint("base-joint", "revolute", "base", "upper", limit=Limit(-1, 1, 2, 3)),
-    Joint("wheel", "continuous", "upper", "wheel", transmission=Transmission(50.0)),
-    Joint("finger", "prismatic", "upper", "finger", limit=Limit(), mimic=Mimic("wheel")),
+    Joint("base_joint", "revolute", "base", "upper", limit=Limit(-1, 1, 2, 3)),
+    Joint("wheel_joint", "continuous", "upper", "wheel", transmission=Transmission(50.0)),
+    Joint("finger_joint", "prismatic", "upper", "finger", limit=Limit(), mimic=Mimic("wheel_joint")),
     Joint("weld", "fixed", "finger", "tip"),
 )
 
@@ -29,7 +29,7 @@ def test_joints_that_move_have_variables_and_limits_in_the_package() -> None:
     assert found.freedoms == 2, "the finger follows"
     ((first, finger, wheel),) = found.layouts
     assert first == Axis(
-        "joint base-joint",
+        "joint base_joint",
         Signal("base_joint.revolute.phi", "rad", (f"{name}.lower", f"{name}.upper")),
         Signal("base_joint.revolute.w", "rad/s", (f"{name}.velocity",)),
         Signal("base_jointAxis.tau", "N·m", (f"{name}.effort",)),

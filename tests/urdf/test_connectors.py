@@ -5,13 +5,15 @@ from __future__ import annotations
 from typing import Literal
 
 import pytest
-from hypothesis import given
+from hypothesis import assume, given
+from hypothesis import strategies as st
+from msgspec.structs import replace
 from support.robots import robots, tree
 
 from urdfsync.urdf.connectors import connector_names, connector_options
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import Joint, Mimic, Robot, Transmission
+from urdfsync.urdf.robot import Joint, Link, Mimic, Robot, Transmission
 
 HAND = tree(
     Joint("j2", "fixed", "palm", "thumb"),
@@ -76,3 +78,16 @@ def test_no_two_components_have_one_name(robot: Robot) -> None:
     connectors += [name for drive in names.drives.values() for name in (drive.axis, drive.support)]
     every = [name.lower() for name in (*connectors, *(identifier.component for identifier in skeleton.names.values()))]
     assert len(every) == len(set(every))
+
+
+@given(robots(), st.sampled_from(["arm", "Arm", "wheel", "leg 1", "armFrame", "wheelAxis"]))
+def test_a_new_leaf_makes_no_connector_mean_another_element(robot: Robot, name: str) -> None:
+    assume(name not in {link.name for link in robot.links} | {joint.name for joint in robot.joints})
+    joint = Joint("zz", "revolute", robot.links[0].name, name)
+    grown = replace(robot, links=(*robot.links, Link(name)), joints=(*robot.joints, joint))
+    before, after = (connector_names(KinematicTree.of(each), Options(frames="all")) for each in (robot, grown))
+    owners = {frame: link for link, frame in before.frames.items()}
+    assert all(owners.get(frame, link) == link for link, frame in after.frames.items())
+    axes = {drive.axis: joint for joint, drive in before.drives.items()}
+    assert all(axes.get(drive.axis, joint) == joint for joint, drive in after.drives.items())
+    assert axes.keys().isdisjoint(after.frames.values())

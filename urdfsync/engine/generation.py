@@ -140,7 +140,16 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
     @property
     def is_structural(self) -> bool:
         """Whether files or names may come or go: not if only numbers changed since the last complete build."""
-        return self.changes is None or self.changes.change_class.rank >= ChangeClass.STRUCTURAL.rank
+        if self.changes is None or self.changes.change_class.rank >= ChangeClass.STRUCTURAL.rank:
+            return True
+        return bool(self.respelled)
+
+    @cached_property
+    def respelled(self) -> Mapping[str, tuple[str, str]]:
+        """Recorded classes to which this program gives another name, see `LastBuild.respelled`."""
+        last = self.inputs.last
+        classes = (last.folder.path(key) for key in last.files if key.endswith(".mo"))
+        return {} if all(path in self.package.artifacts for path in classes) else last.respelled
 
     @cached_property
     def moves(self) -> dict[str, str]:
@@ -151,6 +160,8 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
             return {}
         recorded = last.package.artifacts if last.package else {}
         before = {path: (file.owner, file.template) for path, file in recorded.items() if path in texts}
+        for path, (respelled, _) in self.respelled.items():
+            before[path] = recorded[respelled].owner, recorded[respelled].template
         now = {path: (file.owner, file.template) for path, file in self.package.artifacts.items()}
         if before == now and not (inputs.has_moved or self.renames):
             return {}

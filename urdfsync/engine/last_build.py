@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import re
 from collections.abc import Mapping, Sequence
 from functools import cached_property
 from typing import Any
@@ -124,6 +125,25 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
         except NO_MODEL:
             return None
 
+    @cached_property
+    def respelled(self) -> Mapping[str, tuple[str, str]]:
+        """The path that today's program gives a recorded class, and the class's hash, by its recorded path.
+
+        Only of classes that this program would generate from the recorded model but for their own names.
+        """
+        recorded = {self.folder.path(key): file for key, file in self.files.items()}
+        if not (names := [path for path in recorded if path.endswith(".mo")]) or self.package is None:
+            return {}
+        artifacts, respelled = self.package.artifacts, dict[str, tuple[str, str]]()
+        if lost := [path for path in names if path not in artifacts]:
+            new = [path for path in artifacts if path.endswith(".mo") and path not in recorded]
+            paths = {_without_name(path, self.package.content(path).decode()): path for path in new}
+            for path in lost:
+                for sha256, text in self.bases(recorded[path]).items():
+                    if (key := _without_name(path, text)) in paths:
+                        respelled[path] = paths[key], sha256
+        return respelled
+
     def has_generated(self, key: str, sha256: str, role: Role) -> bool:
         """Return whether a file on disk is what was generated: noted here, or made again from the recorded model.
 
@@ -135,6 +155,8 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
         try:
             if role is Role.IMPORT:
                 return any(file.hash == sha256 for key, file in self.imports.items() if self._targets.get(key) == path)
+            if path in self.respelled:
+                return self.respelled[path][1] == sha256
             return self.package is not None and path in self.package.artifacts and self.package.hash(path) == sha256
         except NO_MODEL:
             return False
@@ -162,6 +184,12 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
     def aside_text(self, file: str) -> bytes | None:
         """Return a text that was replaced; None if it is lost."""
         return self._store.aside_text(self.name, file)
+
+
+def _without_name(path: str, text: str) -> tuple[str, str]:
+    """Return a class's folder, and its text without its name."""
+    folder, _, name = path.removesuffix(".mo").rpartition("/")
+    return folder, re.sub(rf"\b{re.escape(name)}(?=(Parameters)?\b)", "\0", text)
 
 
 def import_hash(entry: Import) -> str:

@@ -21,6 +21,9 @@ def renamed_identifiers(generation: Generation) -> dict[str, str]:
         for name, identifier in identifiers.items():
             now = generation.renames.get((kind.removesuffix("s"), name), name)
             renamed[identifier] = new.get(kind, {}).get(now, identifier)
+    for path, (respelled, _) in generation.respelled.items():
+        before, now = (f"{name[0].lower()}{name[1:]}" for name in (class_of(path), class_of(respelled)))
+        renamed[before] = renamed.pop(now, now)
     return {name: new for name, new in renamed.items() if name != new}
 
 

@@ -143,7 +143,7 @@ def _notes(
     texts, expanded = generation.package.notes(), inputs.source.expansion
     made = {sha256 for _, sha256 in texts.values()} | {imports.imports[key].target_hash for key in imports.converted}
     made_here = imports.converted | {key for key, file in inputs.last.imports.items() if file.is_noted}
-    renamed = renamed_identifiers(generation) if generation.renames else {}
+    renamed = renamed_identifiers(generation) if generation.renames or generation.respelled else {}
     is_later = is_writing and not inputs.options.choices  # a choice may bring old names back
     expansion_noted = expansion_hash(expanded) if expanded and inputs.source.is_made_here else ""
     new = msgspec.structs.replace(

@@ -1,13 +1,14 @@
-"""URDF names to Modelica identifiers: one rule, injective, a function of the set of names alone.
+"""URDF names to Modelica identifiers: an element's own name decides, whatever its neighbours are called.
 
-Links and joints of a robot share one namespace, because both become components of the robot model.
-`docs/naming.md` states the rule for users.
+Links and joints of a robot share one namespace, because both become components of the robot model. Only twins know of
+each other: elements whose names differ at most in case and kind. `docs/naming.md` states the rule for users.
 """
 
 from __future__ import annotations
 
 import hashlib
 import re
+from collections import Counter
 from collections.abc import Iterable, Mapping
 
 import msgspec
@@ -34,11 +35,14 @@ LONGEST = 100
 RESERVED_SUFFIXES = ("parameters", "run", "test")
 """Endings, folded to lower case, by which class names are made from other class names."""
 
-_UNFIT = re.compile(r"[^A-Za-z0-9_]")
+_PLAIN = re.compile(
+    r"(?!.*_(?:link|joint|loop|sensor)_[0-9a-f]{6}(?:[0-9a-f]{58})?$)[A-Za-z](?:[_-]?[A-Za-z0-9])*[_-]?"
+)
+"""Names that lose nothing: no two underscores or hyphens in a row, and no ending that twins have."""
+_UNFIT = re.compile(r"[^A-Za-z0-9]+")
 _PARTS = re.compile(r"[0-9]+|[^0-9]+")
 _RESERVED = KEYWORDS | {name.lower() for name in FUNCTIONS} | RESERVED_CLASSES | DEVICES
-_DIGITS = 8
-_KINDS = ("link", "joint", "loop", "sensor")
+_DIGITS = 6
 
 
 class Identifier(msgspec.Struct, frozen=True):
@@ -65,14 +69,25 @@ def is_reserved(spelling: str) -> bool:
 
 
 def spell(name: str, kind: str) -> str:
-    """Return the spelling of a name without regard to others: always an identifier, not always a free one."""
-    spelled = _UNFIT.sub("_", name)
-    if not spelled[:1].isalpha():
-        spelled = f"{kind}_{spelled.removeprefix('_')}"
-    if len(spelled) > LONGEST:
-        digits = hashlib.sha256(name.encode("utf-8", "surrogatepass")).hexdigest()[:_DIGITS]
-        spelled = f"{spelled[: LONGEST - _DIGITS - 1]}_{digits}"
-    return spelled[0].lower() + spelled[1:]
+    """Return the identifier of an element without a twin: its name, or what is left of that with a hash of the name."""
+    plain = name.replace("-", "__")
+    if _PLAIN.fullmatch(name) and len(plain) <= LONGEST and not is_reserved(plain):
+        return plain[0].lower() + plain[1:]
+    return _hashed(name, kind)
+
+
+def _hashed(name: str, kind: str, mark: str = "", digits: int = _DIGITS) -> str:
+    if not name.isascii():
+        from anyascii import anyascii  # 30 ms, which a build without such names does not need
+
+        ascii_name = anyascii(name)
+    else:
+        ascii_name = name
+    stem = _UNFIT.sub("_", ascii_name).strip("_")
+    if not stem[:1].isalpha():
+        stem = f"{kind}_{stem}".rstrip("_")
+    ending = f"{mark}_{hashlib.sha256(f'{kind} {name}'.encode('utf-8', 'surrogatepass')).hexdigest()[:digits]}"
+    return stem[0].lower() + stem[1 : LONGEST - len(ending)] + ending
 
 
 def natural_key(name: str) -> tuple[tuple[int, int, str, str], ...]:
@@ -89,32 +104,20 @@ def natural_key(name: str) -> tuple[tuple[int, int, str, str], ...]:
 def identify(names: Iterable[ElementKey], taken: Iterable[str] = ()) -> Mapping[ElementKey, Identifier]:
     """Return identifiers of all links, joints and loops; no two are equal when case is folded, none is in `taken`.
 
-    A name keeps its spelling if that is free and not reserved; links go before joints, these before
-    loops, names that need no change before others. A name that gives way gets the kind of its element, then a number.
+    Each element has three spellings, the last of which no other element can have. It gets the first one that is
+    none of another's: so all twins give way, and what one element was called never means another because that has come.
     """
     spelled = {key: spell(key[1], key[0]) for key in names}
     folded, taken = {spelling.lower() for spelling in spelled.values()}, {name.lower() for name in taken}
-    if len(folded) == len(spelled) and folded.isdisjoint(taken) and not any(map(is_reserved, folded)):
-        return {key: Identifier(spelling) for key, spelling in spelled.items()}  # nearly always: no name gives way
-    keys = sorted(spelled, key=lambda key: (_KINDS.index(key[0]), spelled[key] != key[1], natural_key(key[1])))
-    used = set(taken)
-    result: dict[ElementKey, Identifier] = {}
-    for key in keys:
-        if _is_free(spelled[key], used):
-            used.add(spelled[key].lower())
-            result[key] = Identifier(spelled[key])
-    numbers: dict[str, int] = {}  # the last number taken, so that many names of one spelling take linear time
-    for key in keys:
-        if key in result:
-            continue
-        candidate = stem = f"{spelled[key]}_{key[0]}"
-        while not _is_free(candidate, used):
-            numbers[stem.lower()] = numbers.get(stem.lower(), 1) + 1
-            candidate = f"{stem}_{numbers[stem.lower()]}"
-        used.add(candidate.lower())
-        result[key] = Identifier(candidate)
-    return result
-
-
-def _is_free(spelled: str, used: set[str]) -> bool:
-    return spelled.lower() not in used and not is_reserved(spelled)
+    if len(folded) == len(spelled) and folded.isdisjoint(taken):
+        return {key: Identifier(spelling) for key, spelling in spelled.items()}  # nearly always: there are no twins
+    spellings = {
+        (kind, name): (first, *(_hashed(name, kind, f"_{kind}", digits) for digits in (_DIGITS, 64)))
+        for (kind, name), first in spelled.items()
+    }
+    uses = Counter(spelling.lower() for three in spellings.values() for spelling in three)
+    uses.update(taken)
+    return {
+        key: Identifier(next((spelling for spelling in three if uses[spelling.lower()] == 1), three[-1]))
+        for key, three in spellings.items()
+    }

@@ -3,7 +3,7 @@ within Zoo.Menagerie;
 record MenagerieSensors "Numbers of the sensors of robot Menagerie"
   extends UrdfSync.Icons.Parameters;
 
-  UrdfSync.Records.Lidar a_b___c_(
+  UrdfSync.Records.Lidar a_b_c_61f936(
     name = "a\"b\\ <c>",
     updateRate = 10,
     origin(
@@ -27,7 +27,7 @@ record MenagerieSensors "Numbers of the sensors of robot Menagerie"
       rpy = {0, 0, 1.5}))
     "Sensor \"imu\" of link \"chassis\"";
 
-  UrdfSync.Records.Sensor lift_sensor(
+  UrdfSync.Records.Sensor lift_sensor_8cfdf3(
     name = "lift",
     updateRate = 0,
     origin(
@@ -35,7 +35,7 @@ record MenagerieSensors "Numbers of the sensors of robot Menagerie"
       rpy = {0, 0, 0}))
     "Sensor \"lift\" of joint \"lift\"";
 
-  UrdfSync.Records.Camera table_sensor(
+  UrdfSync.Records.Camera table(
     name = "table",
     updateRate = 0,
     origin(

@@ -27,7 +27,7 @@ record TwigParameters "Numbers of robot Twig as a whole"
       thorn.axis,
       turn.axis},
     jointPositions = {
-      hold_joint.origin.xyz,
+      hold_0d1b23.origin.xyz,
       bend.origin.xyz,
       first.origin.xyz,
       grow.origin.xyz,
@@ -36,7 +36,7 @@ record TwigParameters "Numbers of robot Twig as a whole"
       thorn.origin.xyz,
       turn.origin.xyz},
     jointAngles = {
-      hold_joint.origin.rpy,
+      hold_0d1b23.origin.rpy,
       bend.origin.rpy,
       first.origin.rpy,
       grow.origin.rpy,
@@ -58,7 +58,7 @@ record TwigParameters "Numbers of robot Twig as a whole"
       0},
     linkMasses = {
       stem.inertial.mass,
-      jointTree_link.inertial.mass,
+      jointTree_4989fb.inertial.mass,
       branch.inertial.mass,
       leaf1.inertial.mass,
       shoot.inertial.mass,
@@ -68,7 +68,7 @@ record TwigParameters "Numbers of robot Twig as a whole"
       vane.inertial.mass},
     linkCenters = {
       stem.inertial.origin.xyz,
-      jointTree_link.inertial.origin.xyz,
+      jointTree_4989fb.inertial.origin.xyz,
       branch.inertial.origin.xyz,
       leaf1.inertial.origin.xyz,
       shoot.inertial.origin.xyz,
@@ -78,7 +78,7 @@ record TwigParameters "Numbers of robot Twig as a whole"
       vane.inertial.origin.xyz},
     inertialAngles = {
       stem.inertial.origin.rpy,
-      jointTree_link.inertial.origin.rpy,
+      jointTree_4989fb.inertial.origin.rpy,
       branch.inertial.origin.rpy,
       leaf1.inertial.origin.rpy,
       shoot.inertial.origin.rpy,
@@ -89,8 +89,8 @@ record TwigParameters "Numbers of robot Twig as a whole"
     linkInertias = {
       {stem.inertial.inertia.ixx, stem.inertial.inertia.iyy, stem.inertial.inertia.izz,
        stem.inertial.inertia.ixy, stem.inertial.inertia.ixz, stem.inertial.inertia.iyz},
-      {jointTree_link.inertial.inertia.ixx, jointTree_link.inertial.inertia.iyy, jointTree_link.inertial.inertia.izz,
-       jointTree_link.inertial.inertia.ixy, jointTree_link.inertial.inertia.ixz, jointTree_link.inertial.inertia.iyz},
+      {jointTree_4989fb.inertial.inertia.ixx, jointTree_4989fb.inertial.inertia.iyy, jointTree_4989fb.inertial.inertia.izz,
+       jointTree_4989fb.inertial.inertia.ixy, jointTree_4989fb.inertial.inertia.ixz, jointTree_4989fb.inertial.inertia.iyz},
       {branch.inertial.inertia.ixx, branch.inertial.inertia.iyy, branch.inertial.inertia.izz,
        branch.inertial.inertia.ixy, branch.inertial.inertia.ixz, branch.inertial.inertia.iyz},
       {leaf1.inertial.inertia.ixx, leaf1.inertial.inertia.iyy, leaf1.inertial.inertia.izz,
@@ -199,7 +199,7 @@ record TwigParameters "Numbers of robot Twig as a whole"
         iyz = 1e-05)))
     "Link 1: \"stem\"";
 
-  UrdfSync.Records.Link jointTree_link(
+  UrdfSync.Records.Link jointTree_4989fb(
     name = "jointTree",
     inertial(
       origin(
@@ -316,7 +316,7 @@ record TwigParameters "Numbers of robot Twig as a whole"
         iyz = 0)))
     "Link 9: \"vane\"";
 
-  UrdfSync.Records.FixedJoint hold_joint(
+  UrdfSync.Records.FixedJoint hold_0d1b23(
     name = "hold",
     origin(
       xyz = {0, 0, 0.5},

@@ -10,6 +10,7 @@ from support.urdfs import joint, link, links, version
 
 from urdfsync.domain import Effect, ElementKey, Target, Version
 from urdfsync.urdf.diff.effects import effects, find_doubtful, interface
+from urdfsync.urdf.names import identify
 from urdfsync.urdf.options import Options
 
 TARGET = Target("Robot", "Robot")
@@ -238,7 +239,7 @@ def test_sensors_and_their_frames_come_and_go() -> None:
         for name, kind in (("a", "imu"), ("eye", "camera"))
     )
     assert changed(version(*parts, imu), version(*parts, eye)) == {
-        "sensor a / component": ("a_sensor", None),
+        "sensor a / component": (identify([("sensor", "a")], ["a"])["sensor", "a"].component, None),
         "sensor eye / component": (None, "eye"),
         "sensor eye / frame": (None, "eyeFrame"),
     }

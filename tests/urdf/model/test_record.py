@@ -18,6 +18,7 @@ from support.robots import SCALAR, robots, tree
 from urdfsync.urdf.connectors import connector_names
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.model.record import obstacles, record_data, tables
+from urdfsync.urdf.names import spell
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import (
     JOINT_KINDS,
@@ -84,7 +85,7 @@ def test_a_joint_has_the_groups_of_its_type(kind: JointType, full: dict[str, str
     leader = Joint("leader", "revolute", "a", "l")
     for parts, groups in ((EVERYTHING, full), ({}, bare)):
         joint = Joint('a "b"', kind, "a", "b", Origin((1, 2, 3)), axis=(0, 0, 1), **parts)
-        record, text = record_components(tree(leader, joint))["a__b_"]
+        record, text = record_components(tree(leader, joint))[spell('a "b"', "joint")]
         assert record == f"{kind.capitalize()}Joint"
         start = 'name = "a \\"b\\"", origin( xyz = {1, 2, 3}, rpy = {0, 0, 0})'
         assert text.startswith(f"{start}, axis = {{0, 0, 1}}" if JOINT_KINDS[kind].has_axis else start)

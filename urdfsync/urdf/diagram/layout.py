@@ -1,30 +1,37 @@
 """Layout of the robot model's diagram: places of links, joints and couplings, and paths of the lines between them.
 
 A chain runs from left to right and ends at the connector of its last link. One child joint of a link continues the
-link's chain: the first that leads to more than a leaf, else the first. Every other one starts a chain below those of
-the joints before it, in the first row where its columns are free:
+link's chain: the first whose branch has more than two links and more than half as many as the largest one, else the
+first. Every other one starts a chain of its own, in a row below, in the columns that follow the link's:
 
     frame_a ──┬── joint ──┬── joint ──┬── joint ──┬── handFrame
               ├ link      ├ link      ├ link      └ link
-              │           │           └── joint ──┬── cameraFrame
-              │           │                       └ link
+              │           │
+              │           └── joint ──┬── cameraFrame
+              │                       └ link
               └── joint ──┬── tailFrame
                           └ link
 
-So a new leaf moves only the components below a place that it takes. Components keep to columns. A link hangs on a
-vertical trunk at the left of its column. The joints that start at it stand on the spines of their rows, right of the
-trunk: a trunk passes nothing of its own column. Above a joint that can be driven stand the connectors of its axis and
-its support. A mimic coupling stands above its follower; the line from its leader runs through the gap between two
-columns, on a track that no other line has there. A joint that closes a loop stands below all rows, in the column of its
-parent; the lines from its links run down to it on such tracks.
+Places stay, so that a new leaf changes few lines of the model. All rows are of one height, all columns of one width.
+The row of a chain follows from a hash of its joint's name, and from what is taken: large chains choose before small
+ones, those further left before others. So a new leaf displaces other leaves at most. That costs empty cells, and
+crossings: a chain may run between another one and the link that this starts at.
+
+A link hangs on a short trunk at the left of its column. The lines to chains and sensors below it run down in the gap
+between two columns, on a track that no other line has there. Above a joint that can be driven stand the connectors of
+its axis and its support. A mimic coupling stands above its follower; the line from its leader runs on such a track,
+too. A joint that closes a loop stands below all rows, in the column of its parent; the lines from its links run down to
+it on tracks.
 
 Lines consist of axis-parallel segments. All coordinates are even, y points upwards.
 """
 
 from __future__ import annotations
 
-import heapq
-from collections import Counter, defaultdict
+import bisect
+import hashlib
+import itertools
+from collections import defaultdict
 from collections.abc import Iterable, Mapping
 from typing import Literal, NamedTuple, TypeAlias
 
@@ -37,9 +44,9 @@ Path: TypeAlias = tuple[Point, ...]
 LineKind: TypeAlias = Literal["frame", "rotational", "translational"]
 _Cell: TypeAlias = tuple[int, int]
 _End: TypeAlias = tuple[str, str]
-"""A loop and one of its frames."""
+"""A loop and one of its frames, or a link and `below`: what hangs on it in other rows."""
 _Spans: TypeAlias = dict[str | _End, list[int]]
-"""Places per leader, or end of a loop; its lines run from the first to the last of them."""
+"""Places per leader, or end; its lines run from the first to the last of them."""
 
 PORTS: Mapping[str, Point] = {
     "frame_a": (-100, 0),
@@ -58,13 +65,14 @@ FRAME_A: Point = (-100, 0)
 _SIZE = 20  # width and height of a component, and of the frame connectors at the ends of rows
 _CONNECTOR = 12  # width and height of a connector that stands beside a component
 _FRAME = 32  # size of the connector of the root frame, as in the Modelica Standard Library
-_COLUMN = 48  # from trunk to trunk, as long as one track is enough in the gap between
+_COLUMN = 40  # from a column's trunk to the gap between it and the next one
+_GAP = 4  # tracks for which a gap has room; one with more has room for twice, three times as many
 _TRACK = 4  # distance of neighbouring lines
 _NAME = 8  # room for a name above a component
 _LINK_X = 14  # from a column's trunk to the middle of its links and couplings
 _JOINT_X = 30  # from a column's trunk to the middle of its joints
 _LINK_Y = 26  # from a row's spine down to the middle of its links
-_BELOW = 44  # from a row's spine down to its end: link, its name, a gap
+_BELOW = 44  # from a row's spine down to its end: link, its name, a gap; a sensor is nearer
 _ABOVE = 20  # from a row's spine up to the connectors of its joints
 _TRUNK = 8  # from the connector of the root frame to the first trunk
 _MARGIN = 64  # from the last trunk to the right edge: a connector and its name
@@ -115,6 +123,8 @@ class _Grid(NamedTuple):
     """Points at which the trunk of a link meets the spine of its row."""
     joints: Mapping[str, Point]
     """Points at which the trunk of a joint's parent meets the spine of the joint's row."""
+    sensors: Mapping[str, Point]
+    """Likewise, of the link that carries the sensor."""
     couplings: Mapping[str, Point]
     """Middles of the couplings, by follower."""
     detours: Mapping[str, Point]
@@ -122,7 +132,7 @@ class _Grid(NamedTuple):
     loops: Mapping[str, Point]
     """Middles of the joints that close a loop."""
     descents: Mapping[_End, int]
-    """Where, from left to right, the lines of loops run down in the gaps between columns."""
+    """Where, from left to right, lines run down in the gaps between columns."""
     top: int
     right: int
     bottom: int
@@ -139,14 +149,44 @@ def layout(tree: KinematicTree, names: Connectors) -> Diagram:
     return Diagram(extent, placements, _lines(tree, names, grid, placements))
 
 
-def _grid(tree: KinematicTree, names: Connectors) -> _Grid:
-    links, joints = _cells(tree)
-    last_row, last_column = (max(places) for places in zip(*links.values(), strict=True))
+def find_rows(starts: Mapping[str, tuple[int, range]], taken: set[_Cell]) -> dict[str, int]:
+    """Return a row for each name, at or below its first one, in which its columns are free; these are taken then.
 
-    # Tracks for lines to leaders, above each row and left of each column. A leader that does not move has no line.
+    A hash of the name chooses among one row, then two, three and ever more. First all try their first choice, then the
+    others their second one: so a new name displaces few, and these find a place where they displace none.
+    """
+    rows: dict[str, int] = {}
+    waiting = [
+        (int.from_bytes(hashlib.sha256(name.encode("utf-8", "surrogatepass")).digest()), name) for name in starts
+    ]
+    waiting.sort()
+    room, shift = 1, 0
+    while waiting:
+        displaced = []
+        for digest, name in waiting:
+            first, columns = starts[name]
+            row = first + (digest >> shift % 128) % room
+            if taken.isdisjoint((row, column) for column in columns):
+                taken.update((row, column) for column in columns)
+                rows[name] = row
+            else:
+                displaced.append((digest, name))
+        waiting, room, shift = displaced, room + 1 + room // 8, shift + 1
+    return rows
+
+
+def _grid(tree: KinematicTree, names: Connectors) -> _Grid:
+    cells = _cells(tree)
+    links, joints = cells.links, cells.joints
+    last_row = max(row for row, _ in (*links.values(), *cells.sensors.values()))
+    last_column = max(column for _, column in links.values())
+
+    # Tracks above each row and left of each column. A leader that does not move has no line.
     moving = {joint.name for joint in tree.joints if joint.type in MOTION_KINDS}
     leaders = {joint.name: mimic.joint for joint, mimic in tree.followers() if mimic.joint in moving}
     spans_above, spans_left = (defaultdict[int, _Spans](lambda: defaultdict(list)) for _ in range(2))
+    for link, row in cells.below:
+        spans_left[links[link][1]][link, "below"] += links[link][0], row
     for follower, leader in leaders.items():
         (row, column), (follower_row, follower_column) = joints[leader], joints[follower]
         spans_above[row][leader] += column, follower_column
@@ -159,84 +199,117 @@ def _grid(tree: KinematicTree, names: Connectors) -> _Grid:
     tracks_above = [_tracks(spans_above[row]) for row in range(last_row + 1)]
     tracks_left = [_tracks(spans_left[column]) for column in range(last_column + 1)]
 
-    with_axes = {joints[name][0] for name in names.drives}
-    with_motors = {joints[name][0] for name, drive in names.drives.items() if drive.motor}
-    with_couplings = {joints[name][0] for name in names.couplings}
-    highest = defaultdict[int, int](int)  # by row, the most sensors below one link
-    for link, count in Counter(_carriers(tree).values()).items():
-        highest[links[link][0]] = max(highest[links[link][0]], count)
     parents = {joint.parent for joint in tree.joints}
-    with_frames = {links[name][0] for name in names.frames if name in parents}
-    tops, spines, y = list[int](), list[int](), 0
-    for row, tracks in enumerate(tracks_above):
-        height = _TRACK * _count(tracks) + _NAME + _SIZE // 2
-        height += (_CONNECTOR + _TRACK) * ((row in with_axes) + (row in with_motors)) + (_NAME + _SIZE) * (
-            row in with_couplings
-        )
-        tops.append(y if row else FRAME_A[1] + height)
-        spines.append(tops[row] - height)
-        y = spines[row] - _BELOW - (_CONNECTOR + _TRACK) * (row in with_frames) - (_SIZE + _NAME) * highest[row]
-    trunks = [FRAME_A[0] + _FRAME // 2 + _TRUNK // 2 + _TRACK * (_count(tracks_left[0]) + 1)]
-    for tracks in tracks_left[1:]:
-        trunks.append(trunks[-1] + _COLUMN + _TRACK * max(0, _count(tracks) - 1))
+    above = _TRACK * max(map(_count, tracks_above)) + _NAME + _SIZE // 2 + (_CONNECTOR + _TRACK)
+    above += (_CONNECTOR + _TRACK) * any(drive.motor for drive in names.drives.values())
+    above += (_NAME + _SIZE) * bool(names.couplings)
+    below = _BELOW + (_CONNECTOR + _TRACK) * (not parents.isdisjoint(names.frames))
+    spines = [FRAME_A[1] - (above + below) * row for row in range(last_row + 1)]
+    bottom = spines[-1] - below
+    gaps = [_TRACK * (_GAP * max(1, -(-_count(tracks) // _GAP)) + 1) for tracks in tracks_left]
+    trunks = [FRAME_A[0] + _FRAME // 2 + gaps[0]]
+    for gap in gaps[1:]:
+        trunks.append(trunks[-1] + _COLUMN + gap)
+
+    def point(cell: _Cell) -> Point:
+        return trunks[cell[1]], spines[cell[0]]
 
     couplings, detours = {}, {}
     for name in names.couplings:
         row, column = joints[name]
-        y_coupling = tops[row] - _TRACK * _count(tracks_above[row]) - _NAME - _SIZE // 2
+        y_coupling = spines[row] + above - _TRACK * max(map(_count, tracks_above)) - _NAME - _SIZE // 2
         couplings[name] = trunks[column] + _LINK_X, y_coupling
         if name in leaders:
             row = joints[leaders[name]][0]
             track_above, track_left = tracks_above[row][leaders[name]], tracks_left[column][leaders[name]]
-            detours[name] = trunks[column] - _TRACK * (track_left + 1), tops[row] - _TRACK * (track_above + 1)
+            detours[name] = trunks[column] - _TRACK * (track_left + 1), spines[row] + above - _TRACK * (track_above + 1)
     loops = {
-        loop.name: (trunks[links[loop.parent][1]] + _LINK_X, y - _NAME - _SIZE // 2 - place * (_SIZE + 2 * _NAME))
+        loop.name: (trunks[links[loop.parent][1]] + _LINK_X, bottom - _NAME - _SIZE // 2 - place * (_SIZE + 2 * _NAME))
         for place, loop in enumerate(tree.loops)
     }
     return _Grid(
-        links={name: (trunks[column], spines[row]) for name, (row, column) in links.items()},
-        joints={name: (trunks[column], spines[row]) for name, (row, column) in joints.items()},
+        links={name: point(cell) for name, cell in links.items()},
+        joints={name: point(cell) for name, cell in joints.items()},
+        sensors={name: point(cell) for name, cell in cells.sensors.items()},
         couplings=couplings,
         detours=detours,
         loops=loops,
         descents={
-            end: trunks[links[link][1]] - _TRACK * (tracks_left[links[link][1]][end] + 1)
-            for end, link in links_of_loops.items()
+            end: trunks[column] - _TRACK * (track + 1)
+            for column, tracks in enumerate(tracks_left)
+            for end, track in tracks.items()
+            if isinstance(end, tuple)
         },
-        top=tops[0],
+        top=FRAME_A[1] + above,
         right=trunks[-1] + _MARGIN,
-        bottom=y
+        bottom=bottom
         - max((_SIZE + _NAME) * (bool(tree.sensors) + _has_starts(tree)), (_SIZE + 2 * _NAME) * len(tree.loops)),
     )
 
 
-def _cells(tree: KinematicTree) -> tuple[Mapping[str, _Cell], Mapping[str, _Cell]]:
-    """Return row and column of each link and joint: a joint stands in its parent's column and in its child's row."""
-    root, parents = tree.links[0].name, {joint.parent for joint in tree.joints}
-    columns, children = {root: 0}, dict[str, list[Joint]]()
+class _Cells(NamedTuple):
+    """Row and column of each component."""
+
+    links: Mapping[str, _Cell]
+    joints: Mapping[str, _Cell]
+    """A joint stands in its parent's column and in its child's row."""
+    sensors: Mapping[str, _Cell]
+    below: list[tuple[str, int]]
+    """Links, and rows of what hangs on them there."""
+
+
+def _cells(tree: KinematicTree) -> _Cells:
+    root, children = tree.links[0].name, tree.children()
+    columns, sizes = {root: 0}, {link.name: 1 for link in tree.links}
     for joint in tree.joints:
         columns[joint.child] = columns[joint.parent] + 1
-    for link, starting in tree.children().items():
-        first = next((joint for joint in starting if joint.child in parents), starting[0])
-        children[link] = [first, *(joint for joint in starting if joint is not first)]
+    for joint in reversed(tree.joints):
+        sizes[joint.parent] += sizes[joint.child]
+    # A new leaf makes a chain of two at most, and seldom one that is half as large as the largest beside it.
+    is_large = {joint.name: sizes[joint.child] > 2 for joint in tree.joints}
+    following = dict[str, Joint]()
+    for link, starting in children.items():
+        half = max(sizes[joint.child] for joint in starting) / 2
+        large = (joint for joint in starting if is_large[joint.name] and sizes[joint.child] > half)
+        following[link] = next(large, starting[0])
     ends = dict(columns)  # the last column of the row that goes on from a link
     for joint in reversed(tree.joints):
-        if joint is children[joint.parent][0]:
+        if joint is following[joint.parent]:
             ends[joint.parent] = ends[joint.child]
 
-    links, joints = {root: (0, 0)}, {}
-    lowest = [0] * (max(columns.values()) + 1)  # the last row that has something in a column
-    todo = children.get(root, [])[::-1]
-    while todo:
-        joint = todo.pop()
-        row, column = links[joint.parent]
-        if joint is not children[joint.parent][0]:
-            across = slice(column, ends[joint.child] + 1)
-            row = 1 + max(lowest[across])
-            lowest[across] = [row] * len(lowest[across])
-        joints[joint.name], links[joint.child] = (row, column), (row, column + 1)
-        todo += children.get(joint.child, [])[::-1]
-    return {link.name: links[link.name] for link in tree.links}, joints
+    links: dict[str, _Cell] = {}
+    below: list[tuple[str, int]] = []
+
+    def start(row: int, link: str) -> None:
+        links[link] = row, columns[link]
+        while link in following:
+            link = following[link].child
+            links[link] = row, columns[link]
+
+    def rank(joint: Joint) -> tuple[bool, int]:
+        """A chain goes after the one that it starts at: this one is large if it is, and begins further left."""
+        return not is_large[joint.name], columns[joint.parent]
+
+    start(0, root)
+    taken = {(0, column) for column in range(ends[root] + 1)}
+    heads = sorted((joint for joint in tree.joints if joint is not following[joint.parent]), key=rank)
+    for _, group in itertools.groupby(heads, key=rank):
+        chains = {joint.name: joint for joint in group}
+        starts = {
+            name: (links[joint.parent][0] + 1, range(columns[joint.parent], ends[joint.child] + 1))
+            for name, joint in chains.items()
+        }
+        for name, row in find_rows(starts, taken).items():
+            below.append((chains[name].parent, row))
+            start(row, chains[name].child)
+    joints = {joint.name: (links[joint.child][0], columns[joint.parent]) for joint in tree.joints}
+
+    carriers = _carriers(tree)
+    starts = {name: (links[link][0] + 1, range(columns[link], columns[link] + 1)) for name, link in carriers.items()}
+    rows = find_rows(starts, taken)
+    below += ((sensor.at, rows[sensor.name]) for sensor in tree.sensors if sensor.kind != "force_torque")
+    sensors = {name: (rows[name], columns[link]) for name, link in carriers.items()}
+    return _Cells({link.name: links[link.name] for link in tree.links}, joints, sensors, below)
 
 
 def _carriers(tree: KinematicTree) -> dict[str, str]:
@@ -263,22 +336,14 @@ def _placements(tree: KinematicTree, names: Connectors, grid: _Grid) -> dict[str
             placements[frame] = Placement.around((x + _JOINT_X, y))
         else:
             placements[frame] = Placement.around((links[name].centre[0], links[name].y1 - _CONNECTOR), _CONNECTOR)
-    below = {
-        name: placements[names.frames[name]].y1 if name in names.frames and name not in leaves else place.y1
-        for name, place in links.items()
-    }
     records = ["startPositions"] * _has_starts(tree) + ["sensorParameters"] * bool(tree.sensors)
     for row, record in enumerate(records):
         y = grid.bottom + _SIZE // 2 + row * (_SIZE + _NAME)
         placements[record] = Placement.around((FRAME_A[0], y))
-    for sensor, link in _carriers(tree).items():
-        middle = links[link].centre[0], below[link] - _NAME - _SIZE // 2
-        placements[names.sensors[sensor]] = place = Placement.around(middle)
-        below[link] = place.y1
+    for sensor, (x, y) in grid.sensors.items():
+        placements[names.sensors[sensor]] = Placement.around((x + _LINK_X, y))
         if sensor in names.sensor_frames:
-            placements[names.sensor_frames[sensor]] = Placement.around(
-                (place.x2 + _TRACK + _CONNECTOR // 2, middle[1]), _CONNECTOR
-            )
+            placements[names.sensor_frames[sensor]] = Placement.around((x + _LINK_X + _SIZE, y), _CONNECTOR)
     placements |= {tree.link(name).component: place for name, place in links.items()}
     placements |= {tree.joint(name).component: place for name, place in joints.items()}
     placements |= {tree.loop(name).component: Placement.around(middle) for name, middle in grid.loops.items()}
@@ -313,13 +378,15 @@ def _lines(
             route_frames("frame_a", frame_a, trunk)
         if name in names.frames:
             route_frames(frame_a, names.frames[name], trunk)
+        track = grid.descents.get((name, "below"), trunk)
         for called in carried[name]:
-            route_frames(frame_a, f"{names.sensors[called]}.frame_a", trunk)
+            route_frames(frame_a, f"{names.sensors[called]}.frame_a", track)
             if frame := names.sensor_frames.get(called):
                 route("frame", f"{names.sensors[called]}.frame_b", frame)
         for joint in children.get(name, ()):
             component, child = tree.joint(joint.name).component, tree.link(joint.child).component
-            route_frames(frame_a, f"{component}.frame_a", trunk)
+            in_row = grid.joints[joint.name][1] == grid.links[name][1]
+            route_frames(frame_a, f"{component}.frame_a", trunk if in_row else track)
             route_frames(f"{component}.frame_b", f"{child}.frame_a", grid.links[joint.child][0])
     for loop in tree.loops:
         component = tree.loop(loop.name).component
@@ -359,15 +426,21 @@ def _has_starts(tree: KinematicTree) -> bool:
 
 
 def _tracks(spans: _Spans) -> dict[str | _End, int]:
-    """Number the tracks of a channel, from 0, so that spans on one track don't touch.
-
-    The left-edge method: as few tracks as the densest place of the channel needs.
-    """
+    """Number the tracks of a channel, from 0: each span gets the first one on which it touches none before it."""
     assigned: dict[str | _End, int] = {}
-    busy: list[tuple[int, int]] = []  # end, and track
-    for key, places in sorted(spans.items(), key=lambda item: (min(item[1]), max(item[1]))):
-        assigned[key] = heapq.heappop(busy)[1] if busy and busy[0][0] < min(places) else len(busy)
-        heapq.heappush(busy, (max(places), assigned[key]))
+    tracks: list[list[tuple[int, int]]] = []  # the spans on each, in order
+    for key, places in spans.items():
+        span = min(places), max(places)
+        for number in itertools.count():
+            if number == len(tracks):
+                tracks.append([])
+            at = bisect.bisect(tracks[number], span)
+            if all(other[1] < span[0] for other in tracks[number][at - 1 : at]) and all(
+                other[0] > span[1] for other in tracks[number][at : at + 1]
+            ):
+                tracks[number].insert(at, span)
+                assigned[key] = number
+                break
     return assigned
 
 

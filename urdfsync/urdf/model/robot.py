@@ -7,13 +7,13 @@ from __future__ import annotations
 
 import functools
 from collections import defaultdict
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import msgspec
 
 from urdfsync.urdf.connectors import Connectors, input_vector
-from urdfsync.urdf.diagram.layout import layout
+from urdfsync.urdf.diagram.layout import find_rows, layout
 from urdfsync.urdf.drives import is_chosen
 from urdfsync.urdf.kinematics.loops import Assembly
 from urdfsync.urdf.kinematics.tree import KinematicTree
@@ -52,11 +52,11 @@ def robot_data(tree: KinematicTree, names: Connectors, dependent: frozenset[str]
     followers = defaultdict[str | None, list[str]](list)
     for coupling in couplings.values():
         followers[coupling["leader"]].append(coupling["component"])
-    diagram, top = layout(tree, names), _icon_top(names)
+    diagram, top, rows = layout(tree, names), _icon_top(names), _frame_rows(names)
     return {
         "frames": [
-            {"connector": connector, "link": tree.link(name).component, "name": name, "y": top - 10 - _ROW * row}
-            for row, (name, connector) in enumerate(names.frames.items())
+            {"connector": connector, "link": tree.link(name).component, "name": name, "y": _y(rows[connector])}
+            for name, connector in names.frames.items()
         ],
         "drives": _drives(tree, names),
         "links": [
@@ -90,8 +90,8 @@ def robot_data(tree: KinematicTree, names: Connectors, dependent: frozenset[str]
         "starts": bool(tree.starts()),
         "sensors": sensor_models(tree, names),
         "sensor_frames": [
-            {"connector": connector, "name": name, "y": top - 10 - _ROW * row}
-            for row, (name, connector) in enumerate(names.sensor_frames.items(), len(names.frames))
+            {"connector": connector, "name": name, "y": _y(rows[connector])}
+            for name, connector in names.sensor_frames.items()
         ],
         "top": top,
         "extent": _extent(diagram.extent),
@@ -141,21 +141,36 @@ def bench_data(closed: Assembly, names: Connectors, options: Options) -> dict[st
 
 
 def _drives(tree: KinematicTree, names: Connectors) -> list[dict[str, Any]]:
-    """Return the joints that can be driven, from top to bottom of the icon; `y` is the height of the axis there.
-
-    They stand on the picture: another frame at the other side does not move them.
-    """
-    top = _PICTURE + _ROW * len(names.drives)
+    """Return the joints that can be driven; `y` is the height of the axis on the icon."""
+    rows = _drive_rows(names)
     return [
-        {"joint": tree.joint(name).component, "name": name, "y": top - _ROW * row, **msgspec.structs.asdict(drive)}
-        for row, (name, drive) in enumerate(names.drives.items())
+        {"joint": tree.joint(name).component, "name": name, "y": _y(rows[drive.axis]), **msgspec.structs.asdict(drive)}
+        for name, drive in names.drives.items()
     ]
+
+
+def _rows(connectors: Iterable[str]) -> dict[str, int]:
+    """Return the rows of the connectors at one side of the icon, of which a new one displaces few."""
+    return find_rows(dict.fromkeys(connectors, (0, range(1))), set())
+
+
+def _drive_rows(names: Connectors) -> dict[str, int]:
+    return _rows(drive.axis for drive in names.drives.values())
+
+
+def _frame_rows(names: Connectors) -> dict[str, int]:
+    return _rows([*names.frames.values(), *names.sensor_frames.values()])
+
+
+def _y(row: int) -> int:
+    """Return the height of a connector on the icon: rows stand on the picture."""
+    return _PICTURE + _ROW * (row + 1)
 
 
 def _icon_top(names: Connectors) -> int:
     """Return the upper end of the icon: above the picture, it has a row for each connector at one side."""
-    rows = max(len(names.frames) + len(names.sensor_frames), len(names.drives))
-    return _PICTURE + _ROW * rows + 10 if rows else _PICTURE
+    rows = [*_drive_rows(names).values(), *_frame_rows(names).values()]
+    return _y(max(rows)) + 10 if rows else _PICTURE
 
 
 def _extent(box: tuple[int, int, int, int]) -> str:

@@ -3,7 +3,7 @@ within UrdfSync.Examples.WheeledRobot;
 record WheeledRobotSensors "Numbers of the sensors of robot WheeledRobot"
   extends UrdfSync.Icons.Parameters;
 
-  UrdfSync.Records.Lidar lidar_sensor(
+  UrdfSync.Records.Lidar lidar_sensor_5be26f(
     name = "lidar",
     updateRate = 10,
     origin(

@@ -16,7 +16,7 @@ model WheeledRobotTest "Quick check of robot WheeledRobot: every axis moves insi
     phi_max = robot.drive_left.phi_max,
     w_max = robot.drive_left.w_max)
     "Moves joint \"drive_left\" there and back"
-    annotation (Placement(transformation(extent={{-40, 270}, {-20, 290}})));
+    annotation (Placement(transformation(extent={{-40, 180}, {-20, 200}})));
 
   UrdfSync.Drives.RotationalSweep drive_rightDrive(
     phi_start = robot.drive_right.phi_start,
@@ -24,7 +24,7 @@ model WheeledRobotTest "Quick check of robot WheeledRobot: every axis moves insi
     phi_max = robot.drive_right.phi_max,
     w_max = robot.drive_right.w_max)
     "Moves joint \"drive_right\" there and back"
-    annotation (Placement(transformation(extent={{-40, 240}, {-20, 260}})));
+    annotation (Placement(transformation(extent={{-40, 150}, {-20, 170}})));
 
   UrdfSync.Drives.TranslationalSweep liftDrive(
     s_start = robot.lift.s_start,
@@ -32,7 +32,7 @@ model WheeledRobotTest "Quick check of robot WheeledRobot: every axis moves insi
     s_max = robot.lift.s_max,
     v_max = robot.lift.v_max)
     "Moves joint \"lift\" there and back"
-    annotation (Placement(transformation(extent={{-40, 210}, {-20, 230}})));
+    annotation (Placement(transformation(extent={{-40, 330}, {-20, 350}})));
 
   UrdfSync.Drives.RotationalSweep head_panDrive(
     phi_start = robot.head_pan.phi_start,
@@ -40,7 +40,7 @@ model WheeledRobotTest "Quick check of robot WheeledRobot: every axis moves insi
     phi_max = robot.head_pan.phi_max,
     w_max = robot.head_pan.w_max)
     "Moves joint \"head_pan\" there and back"
-    annotation (Placement(transformation(extent={{-40, 180}, {-20, 200}})));
+    annotation (Placement(transformation(extent={{-40, 270}, {-20, 290}})));
 
   UrdfSync.Drives.RotationalSweep head_tiltDrive(
     phi_start = robot.head_tilt.phi_start,
@@ -48,7 +48,7 @@ model WheeledRobotTest "Quick check of robot WheeledRobot: every axis moves insi
     phi_max = robot.head_tilt.phi_max,
     w_max = robot.head_tilt.w_max)
     "Moves joint \"head_tilt\" there and back"
-    annotation (Placement(transformation(extent={{-40, 150}, {-20, 170}})));
+    annotation (Placement(transformation(extent={{-40, 300}, {-20, 320}})));
 
   UrdfSync.Drives.RotationalSweep lidar_spinDrive(
     phi_start = robot.lidar_spin.phi_start,
@@ -62,25 +62,25 @@ equation
   connect(base.frame_b, robot.frame_a)
     annotation (Line(points={{-40, -50}, {20, -50}}, color={95, 95, 95}, thickness=0.5));
   connect(drive_leftDrive.flange, robot.drive_leftAxis)
-    annotation (Line(points={{-20, 280}, {20, 280}}, color={0, 0, 0}));
-  connect(drive_leftDrive.support, robot.drive_leftSupport)
-    annotation (Line(points={{-30, 270}, {-30, 265}, {20, 265}}, color={0, 0, 0}));
-  connect(drive_rightDrive.flange, robot.drive_rightAxis)
-    annotation (Line(points={{-20, 250}, {20, 250}}, color={0, 0, 0}));
-  connect(drive_rightDrive.support, robot.drive_rightSupport)
-    annotation (Line(points={{-30, 240}, {-30, 235}, {20, 235}}, color={0, 0, 0}));
-  connect(liftDrive.flange, robot.liftAxis)
-    annotation (Line(points={{-20, 220}, {20, 220}}, color={0, 127, 0}));
-  connect(liftDrive.support, robot.liftSupport)
-    annotation (Line(points={{-30, 210}, {-30, 205}, {20, 205}}, color={0, 127, 0}));
-  connect(head_panDrive.flange, robot.head_panAxis)
     annotation (Line(points={{-20, 190}, {20, 190}}, color={0, 0, 0}));
-  connect(head_panDrive.support, robot.head_panSupport)
+  connect(drive_leftDrive.support, robot.drive_leftSupport)
     annotation (Line(points={{-30, 180}, {-30, 175}, {20, 175}}, color={0, 0, 0}));
-  connect(head_tiltDrive.flange, robot.head_tiltAxis)
+  connect(drive_rightDrive.flange, robot.drive_rightAxis)
     annotation (Line(points={{-20, 160}, {20, 160}}, color={0, 0, 0}));
-  connect(head_tiltDrive.support, robot.head_tiltSupport)
+  connect(drive_rightDrive.support, robot.drive_rightSupport)
     annotation (Line(points={{-30, 150}, {-30, 145}, {20, 145}}, color={0, 0, 0}));
+  connect(liftDrive.flange, robot.liftAxis)
+    annotation (Line(points={{-20, 340}, {20, 340}}, color={0, 127, 0}));
+  connect(liftDrive.support, robot.liftSupport)
+    annotation (Line(points={{-30, 330}, {-30, 325}, {20, 325}}, color={0, 127, 0}));
+  connect(head_panDrive.flange, robot.head_panAxis)
+    annotation (Line(points={{-20, 280}, {20, 280}}, color={0, 0, 0}));
+  connect(head_panDrive.support, robot.head_panSupport)
+    annotation (Line(points={{-30, 270}, {-30, 265}, {20, 265}}, color={0, 0, 0}));
+  connect(head_tiltDrive.flange, robot.head_tiltAxis)
+    annotation (Line(points={{-20, 310}, {20, 310}}, color={0, 0, 0}));
+  connect(head_tiltDrive.support, robot.head_tiltSupport)
+    annotation (Line(points={{-30, 300}, {-30, 295}, {20, 295}}, color={0, 0, 0}));
   connect(lidar_spinDrive.flange, robot.lidar_spinAxis)
     annotation (Line(points={{-20, 130}, {20, 130}}, color={0, 0, 0}));
   connect(lidar_spinDrive.support, robot.lidar_spinSupport)
