@@ -66,7 +66,8 @@ def test_a_package_that_was_removed_is_written_again_and_that_is_said(edited: Pa
     shutil.rmtree(edited / LADDER)
     assert execute("build").out == "ladder: 14 restored because you deleted them\n"
     generated = model.removesuffix(MINE.encode())
-    assert {**before, MANIFEST: b""} == {**contents(edited), MODEL: before[MODEL], MANIFEST: b""}
+    other = {MANIFEST: b"", ".urdfsync/notes/ladder.json": b""}  # what was written, and that nothing is edited
+    assert {**before, **other} == {**contents(edited), MODEL: before[MODEL], **other}
     assert (edited / MODEL).read_bytes() == generated
     assert cli.main(["build", "--check"]) == Exit.IN_STEP
 
