@@ -330,10 +330,15 @@ class _Matcher:
         return doubts
 
     def _contradicts(self, key: ElementKey) -> bool:
-        """Whether none of the neighbours of an element has the name of the former one."""
+        """Whether an element is next to others than the former one: its only neighbour of a kind, or all of them."""
         before, after = self._old[key].neighbours, self._new[key].neighbours
-        known = [self._pairs.get(one) == after[relation] for relation, one in before.items() if relation in after]
-        return bool(known) and not any(known) and any(one in self._pairs for one in before.values())
+        others = [
+            (one, self._pairs[one] != after[relation])
+            for relation, one in before.items()
+            if relation in after and one in self._pairs
+        ]
+        is_elsewhere = any(is_other and key in self._old[one].neighbours.values() for one, is_other in others)
+        return is_elsewhere or (bool(others) and all(is_other for _, is_other in others))
 
     def _shared(self, old: ElementKey, new: ElementKey) -> tuple[str, ...]:
         """Return the names of the aspects that two elements share."""

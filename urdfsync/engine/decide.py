@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
@@ -19,7 +20,7 @@ from urdfsync.engine.inputs import Inputs
 from urdfsync.engine.needed import keep_needed
 from urdfsync.engine.package_after import PackageAfter
 from urdfsync.engine.package_files import PackageFiles
-from urdfsync.engine.package_names import names_of, renamed_names
+from urdfsync.engine.package_names import known_names, names_of, renamed_names
 from urdfsync.engine.parents import SharedFile, merge_order
 from urdfsync.engine.renames import describe_doubt
 from urdfsync.engine.rules import File, decide, put_off
@@ -70,6 +71,8 @@ def decide_package(generation: Generation) -> Decision:
     decided = decide(_find_files(generation), generation.moves)
     doubts = _find_doubts(generation, decided)
     actions = tuple(_adjust(generation, action, doubts) for action in decided)
+    if generation.other_elements:
+        actions = tuple(_with_other_names(generation, actions))
     disputed = [action for action in actions if action.reason in DISPUTED and action.role is not Role.IMPORT]
     names = renamed_names(generation) if disputed or inputs.last.aside else {}
     conflicts = {one.path: _conflict(generation, one, names, doubts) for one in disputed}
@@ -150,6 +153,21 @@ def _adjust(generation: Generation, action: Action, doubts: Mapping[str, Doubt])
     return action
 
 
+def _with_other_names(generation: Generation, actions: Iterable[Action]) -> Iterator[Action]:
+    """Yield the actions; an edit that uses a name which is another part's now is merged, whatever else is new."""
+    from urdfsync.modelica.lexer import words_in  # imports the parser
+
+    names = renamed_names(generation)
+    for action in actions:
+        if action.reason is Reason.KEEP and action.role is not Role.IMPORT and action.base == action.generated:
+            path = generation.inputs.folder.path(action.path)
+            mine = Counter(words_in(generation.inputs.files.text(action.path) or ""))
+            mine.subtract(words_in(generation.package.content(path).decode()))
+            if any(count > 0 and word in names for word, count in mine.items()):
+                action = msgspec.structs.replace(action, reason=Reason.CONFLICT)
+        yield action
+
+
 def _find_doubts(generation: Generation, actions: Sequence[Action]) -> dict[str, Doubt]:
     """Return why edited files may belong to other elements than before, by key."""
     doubts = find_moved_edits(generation, actions)
@@ -186,6 +204,10 @@ def _conflict(
 
     if not names and bases:  # a choice was undone after the build that brought new names
         names = names_of(generation, last.notes.renamed, frozenset(words_in(bases[0])))
+        before = last.package if last.record.generator == generation.inputs.generator else None
+        if before is None or path not in before.artifacts or before.hash(path) == action.base:
+            now = known_names(generation)  # exchanged names are those of the base already
+            names = {name: new for name, new in names.items() if name not in now}
     return find_conflict(action, bases, mine, generated, names)
 
 

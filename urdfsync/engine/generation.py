@@ -11,7 +11,7 @@ import msgspec
 from urdfsync import changes
 from urdfsync.changes import Changes
 from urdfsync.diagnostics import Diagnostic
-from urdfsync.domain import ChangeClass, ElementKey, Lookup, Role, Version
+from urdfsync.domain import ChangeClass, ElementKey, Lookup, Role, Version, displaced
 from urdfsync.engine import imports, source
 from urdfsync.engine.generate import Package, generate
 from urdfsync.engine.imports import Imported
@@ -21,6 +21,9 @@ from urdfsync.engine.renames import check_declared, find_matching_since, pending
 from urdfsync.files import shown
 from urdfsync.matching import Matching, without_exchanges
 from urdfsync.state.record import FileRecord
+
+GONE = "_gone"
+"""Ends names of elements that are gone, in the place of which others have their names."""
 
 
 class Generation(msgspec.Struct, frozen=True, dict=True):
@@ -66,6 +69,8 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
             if artifact.owner in owners and artifact.role is Role.RECORD:
                 on_disk = files.hash(last.folder.key(path), Role.RECORD)
                 recorded = last.files.get(last.folder.key(path), FileRecord()).hashes
+                if last.record.open and on_disk in last.notes.written:
+                    continue  # a build that was not complete has renewed it
                 if on_disk in recorded and package.hash(path) != on_disk:
                     return False
         return True
@@ -82,7 +87,8 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
         if not (self.renames and last.version):
             return {}
         now = self.inputs.domain.features(self.now.snapshot)
-        return {name: new for (kind, name), new in self.renames.items() if (kind, name) in now}
+        gone = {name: f"{name}{GONE}" for _, name in displaced(self.renames)}
+        return {**gone, **{name: new for (kind, name), new in self.renames.items() if (kind, name) in now}}
 
     @property
     def confirmed_names(self) -> Mapping[ElementKey, str]:

@@ -17,7 +17,7 @@ from urdfsync import dependencies
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.engine.actions import Reason
 from urdfsync.engine.decide import Decision
-from urdfsync.engine.generation import Generation
+from urdfsync.engine.generation import GONE, Generation
 from urdfsync.engine.package_names import other_parts
 from urdfsync.files import shown
 from urdfsync.state.notes import Use
@@ -34,8 +34,10 @@ def find_uses(generation: Generation, decision: Decision) -> dict[str, Use]:
     own = (inputs.files.path(action.path) for action in decision.actions if action.reason is Reason.UNKNOWN)
     if (files := [*inputs.users_files.mentioning, *own]) and (names := other_parts(generation)):
         for path in files:
-            if used := {name: names[name] for name in _lines(path, names)}:
-                uses[str(path)] = Use(_facts(path), used)
+            earlier = uses[str(path)].names if str(path) in uses else {}
+            used = {name: names.get(new, new) for name, new in earlier.items()}
+            used = {name: names[name] for name in _lines(path, names) if name not in earlier} | used
+            uses[str(path)] = Use(_facts(path), {name: new for name, new in used.items() if name != new})
     elements = generation.other_elements
     if used := {name: elements[name] for name in _texts(msgspec.to_builtins(inputs.robot.options)) if name in elements}:
         uses[str(inputs.config.file)] = Use(_facts(inputs.config.file), used)
@@ -47,8 +49,11 @@ def tell_uses(uses: Mapping[str, Use]) -> Iterator[Diagnostic]:
     for path, use in uses.items():
         lines = _lines(Path(path), use.names)
         for name, line in sorted(lines.items(), key=lambda item: item[1]):
-            message = f"`{name}` is that of another part now: the part that had this name has `{use.names[name]}`"
-            hint = f"use `{use.names[name]}`, or save the file as it is"
+            new = use.names[name]
+            what, hint = f"has `{new}`", f"use `{new}`, or save the file as it is"
+            if new.endswith(GONE):
+                what, hint = "is gone", "change this use, or save the file as it is"
+            message = f"`{name}` is that of another part now: the part that had this name {what}"
             yield Diagnostic(Severity.WARNING, CODE, message, shown(Path(path)), line, hint=hint)
 
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from pathlib import PurePosixPath
 
-from urdfsync.engine.generation import Generation
+from urdfsync.domain import displaced
+from urdfsync.engine.generation import GONE, Generation
 from urdfsync.modelica.files import class_path
 
 
@@ -43,7 +44,17 @@ def renamed_names(generation: Generation) -> dict[str, str]:
     recorded = {inputs.last.folder.path(key): one for key, one in inputs.last.files.items() if one.hashes}
     files = {path: one for path, one in recorded.items() if path.endswith(".mo")}
     before = declared_names(inputs.last.base(one.hashes[0]) or "" for path, one in files.items() if "/" not in path)
-    return names_of(generation, renamed, before | {*map(class_of, files)})
+    names = names_of(generation, renamed, before := before | {*map(class_of, files)})
+    gone = displaced(generation.renames)
+    if last := inputs.last.version if gone else None:
+        identifiers = {
+            identifier: (kind.removesuffix("s"), name)
+            for kind, of_kind in inputs.domain.names(last.snapshot, inputs.last.target).items()
+            for name, identifier in of_kind.items()
+        }
+        # else they would be taken for those of the elements that have their names now
+        names |= {name: f"{name}{GONE}" for name in before if identifiers.get(identifier_of(name, identifiers)) in gone}
+    return names
 
 
 def names_of(generation: Generation, renamed: Mapping[str, str], before: frozenset[str]) -> dict[str, str]:

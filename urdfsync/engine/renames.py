@@ -30,10 +30,10 @@ def find_matching(
         return Matching()
     before, after = domain.features(old), domain.features(new)
     pairs = {key: (key[0], name) for key, name in confirmed.items()}
-    for kind, name in before if declared else ():
-        key, renamed = (kind, name), (kind, declared.get(name, ""))
-        if renamed in after and before[key] != after.get(key):
-            pairs.setdefault(key, renamed)
+    named = {(kind, name): (kind, declared[name]) for kind, name in before if name in declared}
+    named = {key: new for key, new in named.items() if new in after}
+    done = {key[0] for key in named if before[key] == after.get(key)}  # kinds whose names have been brought before
+    pairs = {**{key: new for key, new in named.items() if key[0] not in done}, **pairs}
     return match(before, after, pairs)
 
 
@@ -76,7 +76,9 @@ def describe_doubt(doubt: Doubt) -> str:
     if doubt.is_certain:
         return f"`{name}` is another part now{f', the former `{doubt.former}`' if doubt.former else ''}"
     if not doubt.former:
-        return f"`{name}` may be another part now: parts that look like it have other names"
+        return f"`{name}` may be another part now: parts next to it, or like it, have other names"
+    if not aspects:
+        return f"`{name}` may be the former `{doubt.former}` now"
     are = "are those" if len(doubt.aspects) > 1 else "is that"
     return f"`{name}` may be another part now: its {aspects} {are} of the former `{doubt.former}`"
 
@@ -103,11 +105,13 @@ def check_declared(inputs: Inputs, now: Snapshot) -> Iterator[Diagnostic]:
         olds, news = ({kind for kind, name in before if name == word} for word in (old, new))
         kinds = {kind for kind, name in after if name == new}
         place, hint, near = (shown(inputs.config.file), robot.lines[f"renamed.{old}"]), "correct it, or take it out", ""
-        if kinds and (not before or (old in open_renames and olds & kinds)):
+        if old != new and kinds and (not before or (old in open_renames and olds & kinds)):
             continue
-        if not kinds:
+        if old == new:
+            message = "that is its own name"
+        elif not kinds:
             message, near = f"the source has no `{new}`", nearest(new, sorted(name for _, name in after))
-        elif news & kinds:
+        elif news & kinds and not (olds - kinds):
             message, hint = f"the last build has `{new}` already", f"take `{old}` out of `renamed`"
             yield Diagnostic(Severity.NOTE, "rename-done", f"robot `{robot.name}`: {message}", *place, hint=hint)
             continue

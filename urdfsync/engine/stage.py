@@ -185,7 +185,7 @@ def _record(generation: Generation, decision: Decision) -> Record:
         folder=str(inputs.folder),
         generator=inputs.generator,
         options=option_values(inputs.robot.options),
-        renamed=inputs.robot.renamed,
+        renamed=_brought(generation),
         confirmed=_confirmed(generation, decision),
         snapshot=generation.now.snapshot,
         imports={key: (entry,) for key, entry in imports.items()},
@@ -196,6 +196,14 @@ def _record(generation: Generation, decision: Decision) -> Record:
     # not worth a commit is what no file of the package says: extensions that nothing models, options without effect
     silent = msgspec.structs.replace(new, snapshot=old.snapshot, options=old.options, generator=old.generator)
     return old if silent == old else new
+
+
+def _brought(generation: Generation) -> Mapping[str, str]:
+    """Return the declared renames that this build brings, or that an earlier one brought."""
+    done = generation.inputs.last.record.renamed
+    brought = {(name, new) for (_, name), new in generation.renames.items()}
+    declared = generation.inputs.robot.renamed.items()
+    return {old: new for old, new in declared if done.get(old) == new or (old, new) in brought}
 
 
 def _confirmed(generation: Generation, decision: Decision) -> frozenset[str]:
