@@ -70,12 +70,14 @@ def _remove(robot: Robot, random: Random) -> bool:
 
 
 def _exchange(robot: Robot, random: Random) -> bool:
-    """Two joints exchange the links behind them."""
+    """Two joints exchange the links behind them; of links that weigh the same nobody knows whether they did."""
     joints = robot.findall("joint")
+    masses = {link.get("name"): str(link.xpath("string(inertial/mass/@value)")) for link in robot.findall("link")}
     pairs = [
         (one, other)
         for one in joints
         for other in joints
+        if "" not in (masses[_child(one)], masses[_child(other)]) and masses[_child(one)] != masses[_child(other)]
         if one is not other and _child(one) not in _below(robot, other) and _child(other) not in _below(robot, one)
     ]
     if not pairs:
