@@ -301,6 +301,7 @@ class _Matcher:
                 shuffled.add((key[0], aspects))
             if self._taken.get(key, key) == key and self._before.get(key) != aspects:
                 changed[key[0], aspects].append(key)
+        has_moved = any(old != new for old, new in self._pairs.items())  # else another place is no other part
         removed = {(key[0], aspects) for key, aspects in self._before.items() if key not in self._pairs}
         held = {(key[0], aspect): key[1] for key in self._in_order() for aspect in self._before[key]}
         doubts = dict[ElementKey, Doubt]()
@@ -310,7 +311,7 @@ class _Matcher:
             is_former = is_other and (key[0], self._after[key]) in removed
             places = [place for place in self._places.get(key, {}) if place != key]
             is_shuffled = (key[0], self._before[key]) in shuffled
-            is_elsewhere = self._contradicts(key) or (places and key not in self._places[key])
+            is_elsewhere = has_moved and (self._contradicts(key) or (places and key not in self._places[key]))
             if twins or votes.get(key) or is_former or is_shuffled or is_elsewhere:
                 likely = next(iter((*votes.get(key, ()), *twins, *places)), ("", ""))
                 formers = [held.get((key[0], aspect), "") for aspect in self._after[key]] if is_other else []
