@@ -104,6 +104,42 @@ def test_names_in_the_files_of_the_whole_robot_follow(edited: Path, execute: Exe
     assert "Real seen = robot.joint_3Axis.phi + robot.joint_1Axis.phi;" in run.read_text()
 
 
+@pytest.mark.parametrize(("answer", "name"), [("--merge", "link_2"), ("--keep", "link_1")])
+@pytest.mark.parametrize("is_open", [False, True])
+def test_an_edit_in_a_text_that_the_exchange_leaves_as_it_was_is_settled_once(
+    folder: Path, execute: Execute, answer: str, name: str, is_open: bool
+) -> None:
+    """Of two legs that differ: their names can be exchanged in the robot's model without a trace."""
+
+    def export(*names: str, mass: float = 9.0) -> None:
+        parts = zip(names, (1.1, 2.2), strict=True)
+        elements = [
+            (link(name, weight), joint(f"to_{name}", "continuous", "base", name, xyz=f"{weight} 0 0"))
+            for name, weight in parts
+        ]
+        Path("arm.urdf").write_text(robot(link("base", mass), *itertools.chain.from_iterable(elements)))
+
+    def value() -> str:
+        return str(re.findall(r"Real mine = (\w+)\.m;", Path("modelica/Arm/Arm.mo").read_text())[0])
+
+    Path("urdfsync.toml").write_text('[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\n')
+    export("link_1", "link_2")
+    execute("build")
+    edit("modelica/Arm/Arm.mo", "\nequation\n", "\n  Real mine = link_1.m;\n\nequation\n")
+    if is_open:
+        edit("modelica/Arm/Links/BaseParameters.mo", "9", "8")
+    export("link_2", "link_1", mass=7.0 if is_open else 9.0)
+    execute("build", code=Exit.CONFLICT)
+    execute("resolve", "modelica/Arm/Arm.mo", answer, code=None)
+    assert value() == name
+    if is_open:
+        execute("build", code=Exit.CONFLICT)
+        assert value() == name
+        execute("resolve", "--all", "--take")
+    assert value() == name
+    execute("build", "--check")
+
+
 def test_models_and_configuration_that_use_another_part_are_told_until_they_are_saved(
     edited: Path, execute: Execute
 ) -> None:

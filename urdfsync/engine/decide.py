@@ -155,14 +155,16 @@ def _adjust(generation: Generation, action: Action, doubts: Mapping[str, Doubt])
 
 def _with_other_names(generation: Generation, actions: Iterable[Action]) -> Iterator[Action]:
     """Yield the actions; an edit that uses a name which is another part's now is merged, whatever else is new."""
-    from urdfsync.modelica.lexer import words_in  # imports the parser
-
-    names = renamed_names(generation)
+    inputs, names = generation.inputs, None
     for action in actions:
-        if action.reason is Reason.KEEP and action.role is not Role.IMPORT and action.base == action.generated:
-            path = generation.inputs.folder.path(action.path)
-            mine = Counter(words_in(generation.inputs.files.text(action.path) or ""))
-            mine.subtract(words_in(generation.package.content(path).decode()))
+        is_settled = inputs.files.is_chosen(action.path) or action.mine in inputs.last.record.confirmed
+        is_edit = action.reason is Reason.KEEP and action.role is not Role.IMPORT and not is_settled
+        if is_edit and action.base == action.generated:
+            from urdfsync.modelica.lexer import words_in  # imports the parser
+
+            names = renamed_names(generation) if names is None else names
+            mine = Counter(words_in(inputs.files.text(action.path) or ""))
+            mine.subtract(words_in(generation.package.content(inputs.folder.path(action.path)).decode()))
             if any(count > 0 and word in names for word, count in mine.items()):
                 action = msgspec.structs.replace(action, reason=Reason.CONFLICT)
         yield action

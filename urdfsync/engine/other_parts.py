@@ -37,7 +37,9 @@ def find_uses(generation: Generation, decision: Decision) -> dict[str, Use]:
             earlier = uses[str(path)].names if str(path) in uses else {}
             used = {name: names.get(new, new) for name, new in earlier.items()}
             used = {name: names[name] for name in _lines(path, names) if name not in earlier} | used
-            uses[str(path)] = Use(_facts(path), {name: new for name, new in used.items() if name != new})
+            uses.pop(str(path), None)
+            if used := {name: new for name, new in used.items() if name != new}:
+                uses[str(path)] = Use(_facts(path), used)
     elements = generation.other_elements
     if used := {name: elements[name] for name in _texts(msgspec.to_builtins(inputs.robot.options)) if name in elements}:
         uses[str(inputs.config.file)] = Use(_facts(inputs.config.file), used)

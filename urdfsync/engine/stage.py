@@ -16,7 +16,7 @@ from urdfsync.engine.edit_origins import EDITED, model_hash
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import Inputs
 from urdfsync.engine.last_build import import_hash, option_values
-from urdfsync.engine.package_files import encode, with_line_ends
+from urdfsync.engine.package_files import encode, state_of, with_line_ends
 from urdfsync.engine.package_names import renamed_identifiers
 from urdfsync.engine.parents import SharedFile
 from urdfsync.engine.proposals import save_versions
@@ -72,7 +72,7 @@ def stage(
     if inputs.options.removes:
         state = [change for name in {inputs.last.name, robot.name} for change in store.remove(name)]
     else:
-        record = _record(generation, decision)
+        record = _record(generation, decision, settled)
         index, texts = put_aside(generation, decision, {key: one.content for key, one in files.items()}, settled)
         diagnostics += _tell_aside(generation, actions, index, texts, settled)
         changes += [*versions.changes, *store.save_aside(robot.name, index, texts)]
@@ -162,7 +162,7 @@ def _notes(
     return None if new == old and not (inputs.former_name or inputs.options.choices) else new
 
 
-def _record(generation: Generation, decision: Decision) -> Record:
+def _record(generation: Generation, decision: Decision, settled: Settled) -> Record:
     """Return the record after a build."""
     inputs, old, news = generation.inputs, generation.inputs.last.record, generation.changes
     imports, inside = generation.imported.imports, inputs.folder.key("")
@@ -177,7 +177,14 @@ def _record(generation: Generation, decision: Decision) -> Record:
             and entry not in old.imports.get(key, ())
         }
         open_ = Open(generation.now.snapshot, generation.confirmed_names)
-        return msgspec.structs.replace(old, files=files, imports={**old.imports, **renewed}, open=open_)
+        settled_texts = {state_of(text).text_sha256 for text in settled.contents.values() if text is not None}
+        return msgspec.structs.replace(
+            old,
+            files=files,
+            imports={**old.imports, **renewed},
+            open=open_,
+            confirmed=old.confirmed | settled_texts,
+        )
     files = files_after(decision.actions, inputs.last.files, is_complete=True)
     new = Record(
         package=inputs.robot.target.package,
