@@ -195,7 +195,7 @@ def test_what_cannot_be_known_is_asked(folder: Path, execute: Execute, answer: l
     for _ in range(2):
         words = execute("build", code=Exit.CONFLICT).words
         assert "`link_1` may be another part now" in words
-        assert "--keep it is the same part --moved link_2 your edit belongs to the part of this name" in words
+        assert "--moved link_2 your edit belongs to the part of this name --keep it is the same part" in words
     assert "Real mine" in Path(LINK.format(1)).read_text()
     execute("resolve", LINK.format(1), *answer)
     holders = [path.as_posix() for path in Path("modelica").rglob("*.mo") if "Real mine" in path.read_text()]
@@ -204,10 +204,54 @@ def test_what_cannot_be_known_is_asked(folder: Path, execute: Execute, answer: l
 
 
 def test_nothing_is_asked_if_nobody_edited(folder: Path, execute: Execute) -> None:
+    """But a model of the user's that names the part is told."""
     Path("urdfsync.toml").write_text(CONFIGURATION)
     unclear(execute)
-    execute("resolve", LINK.format(1), "--take")
-    assert "another part" not in execute("build").words
+    Path("Mine.mo").write_text("model Mine\n  Arm.Arm robot;\n  Real x = robot.link_1.body.m;\nend Mine;\n")
+    edit(LINK.format(1), MINE, "\nequation")
+    words = execute("build").words
+    assert "Mine.mo:3: warning: `link_1` may be that of another part now" in words
+    assert words.count("another part") == 1
+    execute("build", "--check")
+
+
+def test_an_edit_of_a_common_file_that_names_what_may_be_another_part_is_asked_about(
+    folder: Path, execute: Execute
+) -> None:
+    Path("urdfsync.toml").write_text(CONFIGURATION)
+    unclear(execute)
+    edit(LINK.format(1), MINE, "\nequation")
+    edit("modelica/Arm/Arm.mo", "\nequation", "\n  Real mine = link_1.m;\n\nequation")
+    assert "It uses `link_1`, which may be another part now" in execute("build", code=Exit.CONFLICT).words
+    words = execute("resolve", "modelica/Arm/Arm.mo", "--moved", "link_2", code=Exit.ERROR).words
+    assert "it is the file of no single part" in words
+    execute("resolve", "modelica/Arm/Arm.mo", "--keep")
+    execute("build", "--check")
+
+
+def test_the_same_part_gets_what_is_new(folder: Path, execute: Execute) -> None:
+    record = LINK.format(1).replace(".mo", "Parameters.mo")
+    Path("urdfsync.toml").write_text(CONFIGURATION)
+    unclear(execute)
+    edit(record, "end Link_1Parameters;", "  // mine\nend Link_1Parameters;")
+    execute("resolve", LINK.format(1), record, "--keep", code=Exit.CONFLICT)
+    execute("resolve", record, "--merge")
+    assert "1.5" in Path(record).read_text()
+    execute("build", "--check")
+
+
+def test_an_edit_moves_into_a_file_that_is_edited_too(folder: Path, execute: Execute) -> None:
+    Path("urdfsync.toml").write_text(CONFIGURATION)
+    unclear(execute)
+    edit(LINK.format(3), "\nequation", "\n  Real another = 2;\n\nequation")
+    execute("build", code=Exit.CONFLICT)
+    execute("resolve", LINK.format(1), "--moved", "link_3", code=None)
+    text = Path(LINK.format(3)).read_text()
+    assert "Real mine = 1;" in text
+    assert "Real another = 2;" in text
+    assert "Real mine" not in Path(LINK.format(1)).read_text()
+    execute("resolve", LINK.format(1), "--undo", code=None)
+    assert "Real mine = 1;" in Path(LINK.format(1)).read_text()
 
 
 def test_an_answer_names_a_part_that_exists(folder: Path, execute: Execute) -> None:
@@ -274,7 +318,7 @@ def test_a_recorded_model_that_the_files_contradict_moves_nothing(edited: Path, 
 def test_one_branch_exchanges_names_and_the_other_edits(
     folder: Path, monkeypatch: pytest.MonkeyPatch, execute: Execute, way: str, edits_first: bool, driver: bool
 ) -> None:
-    """Whichever side git takes the edit from: it is with its part, or asked about."""
+    """Whichever side git takes an edit from: it is with its part, or asked about."""
     Path("urdfsync.toml").write_text(CONFIGURATION)
     repository = Repository(folder, monkeypatch)
     Path("arm.urdf").write_text(arm(1.1, 2.2, 3.3))
@@ -282,10 +326,13 @@ def test_one_branch_exchanges_names_and_the_other_edits(
     if driver:
         execute("merge-driver", "--install")
     repository.commit()
+    model, joint_file = "modelica/Arm/Arm.mo", "modelica/Arm/Joints/Joint_{}.mo"
     for branch in ("theirs", "ours"):
         repository.git("checkout", "-q", "-b", branch, "main")
         if (branch == "ours") is edits_first:
             edit(LINK.format(2), "\nequation", MINE)
+            edit(joint_file.format(2), "\nequation", MINE)
+            edit(model, "\nequation", "\n  Real mine = link_2.m;\n\nequation")
         else:
             Path("arm.urdf").write_text(arm(1.1, 2.2, 3.3, order="132"))
         execute("build")
@@ -293,14 +340,26 @@ def test_one_branch_exchanges_names_and_the_other_edits(
     for command in WAYS[way]:
         repository.git(*command.split())
     Path("theirs.patch").unlink(missing_ok=True)
-    printed = execute("build", code=None)
-    holders = [path.as_posix() for path in Path("modelica").rglob("*.mo") if "Real mine" in path.read_text()]
-    assert len(holders) == 1
-    if printed.code == Exit.CONFLICT:
-        assert "another part" in printed.words
-        execute("resolve", LINK.format(2), "--moved", "link_3")
-        holders = [path.as_posix() for path in Path("modelica").rglob("*.mo") if "Real mine" in path.read_text()]
-    assert holders == [LINK.format(3)]
+    if way in ("squash", "patch"):
+        repository.git("branch", "-q", "-D", "theirs")
+    words = execute("build", code=None).words
+    if "It uses `link_2`, which is another part now" in words:
+        edit(model, "link_2.m;", "link_3.m;")
+        execute("resolve", model, "--keep", code=None)
+    for file in (LINK.format(2), joint_file.format(2)):
+        if "Real mine" in Path(file).read_text():
+            assert "another part" in words
+            execute(
+                "resolve",
+                file,
+                "--moved",
+                Path(LINK.format(3) if "Link" in file else "joint_3").stem.lower(),
+                code=None,
+            )
+    texts = {path.as_posix(): path.read_text() for path in Path("modelica").rglob("*.mo")}
+    holders = sorted(path for path, text in texts.items() if "Real mine" in text)
+    assert holders == sorted([model, LINK.format(3), joint_file.format(3)])
+    assert "Real mine = link_3.m;" in texts[model]
     execute("build", "--check")
 
 

@@ -14,7 +14,7 @@ from urdfsync.domain import ChangeClass, Role
 from urdfsync.engine import united
 from urdfsync.engine.actions import DISPUTED, ORPHANS, Action, Actions, Choice, Reason
 from urdfsync.engine.conflicts import PREFERENCES, Conflict, find_conflict, resolve
-from urdfsync.engine.edit_origins import EDITED, find_moved_edits
+from urdfsync.engine.edit_origins import find_doubts
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import Inputs
 from urdfsync.engine.needed import keep_needed
@@ -69,7 +69,7 @@ def decide_package(generation: Generation) -> Decision:
     """
     inputs, files = generation.inputs, generation.inputs.files
     decided = decide(_find_files(generation), generation.moves)
-    doubts = _find_doubts(generation, decided)
+    doubts = find_doubts(generation, decided)
     actions = tuple(_adjust(generation, action, doubts) for action in decided)
     if generation.other_elements:
         actions = tuple(_with_other_names(generation, actions))
@@ -170,16 +170,6 @@ def _with_other_names(generation: Generation, actions: Iterable[Action]) -> Iter
         yield action
 
 
-def _find_doubts(generation: Generation, actions: Sequence[Action]) -> dict[str, Doubt]:
-    """Return why edited files may belong to other elements than before, by key."""
-    doubts = find_moved_edits(generation, actions)
-    for action in actions:
-        kind, _, name = action.owner.partition(" ")
-        if action.reason in EDITED and action.role is not Role.IMPORT and (kind, name) in generation.matching.doubts:
-            doubts[action.path] = generation.matching.doubts[kind, name]
-    return {key: doubt for key, doubt in doubts.items() if doubt.element not in generation.answered}
-
-
 def _conflict(
     generation: Generation, action: Action, names: Mapping[str, str], doubts: Mapping[str, Doubt]
 ) -> Conflict:
@@ -197,8 +187,9 @@ def _conflict(
         reason, base = "you made a folder of the class", bases[0] if bases else None
         return Conflict(action.path, base, package, generated, None, origin=action.origin, rejected=reason)
     if doubt := doubts.get(action.path):
-        texts, why = (bases[0] if bases else None, mine, generated, None), describe_doubt(doubt)
-        return Conflict(action.path, *texts, rejected=why, moved_to=doubt.moved_to)
+        texts, is_own = (bases[0] if bases else None, mine, generated, None), action.owner == doubt.element
+        why, moved_to = describe_doubt(doubt, is_used=not is_own), doubt.moved_to if is_own else ""
+        return Conflict(action.path, *texts, rejected=why, moved_to=moved_to)
     if contradictions := files.left_by_git.get(key):
         texts, why = (bases[0] if bases else None, mine, generated, None), united.describe(contradictions)
         return Conflict(action.path, *texts, origin=action.origin, rejected=why)

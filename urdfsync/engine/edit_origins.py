@@ -1,54 +1,65 @@
-"""Edits that git brought from a branch in which their names meant other parts.
+"""Edited files that may be other elements' now: by the record, and by the commits that git made the files of.
 
 One branch exchanges names, another one edits: git leaves the edit with the name, and both texts look as they should. So
-a new text is looked for in the commits that git may have brought it from, and its element in their recorded models.
+what a text has beyond the generated one is looked for in the commits that git may have brought it from, and their
+recorded models tell what the names meant there.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+import itertools
+import re
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING
 
 import msgspec
 
 from urdfsync import git
 from urdfsync.diagnostics import SourceError, StateError
-from urdfsync.domain import Snapshot
+from urdfsync.domain import ElementKey, Role, Snapshot
 from urdfsync.engine.actions import Action, Reason
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.last_build import NO_MODEL
+from urdfsync.engine.package_files import text_hash
+from urdfsync.engine.package_names import identifier_of
 from urdfsync.engine.renames import find_matching
 from urdfsync.files import digest
 from urdfsync.matching import Doubt
 from urdfsync.state import statefile
+from urdfsync.state.record import FileRecord
 
 if TYPE_CHECKING:
+    import pygit2
+
     from urdfsync.revisions import Revision
 
 _MOST = 50
-"""So many branches are looked at."""
+"""So many branches are looked at, and so many commits that were checked out."""
 _BACK = 10
 """So many commits are looked at, back from the last one."""
 EDITED = (Reason.KEEP, Reason.CONFLICT)
 """Reasons of files that the user edited and that stay where they are."""
 
 
-def find_moved_edits(generation: Generation, actions: Iterable[Action]) -> dict[str, Doubt]:
-    """Return why edited files may belong to other elements, by key: as the commits have it that they come from."""
+def find_doubts(generation: Generation, actions: Iterable[Action]) -> dict[str, Doubt]:
+    """Return why edited files may belong to other elements than before, by key."""
     inputs, notes = generation.inputs, generation.inputs.last.notes
-    edited = [action for action in actions if action.reason in EDITED and action.mine and " " in action.owner]
-    is_same = notes.model == model_hash(inputs.last.record.snapshot)
-    new = [action for action in edited if action.mine not in inputs.last.record.confirmed]
-    if is_same:
-        new = [action for action in new if notes.edited.get(action.path) != action.mine]
-    if not new or inputs.last.version is None or git.find_top(inputs.config.root) is None:
-        return {}
+    edited = [one for one in actions if one.reason in EDITED and one.mine and one.role is not Role.IMPORT]
+    edited = [one for one in edited if not inputs.files.is_chosen(one.path)]
+    record = inputs.last.record
+    unconfirmed = [one for one in edited if one.mine not in record.confirmed]
+    # what the user said of an export holds until the next one
+    is_told = record.open is not None and record.open.seen == generation.now.snapshot
     doubts = dict[str, Doubt]()
-    try:
+    for action in (unconfirmed if is_told else edited) if generation.matching.doubts else ():
+        if found := _doubt(generation, action, generation.matching.doubts, generation.now.snapshot):
+            doubts[action.path] = found
+    if notes.model == model_hash(record.snapshot):  # else git may have changed what names mean
+        unconfirmed = [one for one in unconfirmed if notes.edited.get(one.path) != one.mine]
+    if unconfirmed and inputs.last.version is not None and git.find_top(inputs.config.root) is not None:
         for commit in _commits(generation):
-            doubts |= _look(generation, commit, new)
-    except SourceError:  # a repository that git itself may not read
-        return {}
+            doubts |= _look(generation, commit, unconfirmed)
     return doubts
 
 
@@ -58,53 +69,107 @@ def model_hash(snapshot: Snapshot | None) -> str:
 
 
 def _commits(generation: Generation) -> Iterator[Revision]:
-    """Yield the commits that an edit may come from: merged ones, and all branches if this machine builds here."""
+    """Yield the commits that an edit may come from: merged ones, and this machine's if it builds here."""
     import pygit2  # 55 ms, which most builds do without
 
     from urdfsync.revisions import Revision, open_repository
 
     root = generation.inputs.config.root
-    repository = open_repository(root)
+    try:
+        repository = open_repository(root)
+    except SourceError:  # one that git itself may not read
+        return
     if repository is None or repository.is_empty or repository.head_is_unborn:
         return
     names = ["MERGE_HEAD", *(str(parent) for parent in repository.head.peel(pygit2.Commit).parent_ids)]
     if generation.inputs.last.notes.program:
         names += [f"HEAD~{number}" for number in range(2, _BACK)]
-        names += ["ORIG_HEAD", "CHERRY_PICK_HEAD", "REBASE_HEAD"]
+        names += ["ORIG_HEAD", "CHERRY_PICK_HEAD", "REBASE_HEAD", *_checked_out(repository)]
         names += [name for name in repository.references if name.startswith(("refs/heads/", "refs/remotes/"))][:_MOST]
-    for name in names:
+    for name in dict.fromkeys(names):
         try:
             yield Revision(root, name)
         except SourceError:  # there is no such commit
             continue
 
 
+def _checked_out(repository: pygit2.Repository) -> Iterator[str]:
+    """Yield the commits that were checked out last: a branch may be gone that was squashed."""
+    for entry in itertools.islice(repository.lookup_reference("HEAD").log(), _MOST):
+        yield str(entry.oid_new)
+
+
 def _look(generation: Generation, commit: Revision, edited: Iterable[Action]) -> dict[str, Doubt]:
-    """Return the edits that a commit has in the same place, and whose element has another name since its model."""
+    """Return the edits that a commit has in the same file, of elements that have other names since its model."""
     inputs = generation.inputs
     state = inputs.store.path(inputs.last.name)
-    files = {inputs.files.path(action.path): action for action in edited}
-    contents = commit.contents([state, *files])
-    same = [one for file, one in files.items() if file in contents and contents[file] == inputs.files.read(one.path)]
-    if not same or state not in contents:
-        return {}
     try:
+        contents = commit.contents([state, *(inputs.files.path(action.path) for action in edited)])
         record, _ = statefile.loads(contents[state].decode(errors="replace"), commit.label(state))
         if record is None or record.is_united or record.snapshot in (None, inputs.last.record.snapshot):
             return {}
         matching = find_matching(inputs.domain, record.snapshot, generation.now.snapshot, {})
+        if not (matching.renames or matching.doubts):
+            return {}
         known = inputs.domain.features(record.snapshot)
-    except (StateError, *NO_MODEL):
+    except (KeyError, SourceError, StateError, *NO_MODEL):
         return {}
+    formers, moved = {(key[0], new): key[1] for key, new in matching.renames.items()}, dict(matching.doubts)
+    for key in known:
+        if key in matching.renames or key in formers:
+            moved_to = matching.renames.get(key, "")
+            moved[key] = Doubt(" ".join(key), formers.get(key, ""), (), moved_to, is_certain=True)
     doubts = dict[str, Doubt]()
-    for action in same:
-        kind, _, name = action.owner.partition(" ")
-        if (kind, name) not in known:
-            continue
-        moved_to = matching.renames.get((kind, name), name)
-        former = next((old for (one, old), new in matching.renames.items() if (one, new) == (kind, name)), "")
-        if moved_to != name or former:
-            doubts[action.path] = Doubt(action.owner, former, (), "" if moved_to == name else moved_to, is_certain=True)
-        elif (kind, name) in matching.doubts:
-            doubts[action.path] = matching.doubts[kind, name]
+    for action in edited:
+        content = contents.get(inputs.files.path(action.path), b"").decode(errors="replace")
+        recorded = record.files.get(action.path)
+        is_edited = bool(content) and recorded is not None and text_hash(content) not in recorded.hashes
+        if is_edited and (found := _doubt(generation, action, moved, record.snapshot, content)):
+            doubts[action.path] = found
     return doubts
+
+
+def _doubt(
+    generation: Generation,
+    action: Action,
+    doubts: Mapping[ElementKey, Doubt],
+    snapshot: Snapshot,
+    former: str | None = None,
+) -> Doubt | None:
+    """Return the doubt about an edit: about the file's element, or about one that the edit of a common file names.
+
+    If `former` is given, only edits count that this text of the file has, too; `snapshot` has the names of it.
+    """
+    inputs, path = generation.inputs, generation.inputs.folder.path(action.path)
+    kind, _, name = action.owner.partition(" ")
+    if name and ((kind, name) not in doubts or former is None):
+        return doubts.get((kind, name))
+    mine = _lines(inputs.files.text(action.path) or "")
+    generated = _lines(generation.package.content(path).decode())
+    known = generated | _lines("\n".join(inputs.last.bases(inputs.last.files.get(action.path, FileRecord())).values()))
+    there = _lines(former) if former is not None else mine
+    lines = (mine - known) & there
+    if name:
+        if lines and _has_followed(generation, action, doubts[kind, name].moved_to, lines):
+            return None
+        # a line that neither has may be one that the edit took out
+        return doubts[kind, name] if lines or (generated - mine) - there else None
+    names = inputs.domain.names(snapshot, inputs.last.target)
+    elements = {
+        identifier: (kind.removesuffix("s"), name) for kind in names for name, identifier in names[kind].items()
+    }
+    words = dict.fromkeys(word for line in lines for word in re.findall(r"\w+", line))
+    found = (elements.get(identifier_of(word, elements)) for word in words)
+    return next((doubts[key] for key in found if key and key in doubts), None)
+
+
+def _has_followed(generation: Generation, action: Action, name: str, lines: Counter[str]) -> bool:
+    """Return whether the file of the element's new name has the edit, too, so that this one is another edit."""
+    inputs, artifacts = generation.inputs, generation.package.artifacts
+    owner, template = f"{action.owner.partition(' ')[0]} {name}", artifacts[inputs.folder.path(action.path)].template
+    paths = (path for path, one in artifacts.items() if (one.owner, one.template) == (owner, template))
+    return any(not lines - _lines(inputs.files.text(inputs.folder.key(path)) or "") for path in paths)
+
+
+def _lines(text: str) -> Counter[str]:
+    return Counter(line.strip() for line in text.splitlines() if line.strip())

@@ -38,8 +38,6 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
     """Findings about source, options and imports."""
     imported: Imported
     package: Package
-    answers: dict[ElementKey, str] = {}
-    """The names that elements of the last complete build have now, by choices of this build."""
 
     @cached_property
     def matching(self) -> Matching:
@@ -54,9 +52,7 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
         old = self.inputs.domain.features(last.version.snapshot)
         if last.record.is_united:  # elements of both branches: nobody knows which of them a name was
             return Matching(without_exchanges(matching, old).renames)
-        found = {
-            key: new for key, new in matching.renames.items() if key not in self._confirmed and key[1] not in declared
-        }
+        found = {key: new for key, new in matching.renames.items() if key[1] not in declared}
         exchanged = {f"{kind} {name}" for (kind, name), new in found.items() if (kind, new) in old}
         return matching if self._agrees(exchanged) else without_exchanges(matching, old)
 
@@ -91,21 +87,9 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
         return {**gone, **{name: new for (kind, name), new in self.renames.items() if (kind, name) in now}}
 
     @property
-    def confirmed_names(self) -> Mapping[ElementKey, str]:
-        """Old elements and their names now, as far as this is not the configuration's word, which may be taken back."""
-        matching = self._match({}) if pending(self.inputs) else self.matching
-        return {**self._confirmed, **matching.renames}
-
-    @property
-    def answered(self) -> Collection[str]:
-        """The elements of which a choice says whose they are: `link hand`."""
-        return {" ".join(key) for key in self.answers}
-
-    @property
-    def _confirmed(self) -> Mapping[ElementKey, str]:
-        """The names that the user has confirmed: the same ones, while something was open, and those of a choice."""
-        open_ = self.inputs.last.record.open
-        return {key: name for key, name in (open_.renamed if open_ else {}).items() if key[1] == name} | self.answers
+    def undeclared_renames(self) -> Mapping[ElementKey, str]:
+        """The renames as far as they are not the configuration's word, which may be taken back."""
+        return self._match({}).renames if pending(self.inputs) else self.renames
 
     def _match(self, declared: Mapping[str, str]) -> Matching:
         last, domain = self.inputs.last, self.inputs.domain
@@ -113,7 +97,7 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
             return Matching()
         versions = last.version.snapshot, last.record.open, self.now.snapshot
         try:
-            return find_matching_since(domain, *versions, declared, self._confirmed)
+            return find_matching_since(domain, *versions, declared)
         except NO_MODEL:
             return Matching()
 

@@ -18,11 +18,13 @@ from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.engine.actions import Reason
 from urdfsync.engine.decide import Decision
 from urdfsync.engine.generation import GONE, Generation
-from urdfsync.engine.package_names import other_parts
+from urdfsync.engine.package_names import identifier_of, known_names, other_parts
 from urdfsync.files import shown
 from urdfsync.state.notes import Use
 
 CODE = "other-part"
+MAYBE = "?"
+"""Stands for the new name of a part of which it is not known whether it is another one."""
 
 
 def find_uses(generation: Generation, decision: Decision) -> dict[str, Use]:
@@ -32,7 +34,8 @@ def find_uses(generation: Generation, decision: Decision) -> dict[str, Use]:
     if not decision.is_complete:
         return uses
     own = (inputs.files.path(action.path) for action in decision.actions if action.reason is Reason.UNKNOWN)
-    if (files := [*inputs.users_files.mentioning, *own]) and (names := other_parts(generation)):
+    files = [*inputs.users_files.mentioning, *own]
+    if files and (names := {**_doubtful_names(generation), **other_parts(generation)}):
         for path in files:
             earlier = uses[str(path)].names if str(path) in uses else {}
             used = {name: names.get(new, new) for name, new in earlier.items()}
@@ -40,10 +43,19 @@ def find_uses(generation: Generation, decision: Decision) -> dict[str, Use]:
             uses.pop(str(path), None)
             if used := {name: new for name, new in used.items() if name != new}:
                 uses[str(path)] = Use(_facts(path), used)
-    elements = generation.other_elements
+    elements = {**{name: MAYBE for _, name in generation.matching.doubts}, **generation.other_elements}
     if used := {name: elements[name] for name in _texts(msgspec.to_builtins(inputs.robot.options)) if name in elements}:
         uses[str(inputs.config.file)] = Use(_facts(inputs.config.file), used)
     return uses
+
+
+def _doubtful_names(generation: Generation) -> dict[str, str]:
+    """Return the names that the last package had and that may mean other parts now."""
+    if not (doubts := generation.matching.doubts):
+        return {}
+    names = generation.inputs.domain.names(generation.now.snapshot, generation.inputs.robot.target)
+    elements = {identifier: (kind[:-1], name) for kind in names for name, identifier in names[kind].items()}
+    return {name: MAYBE for name in known_names(generation) if elements.get(identifier_of(name, elements)) in doubts}
 
 
 def tell_uses(uses: Mapping[str, Use]) -> Iterator[Diagnostic]:
@@ -52,10 +64,13 @@ def tell_uses(uses: Mapping[str, Use]) -> Iterator[Diagnostic]:
         lines = _lines(Path(path), use.names)
         for name, line in sorted(lines.items(), key=lambda item: item[1]):
             new = use.names[name]
-            what, hint = f"has `{new}`", f"use `{new}`, or save the file as it is"
+            message = f"`{name}` is that of another part now: the part that had this name has `{new}`"
+            hint = f"use `{new}`, or save the file as it is"
             if new.endswith(GONE):
-                what, hint = "is gone", "change this use, or save the file as it is"
-            message = f"`{name}` is that of another part now: the part that had this name {what}"
+                message = f"`{name}` is that of another part now: the part that had this name is gone"
+                hint = "change this use, or save the file as it is"
+            elif new == MAYBE:
+                message, hint = f"`{name}` may be that of another part now", "look at it, and save the file"
             yield Diagnostic(Severity.WARNING, CODE, message, shown(Path(path)), line, hint=hint)
 
 

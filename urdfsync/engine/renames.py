@@ -15,42 +15,26 @@ from urdfsync.spelling import nearest
 from urdfsync.state.record import Open
 
 
-def find_matching(
-    domain: Domain,
-    old: Snapshot,
-    new: Snapshot,
-    declared: Mapping[str, str],
-    confirmed: Mapping[ElementKey, str] = {},
-) -> Matching:
-    """Match the elements of two versions.
-
-    `declared` names count for elements that changed, `confirmed` ones for all.
-    """
-    if old == new and not confirmed:
+def find_matching(domain: Domain, old: Snapshot, new: Snapshot, declared: Mapping[str, str]) -> Matching:
+    """Match the elements of two versions; `declared` names count for elements that changed."""
+    if old == new:
         return Matching()
     before, after = domain.features(old), domain.features(new)
-    pairs = {key: (key[0], name) for key, name in confirmed.items()}
     named = {(kind, name): (kind, declared[name]) for kind, name in before if name in declared}
     named = {key: new for key, new in named.items() if new in after}
     done = {key[0] for key in named if before[key] == after.get(key)}  # kinds whose names have been brought before
-    pairs = {**{key: new for key, new in named.items() if key[0] not in done}, **pairs}
-    return match(before, after, pairs)
+    return match(before, after, {key: new for key, new in named.items() if key[0] not in done})
 
 
 def find_matching_since(
-    domain: Domain,
-    recorded: Snapshot,
-    open_: Open | None,
-    now: Snapshot,
-    declared: Mapping[str, str],
-    confirmed: Mapping[ElementKey, str],
+    domain: Domain, recorded: Snapshot, open_: Open | None, now: Snapshot, declared: Mapping[str, str]
 ) -> Matching:
     """Match the elements of the last complete build with those of now.
 
     While something is open, an element may get another name in one export and other numbers in another. So the matches
     up to the model last seen are followed by those from it.
     """
-    direct = find_matching(domain, recorded, now, declared, confirmed)
+    direct = find_matching(domain, recorded, now, declared)
     if open_ is None or not open_.seen:
         return direct
     later = find_matching(domain, open_.seen, now, declared)
@@ -63,24 +47,24 @@ def find_matching_since(
         new_name = later.renames.get((kind, last_name), last_name)
         if (kind, last_name) in seen and (kind, new_name) in existing:
             followed[kind, name] = new_name
-    found = {key: name for key, name in direct.renames.items() if key in confirmed or key[1] in declared}
+    found = {key: name for key, name in direct.renames.items() if key[1] in declared}
     for more in (followed, direct.renames):
         taken = {(kind, name) for (kind, _), name in found.items()}
         found |= {key: name for key, name in more.items() if key not in found and (key[0], name) not in taken}
     return Matching({key: name for key, name in found.items() if name != key[1]}, {**direct.doubts, **later.doubts})
 
 
-def describe_doubt(doubt: Doubt) -> str:
-    """Return why an element may be another one, as a clause."""
+def describe_doubt(doubt: Doubt, *, is_used: bool = False) -> str:
+    """Return why an element may be another one, as a clause; `is_used` if a common file only names it."""
     name, aspects = doubt.element.partition(" ")[2], " and ".join(doubt.aspects)
+    subject = f"it uses `{name}`, which" if is_used else f"`{name}`"
     if doubt.is_certain:
-        return f"`{name}` is another part now{f', the former `{doubt.former}`' if doubt.former else ''}"
-    if not doubt.former:
-        return f"`{name}` may be another part now: parts next to it, or like it, have other names"
-    if not aspects:
-        return f"`{name}` may be the former `{doubt.former}` now"
-    are = "are those" if len(doubt.aspects) > 1 else "is that"
-    return f"`{name}` may be another part now: its {aspects} {are} of the former `{doubt.former}`"
+        return f"{subject} is another part now{f', the former `{doubt.former}`' if doubt.former else ''}"
+    if doubt.former and not aspects:
+        return f"{subject} may be the former `{doubt.former}` now"
+    shared = f"its {aspects} {'are those' if len(doubt.aspects) > 1 else 'is that'} of the former `{doubt.former}`"
+    neighbours = "parts next to it, or like it, have other names"
+    return f"{subject} may be another part now: {shared if doubt.former else neighbours}"
 
 
 def pending(inputs: Inputs) -> Mapping[str, str]:

@@ -12,11 +12,13 @@ from typing import NamedTuple
 import msgspec
 
 from urdfsync.diagnostics import ConfigError, OutputError
-from urdfsync.domain import ElementKey, Role
+from urdfsync.domain import Role
 from urdfsync.engine.actions import Action, Actions, Choice, Reason, UsersChoice
+from urdfsync.engine.conflicts import Conflict, over_bases
 from urdfsync.engine.decide import Decision
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.package_files import PackageFiles, encode, text_hash, with_line_ends
+from urdfsync.engine.package_names import names_of
 from urdfsync.files import shown
 from urdfsync.markers import find_markers
 from urdfsync.modelica.files import class_parts
@@ -51,8 +53,6 @@ class Settled(msgspec.Struct):
     """What was there before the choice."""
     names: Mapping[str, str] = {}
     """New names by the old ones, as they were before."""
-    answers: dict[ElementKey, str] = msgspec.field(default_factory=dict)
-    """The names that elements have now, by the owners of files that might be others'."""
     keys: set[str] = msgspec.field(default_factory=set)
     """The keys under which the choices were made that came about."""
 
@@ -80,19 +80,8 @@ def _settle(generation: Generation, decision: Decision, action: Action, chosen: 
     reason, record = Reason.KEEP, FileRecord((action.generated,) if action.generated else ())
     content = mine = inputs.files.read_on_disk(key)
     conflict = decision.disputed.get(action.path)
-    if action.reason is Reason.ASKED and choice in (Choice.KEEP, Choice.EDIT, Choice.MOVED):
-        kind, _, name = action.owner.partition(" ")
-        now = {known for one, known in inputs.domain.features(generation.now.snapshot) if one == kind}
-        new = (chosen.text or "") if choice is Choice.MOVED else name
-        if new not in now:
-            near = nearest(new, sorted(now))
-            hint = f"did you mean `{near}`?" if near else "name the part as the source has it"
-            raise ConfigError.of(
-                "wrong-rename", f"the source has no {kind} `{new}`", shown(inputs.files.path(key)), hint=hint
-            )
-        settled.answers[kind, name] = new
-        if choice is Choice.MOVED:
-            return True
+    if choice is Choice.MOVED:
+        return action.reason is Reason.ASKED and _move(generation, decision, action, chosen.text or "", settled)
     if choice is Choice.UNDO:
         aside = inputs.last.aside.get(inputs.folder.path(key))
         if aside is None or action.role is Role.IMPORT or inputs.files.hash(key, action.role) != aside.after:
@@ -119,6 +108,8 @@ def _settle(generation: Generation, decision: Decision, action: Action, chosen: 
         return False
     elif choice is Choice.KEEP:
         content = inputs.files.read(key)
+        if action.reason is Reason.ASKED:  # it is the same part, so what is new of it still counts
+            record = inputs.last.files.get(key, record)
         if conflict and action.origin:
             from urdfsync.merge.renames import rename, without_clashes  # imports the parser
 
@@ -148,6 +139,67 @@ def _settle(generation: Generation, decision: Decision, action: Action, chosen: 
     return True
 
 
+def _move(generation: Generation, decision: Decision, action: Action, new: str, settled: Settled) -> bool:
+    """Add that an edit goes to the file of another element. Raises ConfigError if it can't."""
+    inputs, (kind, _, name), key = generation.inputs, action.owner.partition(" "), action.path
+    conflict, artifacts = decision.disputed[key], generation.package.artifacts
+    template = artifacts[inputs.folder.path(key)].template
+    places = {one.owner: path for path, one in artifacts.items() if one.template == template}
+    known = {known for one, known in inputs.domain.features(generation.now.snapshot) if one == kind}
+    if not name:
+        message, hint = "it is the file of no single part", "change the names in it, then use --keep"
+        raise ConfigError.of("wrong-rename", message, shown(inputs.files.path(key)), hint=hint)
+    if new == name or f"{kind} {new}" not in places:
+        near = nearest(new, [owner.partition(" ")[2] for owner in sorted(places) if owner != action.owner])
+        message = f"{kind} `{new}` has no such file" if new in known else f"the source has no {kind} `{new}`"
+        message = f"it is the file of {kind} `{name}`" if new == name else message
+        hint = f"did you mean `{near}`?" if near else "name the part as the source has it"
+        raise ConfigError.of("wrong-rename", message, shown(inputs.files.path(key)), hint=hint)
+    path = places[f"{kind} {new}"]
+    target, generated = inputs.folder.key(path), generation.package.content(path).decode()
+    last = inputs.last.files.get(target, FileRecord())
+    is_edited = inputs.files.hash(target, action.role) not in (None, generation.package.hash(path), *last.hashes)
+    text = (inputs.files.text(target) or "") if is_edited else generated
+    merged = _merge_into(generation, conflict, f"{kind}s", name, new, text)
+    if merged is None:
+        file, message = shown(inputs.files.path(target)), "your edit does not fit into this file"
+        raise ConfigError.of("wrong-rename", message, file, hint="move the edit by hand, then use --take")
+    source = with_line_ends(generation.package.content(inputs.folder.path(key)), inputs.files.read(key) or b"")
+    mine = inputs.files.read(target) or b""
+    mine_hash, owner = inputs.files.hash(target, action.role), f"{kind} {new}"
+    moved = Action(target, Reason.MERGE, action.role, owner, generated=generation.package.hash(path), mine=mine_hash)
+    for one, content, record in (
+        (action, source, FileRecord((str(action.generated),))),
+        (
+            moved,
+            with_line_ends(encode(merged), mine),
+            last if is_edited else FileRecord((generation.package.hash(path),)),
+        ),
+    ):
+        former = inputs.last.files.get(one.path, FileRecord())
+        if (text_before := inputs.files.read_on_disk(one.path)) is not None:
+            settled.before[one.path] = Former(text_before, former, inputs.last.bases(former))
+        settled.contents[one.path], settled.bases[one.path] = content, record
+        reason = Reason.UPDATE if one is action else Reason.MERGE
+        settled.actions[one.path] = msgspec.structs.replace(one, reason=reason, choice=Choice.MOVED)
+    return True
+
+
+def _merge_into(generation: Generation, conflict: Conflict, kind: str, old: str, new: str, text: str) -> str | None:
+    """Return a text with the edit of another element's file, in its own names; None if the two contradict."""
+    from urdfsync.merge import merge  # imports the parser
+    from urdfsync.modelica.lexer import words_in
+
+    record = generation.inputs.last.files.get(conflict.path, FileRecord())
+    bases = [*generation.inputs.last.bases(record).values()] or [conflict.generated]
+    edits = over_bases(bases, conflict.mine, is_modelica=True) or [(bases[0], conflict.mine)]
+    base, mine = edits[0]
+    identifiers = generation.inputs.domain.names(generation.now.snapshot, generation.inputs.robot.target)[kind]
+    names = names_of(generation, {identifiers[old]: identifiers[new]}, frozenset(words_in(base)))
+    merged = merge(base, mine, text, is_modelica=True, names=names)
+    return None if merged.flaw else merged.text
+
+
 def _generated(generation: Generation, action: Action, mine: bytes) -> bytes | None:
     """Return the generated content of a file; None for an imported file whose source is missing."""
     path = generation.inputs.folder.path(action.path)
@@ -175,7 +227,7 @@ def with_choices(generation: Generation, settled: Settled) -> Generation:
     notes = msgspec.structs.replace(inputs.last.notes, written=inputs.last.notes.written | settled.generated)
     last = msgspec.structs.replace(inputs.last, record=record, notes=notes, texts=settled.texts, _files=files)
     inputs = msgspec.structs.replace(inputs, files=files, last=last)
-    return msgspec.structs.replace(generation, inputs=inputs, answers=settled.answers)
+    return msgspec.structs.replace(generation, inputs=inputs)
 
 
 def actions_after(actions: Actions, settled: Settled) -> Actions:

@@ -176,7 +176,7 @@ def _record(generation: Generation, decision: Decision, settled: Settled) -> Rec
             if files.get(inputs.folder.key(entry.target)) == FileRecord((entry.target_hash,))
             and entry not in old.imports.get(key, ())
         }
-        open_ = Open(generation.now.snapshot, generation.confirmed_names)
+        open_ = Open(generation.now.snapshot, generation.undeclared_renames)
         settled_texts = {state_of(text).text_sha256 for text in settled.contents.values() if text is not None}
         return msgspec.structs.replace(
             old,
@@ -215,9 +215,9 @@ def _brought(generation: Generation) -> Mapping[str, str]:
 
 def _confirmed(generation: Generation, decision: Decision) -> frozenset[str]:
     """Return the user's texts that he has confirmed to be in the right place, now or before."""
-    before, answered = generation.inputs.last.record.confirmed, generation.answered
-    edited = {action.mine: action.owner for action in decision.actions if action.reason in EDITED and action.mine}
-    return frozenset(sha256 for sha256, owner in edited.items() if sha256 in before or owner in answered)
+    before, files = generation.inputs.last.record.confirmed, generation.inputs.files
+    edited = [action for action in decision.actions if action.reason in EDITED and action.mine]
+    return frozenset(str(one.mine) for one in edited if one.mine in before or files.is_chosen(one.path))
 
 
 def _file_changes(generation: Generation, decision: Decision, settled: Settled) -> dict[str, FileChange]:

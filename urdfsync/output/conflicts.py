@@ -101,9 +101,14 @@ def _choices(target: DisputedFile) -> dict[str, str]:
         choices["--merge --prefer mine"] = f"both sides' changes; yours{either} where they contradict"
     elif target.offers(Choice.MERGE_GENERATED):
         choices["--merge --prefer generated"] = "both sides' changes; the generated ones where they contradict"
+    if target.action.reason is Reason.ASKED and " " not in target.action.owner:
+        choices = {"--keep": "your file as it is: its names are right"}
+    elif target.action.reason is Reason.ASKED:
+        likely = texts.moved_to if texts else ""
+        moved = {f"--moved {likely or 'NAME'}": "your edit belongs to the part of this name"}
+        keep = {"--keep": "it is the same part"}
+        choices = {**moved, **keep} if likely else {**keep, **moved}
     if target.action.reason is Reason.ASKED:
-        moved = f"--moved {texts.moved_to if texts and texts.moved_to else 'NAME'}"
-        choices = {"--keep": "it is the same part", moved: "your edit belongs to the part of this name"}
         return choices | {"--take": "the generated file"}
     edit = {"--edit": "both sides in your editor, between markers"} if texts and is_on_disk else {}
     keep = {"--keep": f"your file as it is{', under its new name' if target.action.origin else ''}"}

@@ -24,7 +24,7 @@ _CHOSEN = {
     Choice.MERGE_MINE: "both sides' changes, yours where they contradict",
     Choice.MERGE_GENERATED: "both sides' changes, the generated ones where they contradict",
     Choice.EDIT: "as you edited it",
-    Choice.MOVED: "your edit goes to the part that you named",
+    Choice.MOVED: "your edit is with the part that you named",
     Choice.UNDO: "as you had it before",
 }
 """The text that a choice of the user's gives a file."""
