@@ -19,17 +19,12 @@ UNRELATED = {
     "no-merge",
     "no-merge-driver",
     "conflict",
-    "conflicts-first",
     "edit-left",
-    "old-name-left",
     "exec",
     "no-browser",
-    "written-in-part",
     "no-attribute",
     "no-conflict",
-    "no-old-names",
     "not-watched",
-    "renamed-use",
 }
 """Warnings of commands, not of what a configuration is about."""
 WORDS = "no node is called `ground`"

@@ -252,9 +252,9 @@ def test_a_path_that_is_no_conflict(execute: Execute, clean: Path) -> None:
     ("arguments", "words"),
     [
         (["--keep"], "name files or folders, or use --all; see `urdfsync status` for the conflicts"),
-        ([], "one of the arguments --keep --take --merge --edit --undo --moved --rename-uses is required"),
+        ([], "one of the arguments --keep --take --merge --edit --undo --moved is required"),
         ([MODEL, "--all", "--keep"], "--all goes without paths"),
-        (["--rename-uses", "--keep"], "argument --keep: not allowed with argument --rename-uses"),
+        (["--moved", "R1", "--keep"], "argument --keep: not allowed with argument --moved"),
         (["--all", "--undo"], "--undo goes with paths, not with --all"),
     ],
 )

@@ -50,22 +50,13 @@ def add(commands: arguments.Commands) -> None:
         choice.add_argument(f"--{kind}", dest="choice", action="store_const", const=kind, help=words)
     words = "say that your edit belongs to the element that is called so now"
     choice.add_argument("--moved", metavar="NAME", help=words)
-    words = "give names in your own models the new ones that the next build brings, or that an earlier one brought"
-    choice.add_argument("--rename-uses", nargs="*", metavar="OLD=NEW", help=words)
     words = "with --merge: which side counts where both changed the same"
     parser.add_argument("--prefer", choices=["mine", "generated"], help=words)
-    parser.add_argument("--yes", action="store_true", help="with --rename-uses: write without asking")
     arguments.add_dry_run(parser)
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
     """Find the files that the user means, and build their robots with the user's choice."""
-    if args.rename_uses is not None:
-        if args.paths or args.all:
-            raise arguments.UsageError(args.parser, "--rename-uses goes without paths and --all")
-        from urdfsync.commands import rename_uses  # the parser takes a while to load
-
-        return rename_uses.run(args, console)
     choice = _choice(args)
     configuration = load(args.config)
     selected = configuration.select(args.robot or [])
