@@ -309,10 +309,10 @@ def test_simulate(folder: Path, execute: Execute, monkeypatch: pytest.MonkeyPatc
     monkeypatch.setattr("urdfsync.simulation.run.simulate", lambda *_: simulated())
     monkeypatch.setattr("urdfsync.simulation.files.write_outputs", lambda *_: None)
     monkeypatch.setattr("importlib.util.find_spec", lambda name: name)
-    files = ("--csv", "arm.csv", "--parquet", "arm.parquet", "--plot", "arm.png")
+    files = ("--csv", "arm.csv", "--plot", "arm.png")
     document = printed(execute, folder, "simulate", *files)
     assert tell_all(document, "simulate")
-    assert document["results"][0]["files"] == {"csv": "arm.csv", "parquet": "arm.parquet", "plot": "arm.png"}
+    assert document["results"][0]["files"] == {"csv": "arm.csv", "plot": "arm.png"}
 
 
 def test_fmu(folder: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:

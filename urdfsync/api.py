@@ -221,8 +221,8 @@ def simulate(
     """Simulate a robot, as `urdfsync simulate` does; `robots` is one, or none if there is only one.
 
     `given` are fields of `SimulateOptions`, such as `model` and `stop` (s). The result has `series`, times (s) and the
-    values of each variable, and `joints`, whose ranges are held against their limits. `files` are written: `csv`,
-    `parquet` or `plot`. Raises UrdfsyncError for whatever is wrong with the model, its inputs, the compiler or files.
+    values of each variable, and `joints`, whose ranges are held against their limits. `files` are written: `csv`
+    or `plot`. Raises UrdfsyncError for whatever is wrong with the model, its inputs, the compiler or files.
     """
     from urdfsync.checks import compilers
     from urdfsync.simulation import run
