@@ -36,7 +36,7 @@ def option_table() -> str:
             values = "FILE" if values.startswith(FILES) else VALUES.get(values, values)
             texts = formatter._expand_help(action).split() if action.help else []
             options = [option for option in action.option_strings if option.startswith("--")] or [""]
-            values = "ROBOT|FILE" if (name, options) == ("diff", [""]) else values
+            values = "ROBOT|FILE" if options == [""] and name in ("diff", "resolve") else values
             rows += [(name, option, values, " ".join(texts if option else [])[:70]) for option in options]
     return "".join("\t".join(row) + "\n" for row in rows)
 
@@ -66,8 +66,8 @@ def test_what_a_line_may_become(built: Path) -> None:
     assert names("build", "--dr") == ["--dry-run"]
     assert names("check", "--tool", "") == ["rumoca", "omc", "both"]
     assert names("check", "--tool=o") == ["--tool=omc"]
-    assert names("build", "--robot", "f") == ["filter"]
-    assert names("resolve", "") == names("diff", "mod") == names("init", "") == [":files"]
+    assert names("resolve", "f") == ["filter"]
+    assert names("resolve", "mod") == names("diff", "mod") == names("init", "") == [":files"]
     assert names("build", "--config", "") == names("record", "--output=") == [":files"]
     assert names("hook", "ch") == ["check"]
     assert names("nothing", "") == names("build", "--wait", "") == names("library", "x") == []

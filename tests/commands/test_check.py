@@ -72,7 +72,7 @@ def test_all_options_reach_the_checker(checker: Checker, tmp_path: Path, monkeyp
 def test_robots_are_chosen_by_name(checker: Checker, project: Path, capsys: Capture) -> None:
     with (project / "urdfsync.toml").open("a") as file:
         file.write('[robots.other]\nsource = "ladder.json"\npackage = "Other"\ndomain = "rcnetwork"\n')
-    assert cli.main(["check", "--robot", "other"]) == 0
+    assert cli.main(["check", "other"]) == 0
     assert checker.robots == ["other"]
     assert cli.main(["check"]) == 0
     assert capsys.readouterr().out.splitlines()[-1] == "2 robots: 2 right"

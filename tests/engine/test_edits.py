@@ -38,7 +38,7 @@ def test_paths_choose(execute: Execute, edited: Path) -> None:
     assert execute("diff", "--edits", RECORD).lines[0] == "ladder: 1 file edited"
     assert execute("diff", "--edits", "modelica/Ladder/Elements").lines[0] == "ladder: 1 file edited"
     assert execute("diff", "--edits", "ladder").lines[0] == "ladder: 2 files edited"
-    assert "'nowhere' is no robot, and no file of a package" in execute("diff", "--edits", "nowhere", code=2).err
+    assert "no robot `nowhere` in the configuration" in execute("diff", "--edits", "nowhere", code=2).err
 
 
 def test_verbose_shows_the_lines(execute: Execute, edited: Path) -> None:

@@ -78,7 +78,6 @@ _SHARED: Mapping[str, dict[str, Any]] = {
         "metavar": "ROBOT",
         "help": "robots of urdfsync.toml, their sources or outputs (default: all)",
     },
-    "--robot": {"action": "append", "metavar": "ROBOT", "help": "only this robot; may be repeated"},
     "--set": {
         "dest": "values",
         "action": "append",
@@ -160,7 +159,7 @@ def select_robots(args: argparse.Namespace, configuration: Config, console: Cons
     """Return the robots that the arguments name, or all; warn of settings without effect."""
     from urdfsync.config import warnings
 
-    robots = configuration.select([*args.robots, *(args.robot or [])])
+    robots = configuration.select(args.robots)
     console.warnings(warnings.find_warnings(configuration, robots))
     return robots
 

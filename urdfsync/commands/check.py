@@ -19,7 +19,7 @@ def add(commands: arguments.Commands) -> None:
     parser = arguments.add_command(
         commands,
         "check",
-        "robots --robot --wait --trust --executor --timeout --memory",
+        "robots --wait --trust --executor --timeout --memory",
         formats=True,
         help="compile the packages, and compare them with an independent reference",
         description="Check packages as they are on disk: their syntax and layout, and whether their models compile and "

@@ -23,7 +23,7 @@ def add(commands: arguments.Commands) -> None:
     parser = arguments.add_command(
         commands,
         "simulate",
-        "--robot --wait --trust --set --timeout --memory",
+        "--wait --trust --set --timeout --memory",
         help="simulate a robot, and hold its joints against their limits",
         description="Simulate the Test model of a robot, or a model of yours, with the package as it is on disk. Show "
         "for each joint its range, speed and effort beside its limits, and warn of limits that are passed. Nothing is "
