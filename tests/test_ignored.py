@@ -38,7 +38,7 @@ def noted(project: Path) -> Path:
     return project
 
 
-@pytest.mark.parametrize("command", ["build", "status --verbose", "diff", "build --check", "build --json"])
+@pytest.mark.parametrize("command", ["build", "status --verbose", "diff", "build --check", "build --format=json"])
 def test_no_command_tells_what_is_ignored(noted: Path, execute: Execute, command: str) -> None:
     told = execute(*command.split(), code=None).words
     assert WORDS in told

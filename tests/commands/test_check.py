@@ -94,7 +94,7 @@ def test_robots_are_chosen_by_name(checker: Checker, project: Path, capsys: Capt
 def test_exit_codes(checker: Checker, result: CheckResult, arguments: list[str], code: int) -> None:
     checker.result = result
     assert cli.main(["check", *arguments]) == code
-    assert cli.main(["check", "--quiet", "--json", *arguments]) == code
+    assert cli.main(["check", "--quiet", "--format=json", *arguments]) == code
 
 
 def test_an_interruption_leaves_what_was_found(

@@ -183,7 +183,7 @@ def several(clean: Path) -> Path:
 
 def conflicts(execute: Execute) -> list[str]:
     """The conflicts that a dry build finds."""
-    robots = execute("build", "--dry-run", "--json", code=None).json["results"]
+    robots = execute("build", "--dry-run", "--format=json", code=None).json["results"]
     return [found["action"]["path"].removeprefix(f"{LADDER}/") for robot in robots for found in robot["conflicts"]]
 
 
@@ -262,7 +262,7 @@ def test_bad_usage(clean: Path, execute: Execute, arguments: list[str], words: s
     error = execute("resolve", *arguments, code=2).err
     assert error.startswith("usage: urdfsync resolve ")
     assert f"\nerror: {words}" in error
-    assert execute("resolve", *arguments, "--json", code=2).json["diagnostics"][0]["code"] == "usage"
+    assert execute("resolve", *arguments, "--format=json", code=2).json["diagnostics"][0]["code"] == "usage"
 
 
 # Orphans

@@ -21,7 +21,7 @@ def test_new_names_are_told_until_the_next_build_that_writes(folder: Path, execu
     execute("build")
     Path("Cell.mo").write_text(CELL)
     write_source("wrist")
-    for command in ("status --json", "build --json", "status --json"):
+    for command in ("status --format=json", "build --format=json", "status --format=json"):
         found = execute(*command.split(), code=None).json["results"][0]["diagnostics"]
         (told,) = [one for one in found if one["code"] == "unresolved"]
         assert (told["file"], told["line"]) == ("Cell.mo", 3)

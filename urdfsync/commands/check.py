@@ -26,7 +26,7 @@ def add(commands: arguments.Commands) -> None:
         "are balanced. With --physics poses, torques and masses are compared with an independent reference that reads "
         "the same source. Nothing is written. What your edits change is reported, and is no error.",
         epilog="examples: urdfsync check arm --physics\n"
-        "          urdfsync check --physics --strict --timeout 60 --json",
+        "          urdfsync check --physics --strict --timeout 60 --format json",
     )
     option = parser.add_argument
     option("--physics", action="store_true", help="compare poses, torques and masses with a reference")
