@@ -62,11 +62,9 @@ def test_foreign_text_is_no_html(project: Path) -> None:
 
 @pytest.mark.parametrize("name", ["build", "status", "check", "simulate", "diff", "edits"])
 def test_a_robot_that_does_not_exist_is_the_error_of_the_command(project: Path, execute: Execute, name: str) -> None:
-    command = {"edits": ("diff", "--edits", "--robot"), "diff": ("diff", "--robot")}
-    said = execute(*command.get(name, (name,)), "lader", code=2).err
-    given = {"robots": ["lader"]} if name in ("diff", "edits") else {}
+    said = execute(*(("diff", "--edits") if name == "edits" else (name,)), "lader", code=2).err
     with pytest.raises(urdfsync.UrdfsyncError) as error:
-        getattr(urdfsync, name)(*(() if given else ("lader",)), **given)
+        getattr(urdfsync, name)("lader")
     assert isinstance(error.value, ConfigError)
     assert f"{error.value}\n" == said
     assert "did you mean `ladder`?" in said

@@ -20,7 +20,7 @@ from urdfsync import cli, completion
 TABLE = Path(completion.__file__).parent / "shells/options.tsv"
 
 
-VALUES = {"OLD=NEW": "{}=", "NAME=VALUE": "robot.{}.parameters.", "PATTERN": "robot.{}."}
+VALUES = {"NAME=VALUE": "robot.{}.parameters.", "PATTERN": "robot.{}."}
 """What `completion` makes of the values of options, with a joint in the place of `{}`."""
 FILES = ("FILE", "PATH", "SOURCE", "CONFIG", "BASE", "MINE", "OTHER")
 
@@ -36,7 +36,7 @@ def option_table() -> str:
             values = "FILE" if values.startswith(FILES) else VALUES.get(values, values)
             texts = formatter._expand_help(action).split() if action.help else []
             options = [option for option in action.option_strings if option.startswith("--")] or [""]
-            values = "ROBOT|FILE" if (name, options) == ("diff", [""]) else values
+            values = "ROBOT|FILE" if options == [""] and name in ("diff", "resolve") else values
             rows += [(name, option, values, " ".join(texts if option else [])[:70]) for option in options]
     return "".join("\t".join(row) + "\n" for row in rows)
 
@@ -66,8 +66,8 @@ def test_what_a_line_may_become(built: Path) -> None:
     assert names("build", "--dr") == ["--dry-run"]
     assert names("check", "--tool", "") == ["rumoca", "omc", "both"]
     assert names("check", "--tool=o") == ["--tool=omc"]
-    assert names("build", "--robot", "f") == ["filter"]
-    assert names("resolve", "") == names("diff", "mod") == names("init", "") == [":files"]
+    assert names("resolve", "f") == ["filter"]
+    assert names("resolve", "mod") == names("diff", "mod") == names("init", "") == [":files"]
     assert names("build", "--config", "") == names("record", "--output=") == [":files"]
     assert names("hook", "ch") == ["check"]
     assert names("nothing", "") == names("build", "--wait", "") == names("library", "x") == []
@@ -80,10 +80,9 @@ def test_joints_are_those_of_the_recorded_state(folder: Path) -> None:
     cli.main(["build", "-q"])
     assert names("simulate", "--set", "robot.el") == ["robot.elbow.parameters."]
     assert names("simulate", "arm", "--variable", "robot.el") == ["robot.elbow."]
-    assert names("resolve", "--rename-uses", "elb") == ["elbow="]
     with Path(".urdfsync/robots/arm.state").open("ab") as state:
         state.truncate(50_000_000)  # a stranger's
-    assert names("resolve", "--rename-uses", "elb") == []
+    assert names("simulate", "--set", "robot.el") == []
 
 
 HOSTILE = {
@@ -104,7 +103,7 @@ def test_nothing_is_said_of_a_configuration_that_is_wrong(folder: Path, content:
     state = Path(".urdfsync/robots")
     state.mkdir(parents=True)
     (state / "x.state").write_bytes(b'model ["joints","$(x)",{}]\nfile 12\n\xff')
-    for line in (["build", ""], ["diff", "--edits", ""], ["simulate", "--set", ""], ["resolve", "--rename-uses", ""]):
+    for line in (["build", ""], ["diff", "--edits", ""], ["simulate", "--set", ""]):
         done = subprocess.run(
             [sys.executable, "-m", "urdfsync", "completion", "zsh", "--", *line],
             env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)},
@@ -136,7 +135,7 @@ LINES = {
     "urdfsync bui\tfil\t": "<build> <filter>",
     "urdfsync build --dry\tlad\t": "<build> <--dry-run> <ladder>",
     "urdfsync check --tool=o\t": "<check> <--tool=omc>",
-    "urdfsync resolve --rename-uses=nothing lad\t": "<resolve> <--rename-uses=nothing> <ladder.json>",
+    "urdfsync resolve --moved=nothing lad\t": "<resolve> <--moved=nothing> <ladder.json>",
     "urdfsync diff --edits mod\t": "<diff> <--edits> <modelica/>",
     "urdfsync init lad\t": "<init> <ladder.json>",
 }

@@ -148,8 +148,8 @@ def test_what_fails_while_an_interruption_is_cleared_away_is_that_interruption(
 
 @NEEDS_GIT
 @pytest.mark.parametrize("command", [
-    "build --json", "build --check --json", "status --json", "diff --json", "diff --against HEAD --json",
-    "diff --edits", "check --json --jobs 1", "hook check", "hook build",
+    "build --format=json", "build --check --format=json", "status --format=json", "diff --format=json",
+    "diff --against HEAD --format=json", "diff --edits", "check --format=json --jobs 1", "hook check", "hook build",
 ])  # fmt: skip
 def test_a_mistake_that_one_robot_meets_leaves_the_others_alone(
     execute: Execute, tmp_path: Path, traces: Path, monkeypatch: pytest.MonkeyPatch, command: str
@@ -177,7 +177,7 @@ def test_a_mistake_that_one_robot_meets_leaves_the_others_alone(
     if command.startswith("check"):
         monkeypatch.setattr("urdfsync.checks.run.workers", lambda *_: contextlib.nullcontext(Inline()))
     said = execute(*command.split(), code=2)
-    if "--json" not in command:
+    if "--format=json" not in command:
         assert "[internal]" in said.err
         assert "other" in said.words
         return

@@ -43,7 +43,10 @@ MINE = b"\n// mine\n"
 COMMANDS = st.sampled_from(
     [
         *map(str.split, ("build", "build", "build", "build --full", "build --check", "build --dry-run", "build --svg")),
-        *map(str.split, ("build --json", "build bot", "status", "status --verbose", "status --json", "diff")),
+        *map(
+            str.split,
+            ("build --format=json", "build bot", "status", "status --verbose", "status --format=json", "diff"),
+        ),
         *map(str.split, ("diff --since-build", "hook check", "hook build", "resolve --all --keep", "init bot.urdf")),
         *map(str.split, ("resolve --all --merge", f"resolve {MODEL} --keep", "remove bot --yes", "adopt bot")),
         WATCH,

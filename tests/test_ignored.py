@@ -19,17 +19,12 @@ UNRELATED = {
     "no-merge",
     "no-merge-driver",
     "conflict",
-    "conflicts-first",
     "edit-left",
-    "old-name-left",
     "exec",
     "no-browser",
-    "written-in-part",
     "no-attribute",
     "no-conflict",
-    "no-old-names",
     "not-watched",
-    "renamed-use",
 }
 """Warnings of commands, not of what a configuration is about."""
 WORDS = "no node is called `ground`"
@@ -43,7 +38,7 @@ def noted(project: Path) -> Path:
     return project
 
 
-@pytest.mark.parametrize("command", ["build", "status --verbose", "diff", "build --check", "build --json"])
+@pytest.mark.parametrize("command", ["build", "status --verbose", "diff", "build --check", "build --format=json"])
 def test_no_command_tells_what_is_ignored(noted: Path, execute: Execute, command: str) -> None:
     told = execute(*command.split(), code=None).words
     assert WORDS in told

@@ -61,7 +61,7 @@ def folder(folder: Path) -> Path:
 
 def printed(execute: Execute, folder: Path, *arguments: str) -> Any:
     """What a command prints, as if the folder was that of the examples."""
-    streams = execute(*arguments, "--json", code=None)
+    streams = execute(*arguments, "--format=json", code=None)
     assert streams.err == ""
     assert streams.out.isascii()
     text = streams.out.replace(str(folder), "/home/me/project")
@@ -177,7 +177,7 @@ def watched(folder: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> 
             os.kill(os.getpid(), signal.SIGTERM)
 
     monkeypatch.setattr("urdfsync.watch.report.show_json", listen)
-    streams = execute("watch", "--settle", "0", "--sample", "0", "--json")
+    streams = execute("watch", "--settle", "0", "--sample", "0", "--format=json")
     assert streams.err == ""
     assert streams.out.isascii()
     lines = [json.loads(line) for line in streams.out.replace(str(folder), "/home/me/project").splitlines()]
@@ -211,7 +211,7 @@ def assert_event_has_its_keys(found: list[Any]) -> None:
 
 def test_a_daemon_that_can_not_start_says_so_in_one_line(folder: Path, execute: Execute) -> None:
     (folder / "urdfsync.toml").write_text("[robots.arm]\nsorce = 'x'\n")
-    (line,) = execute("watch", "--json", code=2).lines
+    (line,) = execute("watch", "--format=json", code=2).lines
     document = json.loads(line)
     assert is_described(document, "watch")
     assert (document["command"], document["exit"]) == ("watch", 2)
@@ -309,10 +309,10 @@ def test_simulate(folder: Path, execute: Execute, monkeypatch: pytest.MonkeyPatc
     monkeypatch.setattr("urdfsync.simulation.run.simulate", lambda *_: simulated())
     monkeypatch.setattr("urdfsync.simulation.files.write_outputs", lambda *_: None)
     monkeypatch.setattr("importlib.util.find_spec", lambda name: name)
-    files = ("--csv", "arm.csv", "--parquet", "arm.parquet", "--plot", "arm.png")
+    files = ("--csv", "arm.csv", "--plot", "arm.png")
     document = printed(execute, folder, "simulate", *files)
     assert tell_all(document, "simulate")
-    assert document["results"][0]["files"] == {"csv": "arm.csv", "parquet": "arm.parquet", "plot": "arm.png"}
+    assert document["results"][0]["files"] == {"csv": "arm.csv", "plot": "arm.png"}
 
 
 def test_fmu(folder: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:

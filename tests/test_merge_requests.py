@@ -278,6 +278,6 @@ def test_the_action_installs_urdfsync_with_xacro_apart_from_the_jobs_python_and_
     assert "files written" in urdfsync("build")
     assert "in step" in urdfsync("build", "--check")
     assert "MODELICAPATH=" in urdfsync("library")
-    library = Path(json.loads(urdfsync("library", "--json"))["results"][0]["folder"])
+    library = Path(json.loads(urdfsync("library", "--format=json"))["results"][0]["folder"])
     assert (library / "UrdfSync" / "package.mo").is_file()
     assert program.parents[1] in library.parents

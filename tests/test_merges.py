@@ -180,7 +180,7 @@ def test_a_contradiction_is_for_people(stop: Stop, execute: Execute, case: str, 
     Path(MODEL).write_text(text.replace(conflict, read_sides(conflict)[1]))
     while find_markers(text := Path(MODEL).read_text()):
         Path(MODEL).write_text(text.replace(first_conflict(text), join_sides(first_conflict(text))))
-    assert execute("build", "--json", code=None).code in (0, 3)
+    assert execute("build", "--format=json", code=None).code in (0, 3)
     assert not marked()
 
 

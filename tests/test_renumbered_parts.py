@@ -90,7 +90,7 @@ def test_many_names_are_told_in_one_line(edited: Path, execute: Execute) -> None
     Path("arm.urdf").write_text(arm(5.5, 1.1, 2.2, 3.3, 4.4, 6.6))
     printed = execute("diff", code=Exit.OUT_OF_STEP)
     assert printed.lines[1] == "  link link_1: is now link_2 (and 4 more numbers shifted by one)"
-    (found,) = execute("diff", "--json", code=Exit.OUT_OF_STEP).json["results"]
+    (found,) = execute("diff", "--format=json", code=Exit.OUT_OF_STEP).json["results"]
     first = found["result"]["changes"]["changes"][0]
     assert (first["path"], first["kind"], first["new"]) == (["link link_1"], "renamed", "link_2")
 

@@ -448,7 +448,7 @@ class Walk(RuleBasedStateMachine):
     def run(self, command: str) -> int:
         """Run a command that writes; no edit may be lost. The exit code."""
         before = {path.as_posix(): path.read_bytes() for path in PACKAGE.rglob("*.mo")}
-        printed = self.execute(*command.split(), "--json", code=None)
+        printed = self.execute(*command.split(), "--format=json", code=None)
         assert printed.code in (0, 3) or SOURCE.name in printed.words, printed
         (robot,) = printed.json["results"]
         self.renews = robot.get("renews", False)
@@ -468,7 +468,9 @@ class Walk(RuleBasedStateMachine):
     def verdict(self) -> bool:
         """Ask both commands that judge, which write nothing; what is in step equals a fresh build but for edits."""
         before = self.everything()
-        documents = [self.execute(*words.split(), code=None) for words in ("status --json", "build --check --json")]
+        documents = [
+            self.execute(*words.split(), code=None) for words in ("status --format=json", "build --check --format=json")
+        ]
         assert self.everything() == before
         (status,), (check,) = (printed.json["results"] for printed in documents)
         assert status["in_step"] == check["in_step"]
@@ -558,7 +560,7 @@ def test_a_lost_edit_would_be_found(walks: type[Walk], execute: Execute) -> None
 
     def careless(*arguments: object, code: int | None = 0) -> Printed:
         printed = execute(*arguments, code=code)
-        if arguments == ("build", "--json"):
+        if arguments == ("build", "--format=json"):
             model.write_text(_OWN.sub("", model.read_text()))
         return printed
 

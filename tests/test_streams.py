@@ -58,7 +58,7 @@ def test_streams_that_are_closed_or_full_stop_nothing(folder: Path, closed: str)
 
 
 @posix
-@pytest.mark.parametrize("options", ["--json", "--verbose --svg"])
+@pytest.mark.parametrize("options", ["--format=json", "--verbose --svg"])
 def test_a_reader_that_goes_away_stops_no_work(folder: Path, options: str) -> None:
     done = shell(folder, f"urdfsync build {options} 2>errors | head -n 1; exit ${{PIPESTATUS[0]}}")
     assert done.returncode == 0
@@ -70,7 +70,7 @@ def test_a_reader_that_goes_away_stops_no_work(folder: Path, options: str) -> No
 
 @posix
 @full
-@pytest.mark.parametrize("command", ["build", "--help", "library --json"])
+@pytest.mark.parametrize("command", ["build", "--help", "library --format=json"])
 def test_a_full_disk_is_told_on_the_error_stream(folder: Path, command: str) -> None:
     done = shell(folder, f"urdfsync {command} > /dev/full")
     assert done.returncode == 2
@@ -85,5 +85,5 @@ def test_characters_that_an_encoding_lacks_are_escaped(folder: Path, encoding: s
     done = shell(folder, "urdfsync build 2>&1", PYTHONIOENCODING=encoding, PYTHONUTF8="0")
     assert done.returncode == 2
     assert "\\u8155.urdf does not exist" in done.stdout
-    done = shell(folder, "urdfsync build --json", PYTHONIOENCODING=encoding)
+    done = shell(folder, "urdfsync build --format=json", PYTHONIOENCODING=encoding)
     assert "腕.urdf does not exist" in json.loads(done.stdout)["results"][0]["diagnostics"][0]["message"]

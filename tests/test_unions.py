@@ -113,11 +113,11 @@ def test_what_git_has_united_is_in_step_without_a_build(
     assert repository.git("status", "--porcelain") == "", "git has united the sources by itself"
 
     assert execute("status", code=verdict).code == verdict
-    (robot,) = execute("build", "--check", "--json", code=verdict).json["results"]
+    (robot,) = execute("build", "--check", "--format=json", code=verdict).json["results"]
     assert robot["in_step"] is (verdict == 0)
     execute("hook", "check", code=verdict)
     assert repository.git("status", "--porcelain") == "", "no verdict writes what git has"
-    printed = execute("build", "--json")
+    printed = execute("build", "--format=json")
     (built,) = json.loads(printed.out)["results"]
     assert built["writes"] is (verdict != 0)
     changed = repository.git("status", "--porcelain").split("\n")

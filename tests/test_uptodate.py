@@ -58,7 +58,7 @@ def folder(in_step: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Pa
 
 @pytest.mark.parametrize(
     "command",
-    [BUILD, CHECK, STATUS, ["build", "leg"], ["build", "-q"], ["build", "--check", "--json"], ["status", "-v"]],
+    [BUILD, CHECK, STATUS, ["build", "leg"], ["build", "-q"], ["build", "--check", "--format=json"], ["status", "-v"]],
 )
 def test_what_was_said_is_said_again(folder: Path, command: list[str], capsys: Capture) -> None:
     save(*command)

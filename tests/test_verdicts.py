@@ -60,7 +60,7 @@ def verdict(repository: Repository, capsys: pytest.CaptureFixture[str]) -> Calla
     def ask() -> Verdict:
         repository.commit()
         codes, said = list[int](), []
-        for command in (["status", "--json"], ["build", "--check", "--json"]):
+        for command in (["status", "--format=json"], ["build", "--check", "--format=json"]):
             capsys.readouterr()
             codes.append(cli.main(command))
             robots = json.loads(capsys.readouterr().out)["results"]

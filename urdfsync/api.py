@@ -145,7 +145,6 @@ def status(*robots: str, **given: Any) -> Results[Result]:
 
 def diff(
     *sources: str,
-    robots: Sequence[str] = (),
     against: str | None = None,
     config: Place = None,
     on_result: Callable[[Comparison], object] = ignore,
@@ -153,36 +152,35 @@ def diff(
 ) -> Results[Comparison]:
     """Show what changed in sources since the last build, or since the version `against`: a git revision, else a file.
 
-    `sources` are files or robots, `robots` names of robots alone; without both, all sources are compared. No
-    configuration is needed for files and `against`. Raises UrdfsyncError for what can't be compared at all; where the
+    `sources` are files or robots; without any, all sources are compared. No configuration is needed for files and
+    `against`. Raises UrdfsyncError for what can't be compared at all; where the
     version can't be read, the `result` of a comparison has `failed`.
     """
     from urdfsync.versions import comparison, report
 
     folder, options = configuration.working_folder(), BuildOptions(**given)
     is_near = any((place / configuration.FILE_NAME).is_file() for place in (folder, *folder.parents))
-    loaded = load(config) if is_near or config or robots or not sources else None
-    pairs = list(comparison.select_sources(sources, robots, against, loaded, folder))
+    loaded = load(config) if is_near or config or not sources else None
+    pairs = list(comparison.select_sources(sources, against, loaded, folder))
     compared = (comparison.compare_sources(chosen, against, known, options, folder) for known, chosen in pairs)
     return Results((each for group in compared for each in group), report.robot_lines, on_result)
 
 
 def edits(
     *paths: str,
-    robots: Sequence[str] = (),
     config: Place = None,
     on_result: Callable[[RobotEdits], object] = ignore,
     **given: Any,
 ) -> Results[RobotEdits]:
-    """Show what the user edited in packages, of `robots` or all, as far as `paths` mean it: robots, files, folders.
+    """Show what the user edited in packages, all of it or what `paths` mean: robots, files, folders.
 
-    Raises ConfigError for a path that means none.
+    Raises ConfigError for a path that means no robot.
     """
     from urdfsync.engine.edits import find_edits
     from urdfsync.output.edits import robot_lines
 
     loaded, options = load(config), BuildOptions(dry=True, **given)
-    return Results(find_edits(paths, loaded, loaded.select(robots), options), robot_lines, on_result)
+    return Results(find_edits(paths, loaded, options), robot_lines, on_result)
 
 
 def check(
@@ -221,8 +219,8 @@ def simulate(
     """Simulate a robot, as `urdfsync simulate` does; `robots` is one, or none if there is only one.
 
     `given` are fields of `SimulateOptions`, such as `model` and `stop` (s). The result has `series`, times (s) and the
-    values of each variable, and `joints`, whose ranges are held against their limits. `files` are written: `csv`,
-    `parquet` or `plot`. Raises UrdfsyncError for whatever is wrong with the model, its inputs, the compiler or files.
+    values of each variable, and `joints`, whose ranges are held against their limits. `files` are written: `csv`
+    or `plot`. Raises UrdfsyncError for whatever is wrong with the model, its inputs, the compiler or files.
     """
     from urdfsync.checks import compilers
     from urdfsync.simulation import run

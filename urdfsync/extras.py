@@ -5,7 +5,7 @@ PACKAGES = {
     "cluster": "distributed",
     "fmu": "fmpy",
     "physics": "pin",
-    "plot": "matplotlib pyarrow",
+    "plot": "matplotlib",
     "xacro": "xacro",
 }
 """The packages of each extra, as in pyproject.toml."""

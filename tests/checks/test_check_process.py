@@ -13,7 +13,7 @@ import psutil
 import pytest
 from support.urdfs import dynamics, joint, links, robot
 
-COMMAND = [sys.executable, "-m", "urdfsync", "check", "--json"]
+COMMAND = [sys.executable, "-m", "urdfsync", "check", "--format=json"]
 MEGABYTE = 1e6
 
 ARM = robot(

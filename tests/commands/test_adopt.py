@@ -100,7 +100,7 @@ def foreign(folder: Path, execute: Execute) -> Path:
 def test_a_package_of_another_tool(foreign: Path, execute: Execute) -> None:
     """It is adopted as it is, and broken: generated models use connectors that its joints lack."""
     before = snapshot(foreign)
-    (found,) = execute("adopt", "arm", "--json", code=3).json["results"]
+    (found,) = execute("adopt", "arm", "--format=json", code=3).json["results"]
     assert snapshot(foreign).items() >= before.items()
     reasons = {action["path"]: action["reason"] for action in found["actions"]}
     unknown = (PARAMS, "modelica/Arm/Joints/Brake.mo")

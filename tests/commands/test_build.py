@@ -99,5 +99,5 @@ def test_conflict(edited: Path, execute: Execute) -> None:
         "ladder: 1 conflict, 5 files wait until the conflict is resolved",
         f"  conflict   {model}  the changes fit together: --merge takes both",
         "",
-        "  urdfsync resolve --all --robot ladder --merge  merges it",
+        "  urdfsync resolve ladder --merge  merges it",
     ]

@@ -72,7 +72,7 @@ def test_all_options_reach_the_checker(checker: Checker, tmp_path: Path, monkeyp
 def test_robots_are_chosen_by_name(checker: Checker, project: Path, capsys: Capture) -> None:
     with (project / "urdfsync.toml").open("a") as file:
         file.write('[robots.other]\nsource = "ladder.json"\npackage = "Other"\ndomain = "rcnetwork"\n')
-    assert cli.main(["check", "--robot", "other"]) == 0
+    assert cli.main(["check", "other"]) == 0
     assert checker.robots == ["other"]
     assert cli.main(["check"]) == 0
     assert capsys.readouterr().out.splitlines()[-1] == "2 robots: 2 right"
@@ -94,7 +94,7 @@ def test_robots_are_chosen_by_name(checker: Checker, project: Path, capsys: Capt
 def test_exit_codes(checker: Checker, result: CheckResult, arguments: list[str], code: int) -> None:
     checker.result = result
     assert cli.main(["check", *arguments]) == code
-    assert cli.main(["check", "--quiet", "--json", *arguments]) == code
+    assert cli.main(["check", "--quiet", "--format=json", *arguments]) == code
 
 
 def test_an_interruption_leaves_what_was_found(

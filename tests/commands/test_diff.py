@@ -90,7 +90,7 @@ def refused(execute: Execute, *arguments: str) -> str:
 def test_nothing_changed(built: Path, execute: Execute) -> None:
     with unchanged(built):
         assert said(execute, "ladder.json") == (0, ["ladder: nothing changed since the last build"])
-        assert said(execute) == said(execute, "ladder") == said(execute, "--robot", "ladder")
+        assert said(execute) == said(execute, "ladder")
 
 
 def test_what_changed_and_what_a_build_would_do(built: Path, execute: Execute) -> None:
@@ -272,7 +272,7 @@ def test_no_repository(arm: Path, execute: Execute, monkeypatch: pytest.MonkeyPa
             ["step.csv"],
             "step.csv was never built: it is not the source of a robot; add a robot for it, or name the version",
         ),
-        (["ladder.json", "--robot", "othr"], "no robot `othr` in the configuration"),
+        (["ladder.json", "othr"], "no robot `othr` in the configuration"),
     ],
 )
 def test_mistakes_with_a_configuration(project: Path, execute: Execute, arguments: list[str], complaint: str) -> None:

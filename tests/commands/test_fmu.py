@@ -124,7 +124,7 @@ def test_a_real_fmu_is_valid_and_moves_like_the_model(capsys: pytest.CaptureFixt
 def test_a_real_fmu_follows_a_motion_in_fmi_3(capsys: pytest.CaptureFixture[str]) -> None:
     """OpenModelica 1.27 leaves out what FMI 3.0 wants for initial values, which FMPy finds."""
     Path("motion.csv").write_text("time,shoulder_phi,elbow_phi\n0,0,0\n0.1,0.01,0.02\n0.2,0.1,0.2\n0.3,0.3,0.6\n")
-    cli.main(["fmu", "--check", "--fmi", "3", "--kind", "cs", "--input", "motion.csv", "--json"])
+    cli.main(["fmu", "--check", "--fmi", "3", "--kind", "cs", "--input", "motion.csv", "--format=json"])
     (robot,) = json.loads(capsys.readouterr().out)["results"]
     assert robot["trial"]["agreement"]["cs"] < 1e-3, "steps of its inputs shake the filters"
 
@@ -137,7 +137,7 @@ def test_what_the_check_finds_is_in_the_json(
 ) -> None:
     monkeypatch.setattr("urdfsync.checks.process.run", Fmpy(["`x` is no name"], me=dict(REFERENCE)))  # type: ignore[arg-type]
     monkeypatch.setattr("importlib.util.find_spec", lambda name: name)
-    assert cli.main(["fmu", "--check", "--kind", "me", "--json"]) == 1
+    assert cli.main(["fmu", "--check", "--kind", "me", "--format=json"]) == 1
     (robot,) = json.loads(capsys.readouterr().out)["results"]
     assert [one["code"] for one in robot["diagnostics"]] == ["fmu-not-valid", "fmu-not-simulated"]
 

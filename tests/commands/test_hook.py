@@ -363,14 +363,14 @@ def test_another_build_is_running(repo: Repository, capsys: Capture) -> None:
 def test_for_programs(repo: Repository, capsys: Capture) -> None:
     resistor(120)
     repo.git("add", ".")
-    document = json.loads("\n".join(said(capsys, "check", "--json")))
+    document = json.loads("\n".join(said(capsys, "check", "--format=json")))
     (found,) = document["diagnostics"]
     assert (document["command"], document["exit"], found["code"]) == ("hook", 1, "out-of-step")
     assert found["message"] == "robot `ladder`: out of step: 1 file to write"
     assert found["hint"] == "`urdfsync hook build`"
     assert [robot["robot"] for robot in document["results"]] == ["ladder"]
     repo.git("reset", "-q", "--hard")
-    assert json.loads("\n".join(said(capsys, "check", "--json", code=0)))["diagnostics"] == []
+    assert json.loads("\n".join(said(capsys, "check", "--format=json", code=0)))["diagnostics"] == []
 
 
 def test_whatever_passes_is_in_step_in_a_clone(

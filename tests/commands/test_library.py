@@ -15,7 +15,7 @@ from urdfsync import cli, config
 
 
 def test_library(execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:
-    (told,) = execute("library", "--json").json["results"]
+    (told,) = execute("library", "--format=json").json["results"]
     assert (Path(told["folder"]) / "UrdfSync").is_dir()
     assert execute("library").out == f"{told['line']}\n"
     screen = Terminal()

@@ -100,7 +100,7 @@ def test_without_a_terminal_it_wants_a_word(plant: Path, execute: Execute) -> No
             "error: nothing was removed: there is no terminal to ask on; look at what is shown, then give --yes "
             "[not-confirmed]"
         ]
-        assert execute("remove", "filter", "--json", code=2).json["results"][0]["actions"]
+        assert execute("remove", "filter", "--format=json", code=2).json["results"][0]["actions"]
         assert "'modelica' means 2 robots: name one" in execute("remove", "modelica", "--yes", code=2).err
         assert "did you mean `filter`?" in execute("remove", "filtre", "--yes", code=2).err
 
@@ -140,7 +140,7 @@ def test_a_robot_without_a_table_stays(project: Path, execute: Execute) -> None:
 
 
 def test_what_the_document_says(plant: Path, execute: Execute) -> None:
-    (robot,) = execute(*REMOVE, "--json").json["results"]
+    (robot,) = execute(*REMOVE, "--format=json").json["results"]
     assert {action["kind"] for action in robot["actions"]} == {"delete", "write"}
     assert not (plant / FILTER).exists()
 

@@ -20,7 +20,7 @@ def arm(folder: Path, execute: Execute) -> Path:
 
 def test_the_page_is_where_it_is_wanted_and_replaces_nothing_else(arm: Path, execute: Execute) -> None:
     assert "page: arm.html" in execute("report").out
-    assert execute("report", "--json").json["results"][0]["bytes"] == Path("arm.html").stat().st_size
+    assert execute("report", "--format=json").json["results"][0]["bytes"] == Path("arm.html").stat().st_size
     Path("arm.html").write_text("<p>mine</p>")
     assert "urdfsync did not write it" in execute("report", code=Exit.ERROR).err
     assert Path("arm.html").read_text() == "<p>mine</p>"

@@ -88,14 +88,14 @@ def test_a_broken_source_does_not_hide_the_others(built: Path, execute: Execute)
     assert found.lines == ["ladder: in step, 14 files"]
     assert "the source no.json does not exist" in found.errors[0]
     assert found.errors[1] == "other: 1 error, nothing was changed"
-    assert [robot["failed"] for robot in execute("status", "--json", code=2).json["results"]] == [False, True]
+    assert [robot["failed"] for robot in execute("status", "--format=json", code=2).json["results"]] == [False, True]
     assert execute("status", "ladder").lines == ["ladder: in step, 14 files"]
 
 
 def test_without_its_state_a_package_is_in_step(built: Path, execute: Execute) -> None:
     for file in (built / ".urdfsync/robots").iterdir():
         file.unlink()
-    (robot,) = execute("status", "--json").json["results"]
+    (robot,) = execute("status", "--format=json").json["results"]
     assert (robot["is_built"], robot["in_step"]) == (True, True)
     assert execute("status").lines == ["ladder: in step, 14 files"]
 

@@ -45,7 +45,7 @@ def run(*arguments: str, code: int = 0) -> str:
 
 def test_every_command_works(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     run("init")
-    assert json.loads(run("build", "--json"))["exit"] == 0
+    assert json.loads(run("build", "--format=json"))["exit"] == 0
     subprocess.run(["git", "add", "-A"], check=True)
     for _ in range(2):  # the second answer is a saved one
         assert run("build").startswith("arm: in step")
@@ -53,15 +53,15 @@ def test_every_command_works(folder: Path, monkeypatch: pytest.MonkeyPatch) -> N
     record.write_text(record.read_text().replace("mass = 1,", "mass = 2,"))
     Path("arm.urdf").write_text(urdf(1.5))
     assert "1.5" in run("diff", code=1)
-    assert json.loads(run("build", "--json", code=3))["exit"] == 3
+    assert json.loads(run("build", "--format=json", code=3))["exit"] == 3
     assert "conflict" in run("status", code=3)
     subprocess.run(["git", "add", "-A"], check=True)
-    assert json.loads(run("hook", "check", "--json", code=3))["exit"] == 3
-    assert json.loads(run("resolve", str(folder / record), "--take", "--json"))["exit"] == 0
-    assert json.loads(run("diff", "--against", "HEAD", "--json", code=2))["exit"] == 2  # nothing is committed
+    assert json.loads(run("hook", "check", "--format=json", code=3))["exit"] == 3
+    assert json.loads(run("resolve", str(folder / record), "--take", "--format=json"))["exit"] == 0
+    assert json.loads(run("diff", "--against", "HEAD", "--format=json", code=2))["exit"] == 2  # nothing is committed
     run("hook", "build", code=1)
     run("record", str(folder / "arm.urdf"), "-o", str(folder / "Arm.mo"))
     monkeypatch.chdir("/")
     config = str(folder / "urdfsync.toml")
-    assert json.loads(run("status", "--config", config, "--json"))["exit"] == 0
+    assert json.loads(run("status", "--config", config, "--format=json"))["exit"] == 0
     assert "caf" in run("init", str(folder / "arm.urdf"), "--config", str(folder / "other.toml"))

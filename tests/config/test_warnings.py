@@ -75,4 +75,4 @@ def test_warnings_are_shown_by_a_build(project: Path, execute: Execute) -> None:
     assert "[no-package-path]" in execute("build").err
     quiet = execute("build", "--quiet")
     assert (quiet.out, quiet.err) == ("", "")
-    assert '"code": "no-package-path"' in execute("build", "--json", code=None).out
+    assert '"code": "no-package-path"' in execute("build", "--format=json", code=None).out

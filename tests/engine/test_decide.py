@@ -391,7 +391,7 @@ def write_user() -> None:
 
 def warnings(result: Result) -> list[str]:
     """Where texts use names that the package loses, and what is said of it."""
-    assert {one.code for one in result.diagnostics} <= {"unresolved", "rename-uses", "syntax"}
+    assert {one.code for one in result.diagnostics} <= {"unresolved", "syntax"}
     found = [one for one in result.diagnostics if one.code == "unresolved"]
     return [f"{Path(one.file).name}:{one.line}: {one.message}; {one.hint}" for one in found]
 

@@ -38,7 +38,7 @@ def test_paths_choose(execute: Execute, edited: Path) -> None:
     assert execute("diff", "--edits", RECORD).lines[0] == "ladder: 1 file edited"
     assert execute("diff", "--edits", "modelica/Ladder/Elements").lines[0] == "ladder: 1 file edited"
     assert execute("diff", "--edits", "ladder").lines[0] == "ladder: 2 files edited"
-    assert "'nowhere' is no robot, and no file of a package" in execute("diff", "--edits", "nowhere", code=2).err
+    assert "no robot `nowhere` in the configuration" in execute("diff", "--edits", "nowhere", code=2).err
 
 
 def test_verbose_shows_the_lines(execute: Execute, edited: Path) -> None:
@@ -68,12 +68,12 @@ def test_other_blanks_and_no_modelica(execute: Execute, edited: Path) -> None:
     assert "    only blanks, or the order of things" in execute("diff", "--edits", RECORD).lines
     (edited / RECORD).write_text("no model\n")
     assert execute("diff", "--edits", RECORD).lines[-1].startswith("    edited; it is no single class")
-    ((file,),) = (robot["files"] for robot in execute("diff", "--edits", "--json", RECORD).json["results"])
+    ((file,),) = (robot["files"] for robot in execute("diff", "--edits", "--format=json", RECORD).json["results"])
     assert file["edits"] is None  # an empty list stands for other blanks
 
 
 def test_programs_get_the_texts(execute: Execute, edited: Path) -> None:
-    (robot,) = execute("diff", "--edits", "--json").json["results"]
+    (robot,) = execute("diff", "--edits", "--format=json").json["results"]
     assert robot["files"][0] == {
         "path": RECORD,
         "owner": "element R1",

@@ -99,7 +99,7 @@ def test_nothing_is_green_on_what_is_broken(
         assert words in printed.err, command
         assert "error: " in printed.err
         assert "broken" in printed.lines[0]
-    (robot,) = execute("build", "--json", code=3).json["results"]
+    (robot,) = execute("build", "--format=json", code=3).json["results"]
     assert (robot["is_broken"], robot["in_step"]) == (True, False)
 
 

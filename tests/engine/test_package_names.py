@@ -4,44 +4,38 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import pytest
+import support.urdfs as urdfs
 from support.commands import Execute
-from support.files import unchanged
-from support.old_names import CELL, COMMAND, CONFIG, NAMES, NO_OLD_NAMES, RENAMED, make_user, texts, write_source
+
+CELL = "model Cell\n  Arm.Arm robot;\n  Real angle = robot.elbow.phi;\nend Cell;\n"
 
 
-@pytest.fixture
-def user(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, execute: Execute) -> Path:
-    return make_user(tmp_path, monkeypatch, execute)
+def write_source(joint: str, other: str = "swing") -> None:
+    joints = (urdfs.joint(joint, "continuous", "base", "limb"), urdfs.joint(other, "revolute", "limb", "hand"))
+    Path("arm.urdf").write_text(urdfs.robot(*(urdfs.link(name, 1.0) for name in ("base", "limb", "hand")), *joints))
 
 
-def test_what_an_earlier_build_renamed_is_renamed_by_its_names(user: Path, execute: Execute) -> None:
-    hint = "`urdfsync resolve --rename-uses elbow=wrist` shows the lines, and writes them if you agree [rename-uses]"
-    assert f"note: your files can get the new names; {hint}" in execute("build").words
-    assert "Write 7 lines" not in execute(*COMMAND, code=2).out, "they are known until the next build that writes"
-    assert "Arm has no `elbowAxis`; use `wristAxis` instead" in execute("status").err
+def test_new_names_are_told_until_the_next_build_that_writes(folder: Path, execute: Execute) -> None:
+    Path("urdfsync.toml").write_text('[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\n')
+    write_source("elbow")
+    execute("build")
+    Path("Cell.mo").write_text(CELL)
+    write_source("wrist")
+    for command in ("status --format=json", "build --format=json", "status --format=json"):
+        found = execute(*command.split(), code=None).json["results"][0]["diagnostics"]
+        (told,) = [one for one in found if one["code"] == "unresolved"]
+        assert (told["file"], told["line"]) == ("Cell.mo", 3)
+        assert (told["message"], told["hint"]) == ("Arm has no `elbow`", "use `wrist` instead")
     write_source("wrist", "push")
     execute("build")
-    Path("modelica/Arm/Arm.mo").touch()
-    note = f"{NO_OLD_NAMES}; give names that an earlier build renamed: --rename-uses OLD=NEW"
-    assert f"note: {note} [no-old-names]" in execute(*COMMAND).errors
-    with unchanged(user / "modelica/Arm/Joints"):
-        assert execute(*NAMES, "--yes").lines[-1] == "7 lines in 3 files written"
-    assert texts() == RENAMED
+    assert "use `wrist`" not in execute("status").words
 
 
-def test_a_name_that_may_mean_either_of_two_is_left_to_the_user(user: Path, execute: Execute) -> None:
-    """What was `elbow` is `swing`, and what was `swing` is `wrist`."""
-    write_source("swing", "wrist")
-    with unchanged(user.parent):
-        assert NO_OLD_NAMES in execute(*COMMAND, "--yes").err
-
-
-def test_another_name_of_the_package_is_followed(user: Path, execute: Execute) -> None:
+def test_a_package_that_moves_into_another_one_is_told_with_its_whole_name(folder: Path, execute: Execute) -> None:
+    Path("urdfsync.toml").write_text('[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\n')
     write_source("elbow")
-    Path("modelica/Arm/Links/Mine.mo").unlink()
-    Path("../plant/Bench.mo").unlink()
-    Path("urdfsync.toml").write_text(CONFIG.replace('"Arm"', '"Robot"'))
     execute("build")
-    execute(*COMMAND, "Arm=Robot", "--yes")
-    assert Path("Cell.mo").read_bytes().decode() == CELL.replace("Arm.Arm robot", "Robot.Robot robot")
+    Path("Cell.mo").write_text(CELL)
+    moved = '[robots.arm]\nsource = "arm.urdf"\npackage = "Plant.Robot"\ncreate_parents = true\n'
+    Path("urdfsync.toml").write_text(moved)
+    assert "use `Plant.Robot` instead" in execute("build").words

@@ -324,7 +324,7 @@ def edit_package(project: Path, seed: str) -> Edit:
 def errors(edit: Edit, execute: Execute) -> list[str]:
     """What `status` and `build --check` have against the package, which is the same."""
     said = []
-    for command in (["status", "--json"], ["build", "--check", "--json"]):
+    for command in (["status", "--format=json"], ["build", "--check", "--format=json"]):
         printed = execute(*command, code=None)
         (robot,) = printed.json["results"]
         found = [one for one in robot["diagnostics"] if one["severity"] == "error"]

@@ -42,7 +42,7 @@ def declare(*lines: str) -> None:
 
 def renames(execute: Execute, *arguments: str) -> dict[str, str]:
     """What `diff` calls renamed, by element."""
-    (found,) = execute("diff", "--json", *arguments, code=Exit.OUT_OF_STEP).json["results"]
+    (found,) = execute("diff", "--format=json", *arguments, code=Exit.OUT_OF_STEP).json["results"]
     changes = found["result"]["changes"]["changes"]
     return {" ".join(one["path"]): one["new"] for one in changes if one["kind"] == "renamed"}
 

@@ -137,7 +137,7 @@ def test_each_file_is_an_input(built: Path, execute: Execute, name: str, text: s
     (built / "urdf" / name).write_text(text)
     with unchanged(built):
         assert execute("status", code=1).lines[0] == "arm: out of step: 1 file to write"
-        assert not execute("status", "--json", code=1).json["results"][0]["stale"]
+        assert not execute("status", "--format=json", code=1).json["results"][0]["stale"]
         execute("build", "--check", code=1)
         execute("diff", code=1)
     execute("build")
@@ -152,7 +152,7 @@ def test_what_a_macro_says_twice_is_listed_once(project: Path, execute: Execute)
         "parts/beam.xacro": xacros.BEAM.replace("<child", "<spring name='coil'/>\n      <spring/><child"),
     }
     xacros.write(project, files)
-    (note,) = execute("build", "--json").json["results"][0]["diagnostics"]
+    (note,) = execute("build", "--format=json").json["results"][0]["diagnostics"]
     assert note["message"] == "not modelled: 4 <spring>"
     file = str(Path("urdf/parts/beam.xacro"))
     assert note["details"] == [

@@ -33,7 +33,7 @@ def test_robots_are_right(
     configuration = folder / "urdfsync.toml"
     text = configuration.read_text("utf-8").replace("[defaults]\n", f'[defaults]\napproach = ["{approach}"]\n')
     configuration.write_text(text, "utf-8")
-    (found,) = execute("check", "--physics", "--json", code=1).json["results"]
+    (found,) = execute("check", "--physics", "--format=json", code=1).json["results"]
     assert not found["built"]
     assert (found["failed"], found["gaps"], found["agrees"]) == (False, [], True), found
 

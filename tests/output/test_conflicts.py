@@ -242,7 +242,7 @@ def test_of_many_conflicts_the_first_are_shown_in_full() -> None:
         f"  conflict   {paths[4]}{short}",
         f"  conflict   {paths[5]}  the changes contradict each other",
         "",
-        "  urdfsync resolve --all --robot arm --merge  merges what can be merged: 5 of 6",
+        "  urdfsync resolve arm --merge  merges what can be merged: 5 of 6",
     ]
     assert len([line for line in seen(*found, verbose=True) if "resolve modelica" in line]) == len(paths)
 

@@ -33,7 +33,9 @@ def test_the_next_build_counts_what_the_last_one_said(execute: Execute) -> None:
     assert execute("build", "--check").errors == COUNTED
     assert "axis" in execute("build", "--verbose").err
     assert execute("build", "--quiet").errors == []
-    assert [one["code"] for one in execute("build", "--json").json["results"][0]["diagnostics"]] == ["axis-not-unit"]
+    assert [one["code"] for one in execute("build", "--format=json").json["results"][0]["diagnostics"]] == [
+        "axis-not-unit"
+    ]
 
 
 def test_what_was_mended_is_said_in_full_when_it_is_back(execute: Execute) -> None:

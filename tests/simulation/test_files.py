@@ -5,7 +5,6 @@ from __future__ import annotations
 import csv
 from pathlib import Path
 
-import pytest
 from support.commands import Execute
 from support.simulation import Compiler
 
@@ -19,11 +18,3 @@ def test_series_are_written_with_all_digits(compiler: Compiler, execute: Execute
     assert {name: tuple(float(row[name]) for row in rows) for name in rows[0]} == compiler.values
     execute("simulate", "--csv", "b.csv")
     assert Path("a.csv").read_bytes() == Path("b.csv").read_bytes()
-
-
-def test_parquet_has_the_same_numbers(compiler: Compiler, execute: Execute) -> None:
-    parquet = pytest.importorskip("pyarrow.parquet")
-    execute("simulate", "--parquet", "a.parquet")
-    assert {
-        name: tuple(values) for name, values in parquet.read_table("a.parquet").to_pydict().items()
-    } == compiler.values

@@ -189,7 +189,7 @@ def test_three_builds_at_once_equal_one(project: Path, rc_site: Path) -> None:
     folders = (Path(urdfsync.__file__).parents[1], rc_site, rc_folder)
     environment = os.environ | {"PYTHONPATH": os.pathsep.join(map(str, folders))}
     rename("R2", "R3")
-    command = [sys.executable, "-m", "urdfsync", "build", "--json"]
+    command = [sys.executable, "-m", "urdfsync", "build", "--format=json"]
     pipe = subprocess.PIPE
     processes = [subprocess.Popen(command, cwd=project, env=environment, stdout=pipe, stderr=pipe) for _ in range(3)]
     outputs = [process.communicate() for process in processes]

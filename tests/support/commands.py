@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any, NamedTuple
 
 from support.documents import is_described
@@ -43,17 +42,15 @@ class Printed(NamedTuple):
 
 
 class Terminal:
-    """Somebody who answers, and saves one of the files before."""
+    """Somebody who answers."""
 
-    def __init__(self, words: str, meanwhile: str = "") -> None:
-        self._words, self._meanwhile = words, meanwhile
+    def __init__(self, words: str) -> None:
+        self._words = words
 
     def isatty(self) -> bool:
         return True
 
     def readline(self) -> str:
-        if self._meanwhile:
-            Path(self._meanwhile).write_text("saved")
         return self._words
 
 

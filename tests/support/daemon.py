@@ -99,7 +99,7 @@ class Watch(Listener):
         """`path` are folders for Python to import from, after the program's own; `before` is a command to start it."""
         super().__init__()
         paths = os.pathsep.join(map(str, [REPOSITORY, *path]))
-        self._command = [*before, sys.executable, "-m", "urdfsync", "watch", "--json", *arguments]
+        self._command = [*before, sys.executable, "-m", "urdfsync", "watch", "--format=json", *arguments]
         self._environment = {**os.environ, "PYTHONPATH": paths, "PYTHONWARNINGS": "error", **environment}
         self._folder = folder
         self._errors: IO[bytes] = tempfile.TemporaryFile()  # noqa: SIM115 - closed with the daemon

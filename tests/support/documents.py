@@ -1,4 +1,4 @@
-"""Documents of `--json` held against the schema of their command, which names each of their keys."""
+"""Documents of `--format json` held against the schema of their command, which names each of their keys."""
 
 from __future__ import annotations
 

@@ -25,7 +25,7 @@ def robot(folder: Path) -> Path:
 def document(capsys: pytest.CaptureFixture[str], *arguments: str) -> dict[str, object]:
     """What a comparison says of its robot."""
     capsys.readouterr()
-    cli.main(["diff", "r.urdf", "--json", *arguments])
+    cli.main(["diff", "r.urdf", "--format=json", *arguments])
     (robot,) = json.loads(capsys.readouterr().out)["results"]
     files = sorted((a["path"], a["reason"]) for a in robot["result"]["actions"] if a["reason"] in BUILDS)
     changes = robot["result"]["changes"]

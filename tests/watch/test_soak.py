@@ -203,7 +203,7 @@ def _edit(project: Path, random: Random, soak: Soak) -> None:
 
 def _compare(project: Path, fresh: Path, tags: set[str]) -> Iterator[str]:
     """What is not as it should be."""
-    done = _urdfsync(project, "build", "--check", "--json")
+    done = _urdfsync(project, "build", "--check", "--format=json")
     document = json.loads(done.stdout)
     if done.returncode not in (0, 3):
         yield f"out of step: {[robot['summary'] for robot in document['results']]} {document['diagnostics']}"

@@ -78,7 +78,6 @@ _SHARED: Mapping[str, dict[str, Any]] = {
         "metavar": "ROBOT",
         "help": "robots of urdfsync.toml, their sources or outputs (default: all)",
     },
-    "--robot": {"action": "append", "metavar": "ROBOT", "help": "only this robot; may be repeated"},
     "--set": {
         "dest": "values",
         "action": "append",
@@ -118,22 +117,10 @@ def add_command(commands: Commands, name: str, shared: str = "", *, formats: boo
     parser.set_defaults(parser=parser)
     group = parser.add_argument_group("common options")
     group.add_argument("--config", type=Path, metavar="PATH", help="default: urdfsync.toml, here or in a folder above")
-    output = group.add_mutually_exclusive_group()
-    output.add_argument(
-        "--json",
-        dest="format",
-        action="store_const",
-        const="json",
-        default="text",
-        help="one JSON document on the standard output",
-    )
-    if formats:
-        output.add_argument(
-            "--format",
-            choices=get_args(Format),
-            default="text",
-            help="text, json as --json, markdown for a comment, or sarif for findings at their lines",
-        )
+    choices = get_args(Format) if formats else ("text", "json")
+    words = "; markdown for a comment, sarif for findings at their lines" if formats else ""
+    words = f"json: one JSON document on the standard output{words} (default: text)"
+    group.add_argument("--format", choices=choices, default="text", help=words)
     group.add_argument("-q", "--quiet", action="store_true", help="only errors and conflicts")
     group.add_argument("-v", "--verbose", action="store_true", help="all warnings and changes, and the files concerned")
     return parser
@@ -141,7 +128,7 @@ def add_command(commands: Commands, name: str, shared: str = "", *, formats: boo
 
 def wants_json(given: Sequence[str]) -> bool:
     """Return whether arguments ask for JSON, also if they are wrong and no parser takes them."""
-    return "--json" in given or "--format=json" in given or ("--format", "json") in itertools.pairwise(given)
+    return "--format=json" in given or ("--format", "json") in itertools.pairwise(given)
 
 
 def add_dry_run(container: argparse._ActionsContainer) -> None:
@@ -160,7 +147,7 @@ def select_robots(args: argparse.Namespace, configuration: Config, console: Cons
     """Return the robots that the arguments name, or all; warn of settings without effect."""
     from urdfsync.config import warnings
 
-    robots = configuration.select([*args.robots, *(args.robot or [])])
+    robots = configuration.select(args.robots)
     console.warnings(warnings.find_warnings(configuration, robots))
     return robots
 

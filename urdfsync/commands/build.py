@@ -28,7 +28,7 @@ def add(commands: arguments.Commands) -> None:
     parser = arguments.add_command(
         commands,
         "build",
-        "robots --robot --wait --trust --jobs --executor",
+        "robots --wait --trust --jobs --executor",
         formats=True,
         help="bring the packages in step with their sources",
         description="Bring Modelica packages in step with their sources. Files that you edited are never overwritten.",

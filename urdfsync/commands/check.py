@@ -19,14 +19,14 @@ def add(commands: arguments.Commands) -> None:
     parser = arguments.add_command(
         commands,
         "check",
-        "robots --robot --wait --trust --executor --timeout --memory",
+        "robots --wait --trust --executor --timeout --memory",
         formats=True,
         help="compile the packages, and compare them with an independent reference",
         description="Check packages as they are on disk: their syntax and layout, and whether their models compile and "
         "are balanced. With --physics poses, torques and masses are compared with an independent reference that reads "
         "the same source. Nothing is written. What your edits change is reported, and is no error.",
         epilog="examples: urdfsync check arm --physics\n"
-        "          urdfsync check --physics --strict --timeout 60 --json",
+        "          urdfsync check --physics --strict --timeout 60 --format json",
     )
     option = parser.add_argument
     option("--physics", action="store_true", help="compare poses, torques and masses with a reference")

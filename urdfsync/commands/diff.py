@@ -23,7 +23,7 @@ def add(commands: arguments.Commands) -> None:
     parser = arguments.add_command(
         commands,
         "diff",
-        "--robot --wait",
+        "--wait",
         formats=True,
         help="show what changed in the sources since the last build",
         description="Show what changed in a source since the last build, or since another version of it: by element, "
@@ -43,7 +43,7 @@ def add(commands: arguments.Commands) -> None:
 
 def run(args: argparse.Namespace, console: Console) -> int:
     """Show what changed in each source, or what the user edited."""
-    given = {"robots": args.robot or (), "config": args.config, "wait": args.wait, "progress": console.progress}
+    given = {"config": args.config, "wait": args.wait, "progress": console.progress}
     if args.edits:
         edited = edits(*args.sources, **given, on_result=partial(_show_edits, console))
         return console.end(Exit.ERROR if any(each.failed for each in edited) else Exit.IN_STEP)

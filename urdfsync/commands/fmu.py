@@ -28,7 +28,7 @@ def add(commands: arguments.Commands) -> None:
     parser = arguments.add_command(
         commands,
         "fmu",
-        "--robot --wait --trust --set --timeout --memory",
+        "--wait --trust --set --timeout --memory",
         help="export a robot as FMU, by OpenModelica",
         description="Export the Run model of a robot, or a model of yours, as FMU, with the package as it is on disk. "
         "It has the inputs and outputs of the model by their names. OpenModelica has to be there. With --check FMPy "

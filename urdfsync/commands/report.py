@@ -32,7 +32,7 @@ def add(commands: arguments.Commands) -> None:
     parser = arguments.add_command(
         commands,
         "report",
-        "--robot --wait",
+        "--wait",
         help="write a page with a robot in 3D, and what changed",
         description="Write one HTML file that needs nothing else: the robot in 3D with its axes to move, its tree and "
         "its diagram, what changed since the last build or another version, your edits and the conflicts.",
@@ -69,7 +69,7 @@ def prepare_page(
     from urdfsync.pages.page import check_page, page
 
     configuration = load(args.config)
-    robot = configuration.select_one([*args.robots, *(args.robot or [])], args.command)
+    robot = configuration.select_one(args.robots, args.command)
     check_page(file, input_files(configuration, robot, motion))
 
     def write(**results: Any) -> PageDocument:

@@ -29,14 +29,14 @@ def add(commands: arguments.Commands) -> None:
     parser = arguments.add_command(
         commands,
         "resolve",
-        "--robot --wait --trust",
+        "--wait --trust",
         help="settle conflicts between your edits and what is generated",
         description="Settle conflicts between your edits and what is generated. "
         "Then the files that waited for that are written.",
         epilog="A file that you edited and that is no longer generated can be named too: --keep makes it yours, "
         "--take deletes it.\n\nexample: urdfsync resolve modelica/Arm/Links/Elbow.mo --merge",
     )
-    parser.add_argument("paths", nargs="*", metavar="PATH", help="a file, or a folder for all conflicts below it")
+    parser.add_argument("paths", nargs="*", metavar="PATH", help="a file; a folder or a robot for all conflicts in it")
     parser.add_argument("--all", action="store_true", help="all conflicts")
     choice = parser.add_mutually_exclusive_group(required=True)
     kinds = {
@@ -50,34 +50,26 @@ def add(commands: arguments.Commands) -> None:
         choice.add_argument(f"--{kind}", dest="choice", action="store_const", const=kind, help=words)
     words = "say that your edit belongs to the element that is called so now"
     choice.add_argument("--moved", metavar="NAME", help=words)
-    words = "give names in your own models the new ones that the next build brings, or that an earlier one brought"
-    choice.add_argument("--rename-uses", nargs="*", metavar="OLD=NEW", help=words)
     words = "with --merge: which side counts where both changed the same"
     parser.add_argument("--prefer", choices=["mine", "generated"], help=words)
-    parser.add_argument("--yes", action="store_true", help="with --rename-uses: write without asking")
     arguments.add_dry_run(parser)
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
     """Find the files that the user means, and build their robots with the user's choice."""
-    if args.rename_uses is not None:
-        if args.paths or args.all:
-            raise arguments.UsageError(args.parser, "--rename-uses goes without paths and --all")
-        from urdfsync.commands import rename_uses  # the parser takes a while to load
-
-        return rename_uses.run(args, console)
     choice = _choice(args)
     configuration = load(args.config)
-    selected = configuration.select(args.robot or [])
+    names = {robot.name for robot in configuration.robots if choice is not Choice.UNDO}.intersection(args.paths)
+    selected = configuration.select(args.paths if names.issuperset(args.paths) else [])
     planned = list(build(configuration, selected, arguments.request(args, console, dry=True)))
-    named = {text: list(_find_named(planned, text, choice)) for text in args.paths}
+    named = {text: list(_find_named(planned, text, choice)) for text in args.paths if text not in names}
     if unknown := [text for text, targets in named.items() if not targets]:
         return _refuse(console, planned, unknown)
-    if args.all:
-        named = {"": [(result, each.action) for result in planned for each in result.conflicts]}
+    whole = [result for result in planned if args.all or result.robot in names]
+    named |= {"": [(result, each.action) for result in whole for each in result.conflicts]}
     targets = {action.path: (result, action) for pairs in named.values() for result, action in pairs}
     concerned = {result.robot for result, _ in targets.values()}
-    concerned |= {result.robot for result in planned if args.all and not result.in_step}
+    concerned |= {result.robot for result in whole if not result.in_step}
     if not targets and not any(result.failed for result in planned):
         console.warnings([Diagnostic(Severity.NOTE, "no-conflict", "nothing is in conflict")])
     robots = [robot for robot in configuration.robots if robot.name in concerned]

@@ -46,9 +46,9 @@ def add(commands: arguments.Commands) -> None:
         commands,
         "schema",
         help="print a JSON schema, for editors and programs",
-        description="Print the JSON schema of urdfsync.toml, or of what a command writes with --json. `urdfsync init` "
-        "puts the former to .urdfsync/schema.json, and names it in the configuration, so that editors complete and "
-        "check that.",
+        description="Print the JSON schema of urdfsync.toml, or of what a command writes with --format json. "
+        "`urdfsync init` puts the former to .urdfsync/schema.json, and names it in the configuration, so that editors "
+        "complete and check that.",
         epilog="examples: urdfsync schema > .urdfsync/schema.json\n          urdfsync schema build",
     )
     names = ("config", *sorted(_RESULTS))

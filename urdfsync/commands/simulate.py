@@ -23,7 +23,7 @@ def add(commands: arguments.Commands) -> None:
     parser = arguments.add_command(
         commands,
         "simulate",
-        "--robot --wait --trust --set --timeout --memory",
+        "--wait --trust --set --timeout --memory",
         help="simulate a robot, and hold its joints against their limits",
         description="Simulate the Test model of a robot, or a model of yours, with the package as it is on disk. Show "
         "for each joint its range, speed and effort beside its limits, and warn of limits that are passed. Nothing is "
@@ -46,8 +46,7 @@ def add(commands: arguments.Commands) -> None:
     option("--method", metavar="M", default="", help=f"of the integration: {methods}")
     option("--input", dest="motion", type=Path, metavar="FILE.csv", help="drive the inputs of the model")
     option("--csv", type=Path, metavar="FILE", help="write the series of joints, inputs and outputs")
-    option("--parquet", type=Path, metavar="FILE", help="likewise")
-    more = "a variable for these files as well, such as 'robot.hand.*'; may be repeated"
+    more = "a variable for that file as well, such as 'robot.hand.*'; may be repeated"
     option("--variable", dest="variables", action="append", metavar="PATTERN", default=[], help=more)
     option("--plot", type=Path, metavar="FILE.png|svg", help="draw positions, speeds and efforts against their limits")
     option("--report", type=Path, metavar="FILE.html", help="write a page in which the robot moves, as `report` does")
@@ -56,7 +55,7 @@ def add(commands: arguments.Commands) -> None:
 
 def run(args: argparse.Namespace, console: Console) -> int:
     """Simulate one robot, write what was asked for, and show what came out."""
-    files = {kind: file for kind in ("csv", "parquet", "plot") if (file := getattr(args, kind)) is not None}
+    files = {kind: file for kind in ("csv", "plot") if (file := getattr(args, kind)) is not None}
     write_report = prepare_page(args, console, args.report, motion=args.motion) if args.report else None
     extra = {"files": files, "tool": args.tool, "trusted": args.trusted}
     result = arguments.call(simulate, SimulateOptions, args, console, **extra)

@@ -19,7 +19,7 @@ def add(commands: arguments.Commands) -> None:
     arguments.add_command(
         commands,
         "status",
-        "robots --robot --wait",
+        "robots --wait",
         help="say which files are stale, edited, missing or in conflict",
         description="Say of each file whether it is in step, stale, edited, missing, an orphan or in conflict. "
         "Nothing is written.",

@@ -39,7 +39,7 @@ def add(commands: arguments.Commands) -> None:
     parser = arguments.add_command(
         commands,
         "watch",
-        "robots --robot --wait --trust --jobs",
+        "robots --wait --trust --jobs",
         help="keep the packages in step while their sources change",
         description="Build whenever a source, a mesh, a template or a generated file has changed, until interrupted.",
         epilog=f"example: urdfsync watch --exec 'make fmu'\n\n{_CODES}",
@@ -71,7 +71,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
         show = listener = show_json if console.is_document else stack.enter_context(Report(console)).show
         options = WatchOptions(
             file=args.config or config.find(config.working_folder()),
-            robots=(*args.robots, *(args.robot or ())),
+            robots=tuple(args.robots),
             settle=args.settle / 1000,
             sample=args.sample / 1000,
             give_up_after=args.patience,

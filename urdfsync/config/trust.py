@@ -12,8 +12,6 @@ from urdfsync.config.settings import Config, RobotConfig
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
 from urdfsync.files import shown
 
-_OUT = "out of the configuration's folder, to "
-
 
 class _Trusted(msgspec.Struct, forbid_unknown_fields=True):
     """The user's file."""
@@ -28,7 +26,8 @@ def find_untrusted_output(config: Config, robot: RobotConfig) -> Diagnostic | No
     """
     if robot.output.is_relative_to(config.root):
         return None
-    return _find_untrusted(config, f"`output` leads {_OUT}{shown(robot.output)}", robot.lines.get("output", 0))
+    message = f"`output` leads out of the configuration's folder, to {shown(robot.output)}"
+    return _find_untrusted(config, message, robot.lines.get("output", 0))
 
 
 def find_untrusted_command(config: Config, robot: RobotConfig) -> Diagnostic | None:
@@ -51,14 +50,6 @@ def find_untrusted_compiler(config: Config, compiler: str, title: str) -> Diagno
         key, reason = compiler, program
     message = f"`{key}` in the table `[check]`: {title} was not run: {reason}"
     return _find_untrusted(config, message, config.check_lines.get(key, 0), "untrusted-command")
-
-
-def find_untrusted_file(config: Config, path: Path) -> Diagnostic | None:
-    """Return an error if a file of the user's lies outside of the configuration's folder, as for an output."""
-    place = Path(os.path.realpath(path))
-    if place.is_relative_to(os.path.realpath(config.root)):
-        return None
-    return _find_untrusted(config, f"{shown(path)} leads {_OUT}{place}", 0)
 
 
 def _find_untrusted(config: Config, message: str, line: int, code: str = "untrusted-output") -> Diagnostic | None:

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync.config import Config, RobotConfig, working_folder
-from urdfsync.diagnostics import ConfigError, Diagnostic, findings_of
+from urdfsync.config import Config, working_folder
+from urdfsync.diagnostics import Diagnostic, findings_of
 from urdfsync.domain import Role
 from urdfsync.engine.actions import Action, Reason
 from urdfsync.engine.decide import decide_package
@@ -68,33 +68,16 @@ def find_edited(generation: Generation, actions: Iterable[Action] | None = None)
             yield EditedFile(key, action.owner, base, files.any_text(key))
 
 
-def find_edits(
-    paths: Sequence[str], config: Config, robots: Sequence[RobotConfig], options: BuildOptions
-) -> Iterator[RobotEdits]:
-    """Yield the edits in the files that paths mean, or in all. Raises ConfigError if a path means none."""
-    places = {text: Path(os.path.normpath(working_folder() / text)) for text in paths}
-    unknown = set(places)
-    for robot in robots:
-        named = {
-            text: robot.folder if text == robot.name else place
-            for text, place in places.items()
-            if text == robot.name or place.is_relative_to(robot.folder) or robot.folder.is_relative_to(place)
-        }
-        unknown -= named.keys()
-        if places and not named:
-            continue
+def find_edits(paths: Sequence[str], config: Config, options: BuildOptions) -> Iterator[RobotEdits]:
+    """Yield the edits in the files that paths mean, or in all. Raises ConfigError if a path means no robot."""
+    for robot in config.select(paths):
         try:
             files = tuple(find_edited(generate_robot(inspect(config, robot, options))))
         except Exception as error:  # noqa: BLE001 - of one robot
             yield RobotEdits(robot.name, config.root, diagnostics=findings_of(error), failed=True)
             continue
-        if named:
-            files = tuple(
-                file
-                for file in files
-                if any((config.root / file.path).is_relative_to(place) for place in named.values())
-            )
+        places = {text: Path(os.path.normpath(working_folder() / text)) for text in paths}
+        if paths and robot.name not in paths and robot.source not in places.values():
+            here = [(file, config.root / file.path) for file in files]
+            files = tuple(file for file, path in here if any(map(path.is_relative_to, places.values())))
         yield RobotEdits(robot.name, config.root, files)
-    if unknown:
-        message = f"{min(unknown)!r} is no robot, and no file of a package"
-        raise ConfigError.of("no-source", message, hint="name a robot, or a file of its package")

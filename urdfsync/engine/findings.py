@@ -15,7 +15,7 @@ from urdfsync.engine.decide import Decision
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import Inputs, orphaned_robots
 from urdfsync.engine.package_files import key_of
-from urdfsync.engine.package_names import identifier_of, new_name, new_names, recently_renamed
+from urdfsync.engine.package_names import new_name, new_names, recently_renamed
 from urdfsync.files import shown
 from urdfsync.state.store import Store
 
@@ -62,10 +62,7 @@ def find_all(generation: Generation, decision: Decision) -> tuple[Diagnostic, ..
 
 
 def _diagnose(generation: Generation, misfits: Sequence[Misfit]) -> Iterator[Diagnostic]:
-    """Yield one finding for all places in a file that have the same fault: an error if the package is broken.
-
-    And a note if names are known that can take the places of old ones.
-    """
+    """Yield one finding for all places in a file that have the same fault: an error if the package is broken."""
     if not misfits:
         return
     inputs, renamed = generation.inputs, recently_renamed(generation)
@@ -75,7 +72,6 @@ def _diagnose(generation: Generation, misfits: Sequence[Misfit]) -> Iterator[Dia
             finding = misfit.finding
             what = misfit.use.part if misfit.use else (misfit.lacking or finding.message, finding.code, finding.line)
             places.setdefault((misfit.file, what), []).append(misfit)
-    pairs: dict[tuple[str, str], Misfit] = {}
     for first, *more in places.values():
         finding = first.finding
         lines = [*map(str, sorted({misfit.finding.line for misfit in more} - {finding.line}))]
@@ -87,14 +83,6 @@ def _diagnose(generation: Generation, misfits: Sequence[Misfit]) -> Iterator[Dia
             file=shown(first.file),
             hint="; ".join(filter(None, (hint, also))),
         )
-        if first.use and new_name(first.use.part, renamed, first.use.candidates):
-            old = identifier_of(first.use.part, renamed)
-            pairs[old, renamed[old]] = first
-    if pairs:
-        command = " ".join(("urdfsync resolve --rename-uses", *(f"{old}={new}" for old, new in sorted(pairs))))
-        message, place = "your files can get the new names", [*pairs.values()][-1]
-        hint = f"`{command}` shows the lines, and writes them if you agree"
-        yield Diagnostic(Severity.NOTE, "rename-uses", message, shown(place.file), place.finding.line, hint=hint)
 
 
 def _hint(generation: Generation, renamed: Mapping[str, str], use: Unresolved) -> str:

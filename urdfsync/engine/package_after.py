@@ -5,7 +5,7 @@ Apart from `fit`, which resolves names in them: a build of a package that nobody
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
 from typing import NamedTuple
@@ -14,7 +14,6 @@ from urdfsync.domain import Role
 from urdfsync.engine.actions import Action, Reason
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.package_files import encode, text_hash
-from urdfsync.modelica.files import files_that_use
 
 
 def as_file(path: str) -> str:
@@ -48,22 +47,16 @@ class PackageAfter(Mapping[str, bytes]):
         generation: Generation,
         actions: Sequence[Action],
         merged: Mapping[str, str],
-        contents: Mapping[Path, bytes] | None = None,
-        former_names: Collection[str] = (),
         *,
         is_open: bool = False,
     ) -> None:
-        """`merged` are texts that the build writes, by key; `contents` counts for what is in files of the user's.
-
-        Files that use one of the `former_names` have to do with the package, too. If it `is_open` what becomes of files
-        in conflict, they may have anything.
-        """
+        """`merged` are texts that the build writes, by key. If `is_open`, files in conflict may become anything."""
         self._generation, self._inputs, self._actions = generation, generation.inputs, actions
-        self._contents, self._read_contents, self._generated = contents or {}, dict[str, bytes](), set[bytes]()
+        self._contents, self._generated = dict[str, bytes](), set[bytes]()
         self._files = self._files_after(merged, is_open=is_open)
         orders = (one.path for one in actions if one.role is Role.ORDER and not one.is_waiting and one.path in merged)
         self._orders = {self._inputs.folder.path(key): merged[key] for key in orders}
-        self.around = self._files_around(former_names)
+        self.around = self._files_around()
 
     def _files_after(self, merged: Mapping[str, str], *, is_open: bool) -> dict[str, _File]:
         """Return the files of the package after the build, by their paths below it."""
@@ -97,27 +90,27 @@ class PackageAfter(Mapping[str, bytes]):
             found[inputs.folder.path(key)] = _File(key, is_edited=True, is_users=True, is_expected=is_expected)
         return found
 
-    def _files_around(self, former_names: Collection[str]) -> dict[Path, bytes]:
+    def _files_around(self) -> dict[Path, bytes]:
         """Return the user's files outside of the package that may use it."""
         inputs, files = self._inputs, self._inputs.files
-        found = {**inputs.users_files.mentioning, **files_that_use(inputs.users_files.all, former_names)}
+        found = {**inputs.users_files.mentioning}
         if inputs.has_moved:
             keys = {action.path for action in self._actions}
             rest = files.classes(inputs.last.folder) - keys - inputs.last.files.keys()
             found |= {files.path(key): encode(files.any_text(key)) for key in sorted(rest)}
-        return {path: self._contents.get(path, content) for path, content in found.items()}
+        return found
 
     def __getitem__(self, path: str) -> bytes:
         """Return what is in a file of the package. Raises KeyError."""
-        if path not in self._read_contents:
+        if path not in self._contents:
             file, files = self._files[path], self._inputs.files
             if file.is_generated:
                 content = self._generation.package.content(path)
                 self._generated.add(content)
             else:
                 content = encode(files.any_text(file.key) if file.text is None else file.text)
-            self._read_contents[path] = self._contents.get(files.path(file.key), content) if file.is_edited else content
-        return self._read_contents[path]
+            self._contents[path] = content
+        return self._contents[path]
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._files)
@@ -130,11 +123,6 @@ class PackageAfter(Mapping[str, bytes]):
         """Contents of all files that the user wrote or edited, by their absolute paths."""
         edited = {path: file for path, file in self._files.items() if file.is_edited}
         return {**{self._inputs.files.path(file.key): self[path] for path, file in edited.items()}, **self.around}
-
-    @cached_property
-    def own(self) -> set[Path]:
-        """The files that the user wrote, and not only edited."""
-        return {self._inputs.files.path(file.key) for file in self._files.values() if file.is_users} | {*self.around}
 
     @cached_property
     def extended_orders(self) -> dict[str, tuple[str, set[str]]]:

@@ -95,17 +95,6 @@ def code_of(content: bytes) -> bytes:
     return _NO_CODE.sub(rb"\1 ", content)
 
 
-def replace_words(content: bytes, words: Mapping[int, tuple[str, str]]) -> bytes:
-    """Replace old words by new ones, by their places in `text_of`; all else stays, byte for byte."""
-    text, pieces, end = text_of(content), list[str](), 0
-    for start, (old, new) in sorted(words.items()):
-        pieces += [text[end:start], new]
-        end = start + len(old)
-    lines = "".join((*pieces, text[end:])).encode(errors="surrogateescape").split(b"\n")
-    ends = (*re.findall(rb"\r?\n", content), b"")
-    return b"".join(line + end for line, end in zip(lines, ends, strict=True))
-
-
 def _is_used(name: str, content: bytes) -> bool:
     word = name.encode(errors="surrogateescape")
     return has_word(content, word) and has_word(code_of(content), word)

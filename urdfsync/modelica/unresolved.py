@@ -46,8 +46,6 @@ class Unresolved(NamedTuple):
     line: int
     near: str = ""
     """The candidate that is most like the part; empty if none is."""
-    start: int = -1
-    """Where the part begins in the text; -1 if that is not known."""
     candidates: Collection[str] = ()
     """The names that mean something there."""
     is_library: bool = False
@@ -169,12 +167,9 @@ class _Walk(NamedTuple):
         """Yield the faults of modifiers of something that may have one of these types."""
         for modifier in arguments:
             meaning: Element | Missing = Element(types)
-            for part, start in zip(modifier.name.parts, modifier.name.starts, strict=True):
+            for part in modifier.name.parts:
                 if isinstance(meaning, Element):
-                    meaning, name = (
-                        self.scopes.part(meaning.types, part),
-                        Name((part,), modifier.name.line, starts=(start,)),
-                    )
+                    meaning, name = self.scopes.part(meaning.types, part), Name((part,), modifier.name.line)
                     yield from self._missing(name, meaning, scope, UnresolvedKind.ELEMENT)
             for used in filter(None, (modifier.type, modifier.constraint)):
                 yield from self._used(used, scope)
@@ -206,5 +201,4 @@ class _Walk(NamedTuple):
         least = _ALIKE if is_library else _RATHER_ALIKE
         near = nearest(meaning.part, sorted(candidates - {meaning.part}), least)
         if near or not is_library or self.all_libraries:  # else a compiler tells whether there is a library
-            start = name.starts[meaning.number] if meaning.number < len(name.starts) else -1
-            yield Unresolved(kind, str(name), meaning.part, owner, name.line, near, start, candidates, is_library)
+            yield Unresolved(kind, str(name), meaning.part, owner, name.line, near, candidates, is_library)

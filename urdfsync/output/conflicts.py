@@ -45,7 +45,7 @@ def conflict_lines(result: Result, console: Console) -> Iterator[StyledLine]:
     what = "merges it" if len(conflicts) == 1 else f"merges what can be merged: {mergeable} of {len(conflicts)}"
     if not mergeable:
         what = "keeps all your files as they are; --take replaces them by the generated ones"
-    command = ["resolve", "--all", "--robot", result.robot, "--merge" if mergeable else "--keep"]
+    command = ["resolve", result.robot, "--merge" if mergeable else "--keep"]
     yield from (line(("", "")), line((f"  {_command(command, console)}", "bold"), (f"  {what}", "dim")))
     never_built = all(action.base is None for action in result.actions)
     if never_built and all(target.action.reason is Reason.UNOWNED for target in conflicts):

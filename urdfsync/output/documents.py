@@ -23,7 +23,7 @@ JSON_VERSION: Literal[3] = 3
 
 
 class Document(msgspec.Struct, Generic[Item], kw_only=True):
-    """What every command writes with `--json`; of None for one without results."""
+    """What every command writes with `--format json`; of None for one without results."""
 
     version: Literal[3] = JSON_VERSION
     command: str

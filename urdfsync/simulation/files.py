@@ -1,13 +1,12 @@
-"""Files that the user asks for: series as CSV and Parquet, plots. Each is written as a whole or not at all."""
+"""Files that the user asks for: series as CSV, plots. Each is written as a whole or not at all."""
 
 from __future__ import annotations
 
 import importlib.util
-import io
 import os
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import ConfigError, OutputError
@@ -20,18 +19,16 @@ if TYPE_CHECKING:
 
 
 PLOTS = (".png", ".svg")
-_MODULES = {"parquet": "pyarrow", "plot": "matplotlib"}
 
 
 def check_outputs(files: Mapping[str, Path], inputs: Mapping[str, Path]) -> None:
     """Raise an error for a file that can't be written, before the simulation. `inputs` must not be replaced.
 
-    The kinds of `files` are `csv`, `parquet` and `plot`.
+    The kinds of `files` are `csv` and `plot`.
     """
     for kind, file in files.items():
-        module = _MODULES.get(kind)
-        if module and importlib.util.find_spec(module) is None:
-            message = f"`--{kind}` needs {module}, which is not installed"
+        if kind == "plot" and importlib.util.find_spec("matplotlib") is None:
+            message = "`--plot` needs matplotlib, which is not installed"
             raise ConfigError.of("no-plot", message, hint=install_command("plot"))
         if kind == "plot" and file.suffix.lower() not in PLOTS:
             raise not_writable(file, f"a plot is one of {', '.join(PLOTS)}", "name a file that ends so")
@@ -87,8 +84,6 @@ def write_outputs(files: Mapping[str, Path], result: SimulateResult) -> None:
 def _content(kind: str, file: Path, result: SimulateResult) -> bytes:
     if kind == "csv":
         return "".join(_csv_lines(result.series)).encode()
-    if kind == "parquet":
-        return _parquet(result.series)
     from urdfsync.simulation.plot import draw  # matplotlib takes 0.5 s, and is an extra
 
     return draw(result, file.suffix.lower().removeprefix("."))
@@ -100,15 +95,6 @@ def _csv_lines(series: Series) -> Iterator[str]:
     yield ",".join(names) + "\n"
     for row in zip(*series.values(), strict=True):
         yield ",".join(map(repr, row)) + "\n"
-
-
-def _parquet(series: Series) -> bytes:
-    import pyarrow.parquet  # an optional extra
-
-    content, arrow = io.BytesIO(), pyarrow
-    table: Any = arrow.table({name: arrow.array(values, arrow.float64()) for name, values in series.items()})
-    arrow.parquet.write_table(table, content)
-    return content.getvalue()
 
 
 def not_writable(file: Path, message: str, hint: str) -> OutputError:

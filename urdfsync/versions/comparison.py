@@ -100,7 +100,7 @@ def exit_code(comparisons: Sequence[Comparison]) -> Exit:
 
 
 def select_sources(
-    sources: Sequence[str], names: Sequence[str], against: str | None, config: Config | None, folder: Path
+    sources: Sequence[str], against: str | None, config: Config | None, folder: Path
 ) -> Iterator[tuple[Config | None, Sequence[RobotConfig]]]:
     """Yield the robots that the arguments mean, and robots for sources that none of them has. Raises ConfigError."""
     if config is None and against is None:
@@ -117,7 +117,7 @@ def select_sources(
         message = f"{min(alone)} was never built: it is not the source of a robot"
         hint = "add a robot for it, or name the version to compare it with: --against FILE or REVISION"
         raise ConfigError.of("no-robot", message, hint=hint)
-    named = [*(text for text in sources if text not in alone), *names]
+    named = [text for text in sources if text not in alone]
     robots = config.select(named) if config and (named or not alone) else ()
     compared = {*(robot.source for robot in robots), *alone.values()}
     if against and len(compared) > 1 and any(_is_file(against, source, folder) for source in compared):

@@ -1,4 +1,4 @@
-"""The events of `urdfsync watch` as values; `--json` writes them with the tag as the event's name.
+"""The events of `urdfsync watch` as values; `--format json` writes them with the tag as the event's name.
 
 Events of one robot come in this order: `Settling` when one of its files changed, `Building` when it has settled,
 `Waiting` if its source is not valid (yet), and `Built` or `Failed`; or `Unchanged` if nothing differs after all.
