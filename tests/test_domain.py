@@ -13,27 +13,26 @@ import pytest
 from support.meshes import stl
 
 from urdfsync import config, registry
-from urdfsync.changes import compare
+from urdfsync.changes import Effects, compare
+from urdfsync.checks.experiment import Checks
 from urdfsync.config import Keys
+from urdfsync.config.advice import Advice
 from urdfsync.diagnostics import Severity
-from urdfsync.domain import (
-    Artifact,
-    Dependency,
-    Domain,
-    Import,
-    Lookup,
-    Order,
-    Role,
-    Snapshot,
-    Target,
-    Templates,
-    Version,
-)
+from urdfsync.domain import Artifact, Dependency, Domain, Import, Lookup, Order, Role, Snapshot, Target, Version
 from urdfsync.engine import generate
-from urdfsync.files import digest, templates_digest
+from urdfsync.engine.imports import Mentions
+from urdfsync.engine.source import Beside
+from urdfsync.files import Templates, digest, templates_digest
 from urdfsync.modelica.names import is_identifier, within
+from urdfsync.pages.scene import Pictures
+from urdfsync.simulation.bench import Benches
 from urdfsync.state import statefile
 from urdfsync.state.record import Generator, Record
+from urdfsync.urdf import advice, benches, checks, scene
+from urdfsync.urdf.diff import effects
+from urdfsync.urdf.domain import DOMAIN
+from urdfsync.urdf.meshes import lookup
+from urdfsync.urdf.parse import beside
 
 URDF = b"""<robot name="two &quot;links&quot;">
   <link name="base link"/>
@@ -111,7 +110,7 @@ def test_options(case: Case) -> None:
         setattr(case.options, fields[0].name, None)
     reading = case.domain.read(SAMPLES[case.domain.name][0], "sample", case.options)
     assert reading.option_findings == (), "defaults suit every model"
-    values = {proposal.option: proposal.value for proposal in case.domain.propose(case.snapshot, ())}
+    values = {proposal.option: proposal.value for proposal in case.domain.advice.propose(case.snapshot, ())}
     assert values.keys() <= known
     msgspec.convert(values, case.domain.options)
 
@@ -137,8 +136,9 @@ def test_nobody_changes_a_snapshot(case: Case) -> None:
     before = json.dumps(case.snapshot)
     case.generated()
     case.domain.names(case.snapshot, TARGET)
-    case.domain.propose(case.snapshot, ())
-    case.domain.models(case.snapshot, TARGET, case.options)
+    case.domain.advice.propose(case.snapshot, ())
+    if checks := case.domain.checks:
+        checks.models(case.snapshot, TARGET, case.options)
     case.domain.drawing(case.snapshot, case.imports, TARGET, case.options)
     old, new = (Version(snapshot, case.imports) for snapshot in (case.snapshot, {**case.snapshot, "name": "other"}))
     assert compare(old, new, case.domain, case.options).changes
@@ -223,9 +223,33 @@ def test_names_are_identifiers_and_reversible(case: Case) -> None:
         assert len(set(names.values())) == len(names)
 
 
-def test_what_has_to_compile_is_in_the_package(case: Case) -> None:
-    models = case.domain.models(case.snapshot, TARGET, case.options)
+ANSWERS: tuple[Advice, Beside, Mentions, Effects, Checks, Benches, Pictures]
+ANSWERS = advice, beside, lookup, effects, checks, benches, scene
+"""mypy holds the modules of the URDF domain to the Protocols."""
+
+
+def test_modules_answer_what_is_asked_beside_the_domain() -> None:
+    names = "advice", "beside", "imports", "effects", "checks", "simulation", "pictures"
+    assert tuple(getattr(DOMAIN, name) for name in names) == ANSWERS
+
+
+def test_what_has_to_compile_is_in_the_package() -> None:
+    case = make("urdf")
+    models = checks.models(case.snapshot, TARGET, case.options)
     assert models[0] == TARGET.name
     assert {f"{model.replace('.', '/')}.mo" for model in models} <= case.generated().artifacts.keys()
-    if bench := case.domain.bench(case.snapshot, TARGET, case.options):
-        assert {bench.test, bench.run} - {""} <= {*models}, "what is simulated is checked"
+    bench = benches.bench(case.snapshot, TARGET, case.options)
+    assert bench
+    assert {bench.test, bench.run} <= {*models}, "what is simulated is checked"
+
+
+def test_a_domain_need_not_answer_more_than_a_build_asks() -> None:
+    class Least(Domain):
+        """No more than has no default."""
+
+    public = {name for name in vars(Domain) if not name.startswith("_")}
+    methods = {name for name in public if callable(getattr(Domain, name))} - {"options"}
+    assert len(methods) <= 10
+    assert {getattr(Least, name) for name in ("advice", "beside", "checks", "simulation", "pictures", "record")} == {
+        None
+    }

@@ -19,9 +19,10 @@ from support.commands import Execute
 from support.documents import is_described
 
 from urdfsync import cli, config
+from urdfsync.checks.experiment import Deviation, Part, Quantity
 from urdfsync.checks.results import CheckResult, CheckStatus, CompiledModel, EditEffect, ToolResult, TrialTime
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.domain import ChangeClass, ChangeKind, Deviation, Part, Quantity, Role
+from urdfsync.domain import ChangeClass, ChangeKind, Role
 from urdfsync.engine.actions import FileStatus, Kind, Reason
 from urdfsync.engine.result import Checked, Result
 from urdfsync.output.documents import JSON_VERSION

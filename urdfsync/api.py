@@ -18,7 +18,7 @@ from urdfsync.config import Config, RobotConfig
 from urdfsync.config import library_folder as library_folder
 from urdfsync.diagnostics import ConfigError, Diagnostic
 from urdfsync.diagnostics import UrdfsyncError as UrdfsyncError
-from urdfsync.domain import Target
+from urdfsync.domain import Artifact, Reading, Target
 from urdfsync.engine.build import build as build_robots
 from urdfsync.engine.options import BuildOptions, Progress, no_progress
 from urdfsync.engine.result import Result
@@ -36,6 +36,13 @@ if TYPE_CHECKING:
 R = TypeVar("R", bound="Result | Comparison | RobotEdits | CheckResult")
 Place: TypeAlias = Config | Path | str | None
 """A configuration, or its file; None for `urdfsync.toml` in the working folder or the nearest one above."""
+
+Recorder: TypeAlias = Callable[[Reading, str, Target, Any], tuple[Artifact, Sequence[Diagnostic]]]
+"""Returns a model as one record that stands alone, with its own findings; the attribute `record` of a domain.
+
+It gets what was read without an error, the source's name in diagnostics, the class and the package of the record, and
+options. Nothing is imported for it. Pure.
+"""
 
 
 def ignore(_result: object) -> None:
@@ -256,14 +263,12 @@ def record(
 
     source, target, form = Path(source), _target(class_, within, Path(source)), registry.domain(domain)
     text = sources.read_file_source(form, source, arguments or {}, configuration.ros_package_path())
-    with text.locating():
-        snapshot, reading = sources.read(form, form.permissive_options(), text.content, text.name)
-    reading = msgspec.structs.replace(reading, snapshot=snapshot)
-    recorded = form.record(reading, shown(source), target, form.options())
-    if recorded is None:
+    _, reading = sources.read_permissively(form, text)
+    recorder: Recorder | None = form.record
+    if recorder is None:
         message = f"the domain `{form.name}` has no record of a whole model"
         raise ConfigError.of("no-record", message, hint="use `urdfsync build`")
-    artifact, told = recorded
+    artifact, told = recorder(reading, shown(source), target, form.options())
     generated = Package([artifact], sources.domain_templates(form), target.package)
     all_findings = [*text.diagnostics, *map(text.locate, (*reading.diagnostics, *told))]
     diagnostics = tuple(sorted(all_findings, key=lambda finding: finding.line))

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Hashable, Iterator, Mapping, Sequence
-from typing import Any
+from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
+from typing import Any, Protocol
 
 import msgspec
 
+from urdfsync.diagnostics import Diagnostic
 from urdfsync.domain import (
     ChangeClass,
     ChangeKind,
@@ -16,6 +17,7 @@ from urdfsync.domain import (
     ElementKey,
     Import,
     Snapshot,
+    Target,
     Version,
     displaced,
 )
@@ -30,6 +32,43 @@ _KINDS = {
     "values_changed": ChangeKind.CHANGED,
 }
 """Names of deepdiff for the differences of plain data."""
+
+
+class Effect(msgspec.Struct, frozen=True):
+    """A property of the whole model in both versions; None where it does not exist."""
+
+    path: tuple[str, ...]
+    old: Any
+    new: Any
+    unit: str = ""
+    hint: str = ""
+    """Order to the user; empty if there is nothing to do."""
+
+
+class Effects(Protocol):
+    """What a domain says of differences of whole models, as they are read; the attribute `effects` of a domain."""
+
+    def effects(self, old: Version, new: Version) -> Sequence[Effect]:
+        """Return the effects of the differences on the whole model; the versions are as read, not comparable ones."""
+        ...
+
+    def interface(
+        self, old: Version, new: Version, renames: Mapping[ElementKey, str], target: Target, options: Any
+    ) -> Sequence[Effect]:
+        """Return changed names that users may have connected to; old is None for a new name, new for a removed one.
+
+        `options` are those of the new version, and of the old one unless it has its own.
+        """
+        ...
+
+    def find_doubtful(
+        self, old: Version, new: Version, renames: Mapping[ElementKey, str]
+    ) -> Iterable[tuple[str, Diagnostic]]:
+        """Return warnings about differences that look like a mistake of the export: a path, and one without place.
+
+        The core adds the line of the path in the source, as `Reading` has it.
+        """
+        ...
 
 
 class Change(msgspec.Struct, frozen=True):

@@ -9,6 +9,7 @@ import os
 import stat
 from collections.abc import Sequence
 from pathlib import Path
+from typing import NamedTuple
 
 from urdfsync.dependencies import Dependencies, file_type, note_content, read_file, read_stat, walk_files
 from urdfsync.diagnostics import OutputError
@@ -64,6 +65,16 @@ def put(file: Path, content: bytes) -> None:
     finally:
         with contextlib.suppress(OSError):  # what could not be made can't be removed
             temporary.unlink(missing_ok=True)
+
+
+class Templates(NamedTuple):
+    """Folders that templates are taken from, best first, and the hash of all that is in them.
+
+    The last folder is the domain's own; one before it is the user's.
+    """
+
+    folders: tuple[Path, ...]
+    digest: str
 
 
 def templates_digest(folders: Sequence[Path]) -> str:

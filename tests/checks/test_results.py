@@ -7,6 +7,7 @@ from typing import Any
 import msgspec
 import pytest
 
+from urdfsync.checks.experiment import Deviation, Part, Quantity
 from urdfsync.checks.results import (
     CheckResult,
     CheckStatus,
@@ -18,7 +19,6 @@ from urdfsync.checks.results import (
     worst,
 )
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.domain import Deviation, Part, Quantity
 from urdfsync.engine.result import Exit
 
 ELBOW = Deviation(Quantity.EFFORT, "joint elbow", 0.4, 12.5, 60.0, "N·m", Part.LOSSES)

@@ -18,7 +18,7 @@ from support.loops import UNIVERSAL, to_options, to_urdf
 from support.modelica import URDFSYNC
 from support.urdfs import dynamics, joint, limit, link, links, mimic, robot
 
-from urdfsync.domain import Deviation, Part
+from urdfsync.checks.experiment import Deviation, Part
 
 pytestmark = pytest.mark.slow
 

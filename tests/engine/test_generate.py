@@ -12,8 +12,9 @@ from support.networks import RC_FOLDER, configure, edit, failure, own_model, run
 from support.replay import contents
 
 from urdfsync.diagnostics import OutputError
-from urdfsync.domain import Artifact, Domain, Order, Role, Target, Templates
+from urdfsync.domain import Artifact, Domain, Order, Role, Target
 from urdfsync.engine.generate import Package, check_paths, generate
+from urdfsync.files import Templates
 
 
 @pytest.mark.parametrize(

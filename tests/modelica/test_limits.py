@@ -17,9 +17,11 @@ from support.modelica import DRIVES, Run, Series, Task, bench, simulate, simulat
 from support.packages import generate, strict
 from support.urdfs import joint, limit, link, mimic, robot
 
-from urdfsync.domain import Axis, Signal, Target
+from urdfsync.domain import Target
+from urdfsync.simulation.bench import Axis, Signal
 from urdfsync.simulation.joints import joint_results
 from urdfsync.urdf.benches import bench as bench_of
+from urdfsync.urdf.snapshot import to_snapshot
 
 pytestmark = pytest.mark.slow
 
@@ -186,7 +188,7 @@ def test_later_passings_are_told_from_the_results(modelica_library: Path, tmp_pa
     runs = [Run(1.0, 0.01, {"roll.a2": -5.0}), Run(1.0, 0.01, {"roll.a1": 5.0, "roll.a2": -3.0})]
     tasks, layouts = [], []
     for package in packages:
-        found = bench_of(package.skeleton, package.target, package.options)
+        found = bench_of(to_snapshot(package.robot), package.target, package.options)
         assert found
         layouts.append(found.layouts)
         declaration, axis = robots[package.target.package]

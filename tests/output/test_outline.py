@@ -9,8 +9,8 @@ import pytest
 from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
-from urdfsync.changes import Change, Changes
-from urdfsync.domain import ChangeClass, ChangeKind, Effect
+from urdfsync.changes import Change, Changes, Effect
+from urdfsync.domain import ChangeClass, ChangeKind
 from urdfsync.output.outline import effect_rows, outline
 
 

@@ -13,8 +13,8 @@ from support.commands import Execute
 from support.pages import faces_of, read
 
 from urdfsync.engine.result import Exit
-from urdfsync.scene import Triangles
-from urdfsync.urdf.domain import UrdfDomain
+from urdfsync.pages.scene import Triangles
+from urdfsync.urdf import scene
 
 Report = Callable[..., Path]
 
@@ -31,15 +31,15 @@ def test_a_large_mesh_is_simplified_once_and_the_page_says_so(
 ) -> None:
     monkeypatch.setattr("urdfsync.pages.picture._MOST", 200)
     told = r"Resources/(\S*)\.(?:stl|obj) is simplified for this page: \d+ of its [\d,]+ triangles are left"
-    page, paths, simplify = report(), list[str](), UrdfDomain.triangles
+    page, paths, simplify = report(), list[str](), scene.triangles
     before, large = page.read_bytes(), re.findall(told, read(page).words)
     assert len(large) > 1
 
-    def triangles(domain: UrdfDomain, path: str, *rest: Any) -> Triangles | str:
+    def triangles(path: str, *rest: Any) -> Triangles | str:
         paths.append(path)
-        return simplify(domain, path, *rest)
+        return simplify(path, *rest)
 
-    monkeypatch.setattr(UrdfDomain, "triangles", triangles)
+    monkeypatch.setattr(scene, "triangles", triangles)
     assert report().read_bytes() == before
     assert paths
     assert not any(name in path for path in paths for name in large)

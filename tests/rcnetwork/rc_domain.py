@@ -16,6 +16,7 @@ from typing import Any
 
 import msgspec
 
+from urdfsync.config.advice import Advice, Proposal
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.domain import (
     Artifact,
@@ -30,7 +31,6 @@ from urdfsync.domain import (
     Lookup,
     Meaning,
     Order,
-    Proposal,
     Reading,
     Role,
     Snapshot,
@@ -69,10 +69,28 @@ class Network(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     drives: str = "in"
 
 
+class RcAdvice(Advice):
+    def permissive_options(self) -> Options:
+        return Options()
+
+    def propose(
+        self,
+        snapshot: Snapshot,
+        diagnostics: Sequence[Diagnostic],
+    ) -> Sequence[Proposal]:
+        nodes = {node for element in snapshot["elements"].values() for node in element["between"]}
+        has = GROUND in nodes
+        return (Proposal("ground", has, f"{'a' if has else 'no'} node is named {GROUND}"),)
+
+    def option_for(self, name: str, snapshot: Snapshot, target: Target, options: Options) -> str:
+        return ""
+
+
 class RcNetwork(Domain):
     """The domain object."""
 
     name = "rcnetwork"
+    advice = RcAdvice()
     templates = Path(__file__).parent / "templates"
     options = Options
     warnings = ("no-ground",)
@@ -161,15 +179,6 @@ class RcNetwork(Domain):
             reach = ChangeClass.PARAMETER if is_number else ChangeClass.STRUCTURAL
             meanings.append(Meaning(tuple(fields) or ("network",), reach, units[fields[-1]] if is_number else ""))
         return meanings
-
-    def propose(
-        self,
-        snapshot: Snapshot,
-        diagnostics: Sequence[Diagnostic],
-    ) -> Sequence[Proposal]:
-        nodes = {node for element in snapshot["elements"].values() for node in element["between"]}
-        has = GROUND in nodes
-        return (Proposal("ground", has, f"{'a' if has else 'no'} node is named {GROUND}"),)
 
     def drawing(
         self, snapshot: Snapshot, imports: Mapping[str, Import], target: Target, options: Options

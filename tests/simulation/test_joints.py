@@ -7,7 +7,7 @@ import re
 
 import pytest
 
-from urdfsync.domain import Axis, Bench, LoopSignals, Signal
+from urdfsync.simulation.bench import Axis, Bench, LoopSignals, Signal
 from urdfsync.simulation.joints import joint_results, loop_results, pattern, robots
 from urdfsync.simulation.results import LoopResult, PassedLimit, Range
 

@@ -64,7 +64,7 @@ def proposed_base(content: bytes) -> str:
     """Stationary or mobile, as `init` proposes it."""
     snapshot = read(content).snapshot
     assert snapshot is not None
-    return str(next(proposal.value for proposal in DOMAIN.propose(snapshot, ()) if proposal.option == "base"))
+    return str(next(proposal.value for proposal in DOMAIN.advice.propose(snapshot, ()) if proposal.option == "base"))
 
 
 def generate(source: Path | bytes, target: Target, **options: Any) -> Package:

@@ -12,8 +12,9 @@ import msgspec
 from support.modelica import URDFSYNC, Run, Task, simulate
 from support.packages import Package, generate
 from urdfsync.checks import compilation
+from urdfsync.checks.experiment import Deviation, Experiment, Sample
 from urdfsync.checks.flags import flagged
-from urdfsync.domain import Deviation, Experiment, Sample, Target
+from urdfsync.domain import Target
 from urdfsync.urdf.domain import DOMAIN
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.snapshot import to_snapshot
@@ -44,7 +45,7 @@ def prepare(source: bytes | Path, name: str = "Bot", **options: Any) -> Case:
     content = source if isinstance(source, bytes) else source.read_bytes()
     target = Target(name, name)
     package = generate(source, target, **options)
-    experiment = DOMAIN.experiment(Sample(content, "robot.urdf", target, Options(**options), package.facts))
+    experiment = DOMAIN.checks.experiment(Sample(content, "robot.urdf", target, Options(**options), package.facts))
     assert isinstance(experiment, Experiment)
     if experiment.content != content:
         package = generate(experiment.content, target, **options)
@@ -68,7 +69,7 @@ def compare(library: Path, folder: Path, cases: Sequence[Case], own: Path = URDF
             run = next(runs)
             values = {name: numbers.tolist() for name, numbers in run.values.items()}
             motions[trial.name] = {"time": run.times.tolist(), **values}
-        wiring = DOMAIN.wiring(
+        wiring = DOMAIN.checks.wiring(
             {path: text.encode() for path, text in case.package.texts.items()},
             to_snapshot(case.package.robot),
             case.package.target,

@@ -22,8 +22,9 @@ from support.cases import SMALL_ROBOTS, damaged, often, seldom
 
 from urdfsync.config import templates_folder
 from urdfsync.diagnostics import Severity
-from urdfsync.domain import Lookup, Target, Templates
+from urdfsync.domain import Lookup, Target
 from urdfsync.engine.generate import generate
+from urdfsync.files import Templates
 from urdfsync.modelica.parser import parse
 from urdfsync.urdf.domain import DOMAIN
 from urdfsync.urdf.options import Options
@@ -195,7 +196,7 @@ def test_a_source_is_read_and_generated_or_has_complete_diagnostics(content: byt
         return
     assert msgspec.json.decode(msgspec.json.encode(reading.snapshot)) == msgspec.to_builtins(reading.snapshot)
     DOMAIN.dependencies(reading.snapshot, Lookup(Path("bot.urdf").absolute()), options, reading.lines)
-    DOMAIN.propose(reading.snapshot, reading.diagnostics)
+    DOMAIN.advice.propose(reading.snapshot, reading.diagnostics)
     package = generate(DOMAIN, reading.snapshot, {}, TARGET, options, Templates((templates_folder(DOMAIN),), ""))
     for path in package.artifacts:
         text = package.content(path).decode()

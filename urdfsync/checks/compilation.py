@@ -24,6 +24,7 @@ from urdfsync.checks.compilers.compiler import (
     compile_task,
     one_line,
 )
+from urdfsync.checks.experiment import Checks, Compared, Deviation, Experiment, Trial
 from urdfsync.checks.flags import with_flags
 from urdfsync.checks.jobs import Jobs
 from urdfsync.checks.libraries import Libraries
@@ -39,7 +40,6 @@ from urdfsync.checks.results import (
     listed,
 )
 from urdfsync.diagnostics import Diagnostic, Severity, findings_of
-from urdfsync.domain import Compared, Deviation, Experiment, Trial
 from urdfsync.engine.generation import generated_texts
 from urdfsync.files import shown
 from urdfsync.spelling import counted
@@ -126,7 +126,10 @@ class Compilation:
             snapshot, domain = generation.now.snapshot, generation.inputs.domain
             # templates of the user's may connect benches in another way
             own = robot.templates is not None
-            wiring = () if own else domain.wiring(self._completed, snapshot, robot.target, experiment.options)
+            checks: Checks | None = None if own else domain.checks
+            wiring = (
+                () if checks is None else checks.wiring(self._completed, snapshot, robot.target, experiment.options)
+            )
             self.result.deviations = (*compare_all(trials, self.generated), *wiring)
             self.result.curves = tuple(curves(trials[0], self.generated[trials[0].name]))
         if "edited" not in done:

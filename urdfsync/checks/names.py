@@ -12,8 +12,8 @@ import msgspec
 from urdfsync.checks import libraries
 from urdfsync.checks.package import RobotPackage
 from urdfsync.checks.results import listed
+from urdfsync.config.advice import Advice, brings_back
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.domain import brings_back
 from urdfsync.files import shown
 from urdfsync.modelica.classes import Node
 from urdfsync.modelica.files import class_of_file, files_that_use, place_of, text_of
@@ -110,9 +110,8 @@ def _diagnostic(package: RobotPackage, file: Path, places: Sequence[Unresolved])
         if earliest.kind is UnresolvedKind.ELEMENT:
             robot, snapshot = package.robot, package.generation.now.snapshot
             if earliest.owner in [f"{robot.target.package}.{model}" for model in package.models]:
-                option = package.generation.inputs.domain.option_for(
-                    earliest.part, snapshot, robot.target, robot.options
-                )
+                advice: Advice | None = package.generation.inputs.domain.advice
+                option = advice.option_for(earliest.part, snapshot, robot.target, robot.options) if advice else ""
                 hint = brings_back(option) or hint
     lines = sorted({place.line for place in places} - {earliest.line})
     also = f"also in line{'s' if len(lines) > 1 else ''} {listed([*map(str, lines)])}" if lines else ""

@@ -14,9 +14,9 @@ from pathlib import Path
 import msgspec
 
 from urdfsync.checks.contents import package_texts
+from urdfsync.checks.experiment import Checks
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
-from urdfsync.domain import Bench
 from urdfsync.engine.actions import Reason
 from urdfsync.engine.build import build
 from urdfsync.engine.generation import Generation, generate_robot, generated_texts
@@ -67,8 +67,6 @@ class RobotPackage(msgspec.Struct):
 
     robot: RobotConfig
     generation: Generation
-    bench: Bench | None
-    """How it is simulated; None if the domain does not say."""
     errors: tuple[Diagnostic, ...]
     """Errors that a build would report, but for those in files of Modelica."""
     on_disk: Mapping[str, bytes]
@@ -105,7 +103,8 @@ def read_package(config: Config, robot: RobotConfig, options: BuildOptions) -> R
     errors = [finding for finding in built.diagnostics if finding.severity is Severity.ERROR]
     on_disk, generated = package_texts(robot.folder), generated_texts(generation)
     texts, in_step = on_disk or generated, bool(on_disk) and built.are_files_in_step
-    models = tuple(domain.models(snapshot, robot.target, robot.options))
+    checks: Checks | None = domain.checks
+    models = tuple(checks.models(snapshot, robot.target, robot.options)) if checks else (robot.target.name,)
     benches = {f"{name.replace('.', '/')}.mo" for name in models[1:]}
     shared = [path for path in sorted(generated.keys() & on_disk.keys()) if path.endswith(".mo")]
     edited = [path for path in shared if normalised(on_disk[path]) != generated[path]] if in_step else []
@@ -119,7 +118,6 @@ def read_package(config: Config, robot: RobotConfig, options: BuildOptions) -> R
     return RobotPackage(
         robot=robot,
         generation=generation,
-        bench=domain.bench(snapshot, robot.target, robot.options),
         errors=tuple(dict.fromkeys(error for error in errors if not error.file.endswith(".mo"))),
         on_disk=on_disk,
         in_step=in_step,

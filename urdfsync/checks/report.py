@@ -8,6 +8,7 @@ import sys
 from collections import Counter
 from collections.abc import Collection, Iterator, Sequence
 
+from urdfsync.checks.experiment import Deviation, Part, Quantity
 from urdfsync.checks.results import (
     KINDS,
     CheckResult,
@@ -18,7 +19,6 @@ from urdfsync.checks.results import (
     worst,
 )
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.domain import Deviation, Part, Quantity
 from urdfsync.output.console import StyledLine, has_marks, line
 from urdfsync.output.sections import Mark, Section, Table
 from urdfsync.spelling import counted

@@ -9,9 +9,9 @@ from pathlib import Path
 import msgspec
 
 from urdfsync.checks.compilers.compiler import Tool
+from urdfsync.checks.experiment import Deviation, Part, Quantity
 from urdfsync.config import ros_package_path
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.domain import Deviation, Part, Quantity
 from urdfsync.engine.result import Exit
 from urdfsync.spelling import counted
 

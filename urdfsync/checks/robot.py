@@ -13,6 +13,7 @@ from urdfsync import registry
 from urdfsync.checks import compilers, process, texts
 from urdfsync.checks.cache import UserCache
 from urdfsync.checks.compilation import Compilation, compare_all
+from urdfsync.checks.experiment import Checks, Experiment, Sample
 from urdfsync.checks.fingerprint import PHYSICS, fingerprint
 from urdfsync.checks.libraries import Libraries, find_libraries
 from urdfsync.checks.names import check_names
@@ -21,7 +22,6 @@ from urdfsync.checks.process import Limits, limits_of
 from urdfsync.checks.results import CheckOptions, CheckResult, listed
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError, findings_of
-from urdfsync.domain import Experiment, Sample
 from urdfsync.engine.options import BuildOptions
 from urdfsync.files import shown
 from urdfsync.workers import tell
@@ -82,11 +82,13 @@ def _check(
     """Check a package as far as this machine can; all that is found goes into the result."""
     robot, inputs = package.robot, package.generation.inputs
     result.built, result.in_step, result.conflicting = bool(package.on_disk), package.in_step, package.conflicting
-    result.freedoms = package.bench.freedoms if package.bench else None
+    checks: Checks | None = inputs.domain.checks
+    result.freedoms = checks.freedoms(package.generation.now.snapshot, robot.options) if checks else None
     tell(f"{robot.name}: checking files and names")
     result.add(package.errors)
-    contradictions = inputs.domain.cross_check(inputs.source.content, shown(robot.source))
-    result.add(map(inputs.source.locate, contradictions))
+    if checks:
+        contradictions = checks.cross_check(inputs.source.content, shown(robot.source))
+        result.add(map(inputs.source.locate, contradictions))
     faults = [*texts.check_layout(package.files), *texts.check_around(robot.output, package.around)]
     result.add(faults)
     if any(finding.severity is Severity.ERROR for finding in faults):
@@ -162,7 +164,8 @@ def _experiment(package: RobotPackage, options: CheckOptions, result: CheckResul
 
 def _experiments(domain: str, sample: Sample, step: float | None) -> Iterator[Experiment | str]:
     """Yield the experiment of a domain, in a process of its own."""
-    yield registry.domain(domain).experiment(sample, step)
+    checks: Checks | None = registry.domain(domain).checks
+    yield checks.experiment(sample, step) if checks else "there is no reference for such packages"
 
 
 def run_compilations(

@@ -17,9 +17,10 @@ import tomli_w
 from urdfsync import config, registry
 from urdfsync.commands import arguments, merge_driver
 from urdfsync.config import schema
+from urdfsync.config.advice import Advice, Proposal
 from urdfsync.config.load import in_words
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError
-from urdfsync.domain import Domain, Proposal
+from urdfsync.domain import Domain
 from urdfsync.engine import source as source_files
 from urdfsync.engine.result import Exit
 from urdfsync.files import Tree, put, shown
@@ -157,15 +158,15 @@ def _guess(
         message, hint = "the name of the source can't be written into a configuration", "rename it"
         raise SourceError.of("source-name", message, shown(source), hint=hint)
     text = source_files.read_file_source(domain, source, given, config.ros_package_path())
-    with text.locating():
-        snapshot, reading = source_files.read(domain, domain.permissive_options(), text.content, text.name)
+    advice: Advice | None = domain.advice
+    snapshot, reading = source_files.read_permissively(domain, text)
     stem = source.name.partition(".")[0][:_LONGEST]
     name = re.sub(r"[^a-z0-9]+", "_", stem.lower()).strip("_")
     name, package = name if config.is_robot_name(name) else f"robot_{name}".rstrip("_"), class_name(stem)
     names = set(map(str.casefold, taken))
     counts = ("", *map(str, range(2, len(taken) + 2)))
     count = next(count for count in counts if names.isdisjoint((name + count, (package + count).casefold())))
-    proposals = tuple(domain.propose(snapshot, reading.diagnostics))
+    proposals = tuple(advice.propose(snapshot, reading.diagnostics)) if advice else ()
     values = text.expansion.arguments if text.expansion else {}
     guess = Guess(name + count, path.as_posix(), values, package + count, proposals)
     return guess, (*text.diagnostics, *map(text.locate, reading.diagnostics))

@@ -7,9 +7,11 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
+from urdfsync.changes import Effects
 from urdfsync.config import Config
+from urdfsync.config.advice import Advice, brings_back
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.domain import ChangeClass, brings_back
+from urdfsync.domain import ChangeClass
 from urdfsync.engine.actions import Actions
 from urdfsync.engine.decide import Decision
 from urdfsync.engine.generation import Generation
@@ -49,10 +51,9 @@ def find_all(generation: Generation, decision: Decision) -> tuple[Diagnostic, ..
         findings.append(Diagnostic(Severity.WARNING, "too-many-folders", message, *place, hint=hint))
     findings += _left_behind(inputs, actions)
     findings += [inputs.damage] if inputs.damage else []
-    if generation.changes is not None and inputs.last.version is not None and generation.changes.changes:
-        for path, finding in inputs.domain.find_doubtful(
-            inputs.last.version, generation.now, generation.changes.renames
-        ):
+    effects: Effects | None = inputs.domain.effects
+    if effects and generation.changes is not None and inputs.last.version is not None and generation.changes.changes:
+        for path, finding in effects.find_doubtful(inputs.last.version, generation.now, generation.changes.renames):
             line = generation.lines.get(path, 0)
             findings.append(msgspec.structs.replace(finding, file=shown(inputs.robot.source), line=line))
     if decision.is_complete:
@@ -92,8 +93,9 @@ def _hint(generation: Generation, renamed: Mapping[str, str], use: Unresolved) -
         return f"use `{target.package}` instead"
     if name := new_name(use.part, renamed, use.candidates):
         return f"use `{name}` instead"
+    advice: Advice | None = inputs.domain.advice
     for name in dict.fromkeys((use.part, next(new_names(use.part, renamed), use.part))):
-        if option := inputs.domain.option_for(name, generation.now.snapshot, target, options):
+        if advice and (option := advice.option_for(name, generation.now.snapshot, target, options)):
             return brings_back(option, name if name != use.part else "")
     if use.near:
         return f"did you mean `{use.meant}`?"
@@ -134,9 +136,15 @@ def _changed_connectors(generation: Generation) -> Iterator[Diagnostic]:
     """Notes on what users may have connected to, and what has another name now, or none; one note on what is new."""
     inputs, changes = generation.inputs, generation.changes
     complete, robot = inputs.last.version, inputs.robot
-    if complete is None or changes is None or changes.change_class.rank < ChangeClass.STRUCTURAL.rank:
+    effects: Effects | None = inputs.domain.effects
+    if (
+        effects is None
+        or complete is None
+        or changes is None
+        or changes.change_class.rank < ChangeClass.STRUCTURAL.rank
+    ):
         return
-    connectors = inputs.domain.interface(complete, generation.now, changes.renames, robot.target, robot.options)
+    connectors = effects.interface(complete, generation.now, changes.renames, robot.target, robot.options)
     if new := [f"`{connector_change.new}`" for connector_change in connectors if connector_change.old is None]:
         message = f"there is more to connect to: {_first(new, _NEW)}"
         yield Diagnostic(Severity.NOTE, CONNECTORS, message, shown(robot.source))

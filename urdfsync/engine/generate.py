@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 import msgspec
 
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
-from urdfsync.domain import Artifact, Domain, Import, Order, Snapshot, Target, Templates
-from urdfsync.files import digest, normalised, shown, text_digest
+from urdfsync.domain import Artifact, Domain, Import, Order, Snapshot, Target
+from urdfsync.files import Templates, digest, normalised, shown, text_digest
 from urdfsync.modelica.files import class_path
 
 if TYPE_CHECKING:

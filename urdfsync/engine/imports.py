@@ -7,10 +7,10 @@ import itertools
 import os
 import re
 import stat
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 from pathlib import Path, PurePosixPath
-from typing import Any
+from typing import Any, Protocol
 
 import msgspec
 
@@ -193,16 +193,35 @@ def _import(
     return None
 
 
+class Mentions(Protocol):
+    """What a domain says of files beside those that it converts; its attribute `imports`."""
+
+    def mentioned(self, dependency: Dependency, file: str, content: bytes) -> Sequence[str]:
+        """Return the files that the conversion needs besides: paths from the folder of the dependency's own file.
+
+        Asked of the dependency's file, then of each file that is found so. Pure.
+        """
+        ...
+
+    def findings(self, imports: Mapping[str, Import]) -> Iterable[tuple[str, Diagnostic]]:
+        """Return diagnostics about imported files, without place, each with the key of its file; empty for all files.
+
+        The core adds the line of the dependency.
+        """
+        ...
+
+
 def _read_mentioned(domain: Domain, dependency: Dependency, path: Path, content: bytes) -> dict[str, bytes]:
     """Return the files that a conversion needs besides, by their paths from the file's folder; empty if unreadable."""
-    contents, waiting = dict[str, bytes](), [*domain.mentioned(dependency, path.name, content)]
-    while waiting and len(contents) < _MOST_OTHERS and sum(map(len, contents.values())) < MAX_FILE:
+    mentions: Mentions | None = domain.imports
+    contents, waiting = dict[str, bytes](), [*mentions.mentioned(dependency, path.name, content)] if mentions else []
+    while mentions and waiting and len(contents) < _MOST_OTHERS and sum(map(len, contents.values())) < MAX_FILE:
         name = waiting.pop(0)
         if name not in contents:
             contents[name] = b""
             with contextlib.suppress(OSError, ValueError):  # the conversion goes without it
                 contents[name] = read_file(path.parent / name)
-                waiting += domain.mentioned(dependency, name, contents[name])
+                waiting += mentions.mentioned(dependency, name, contents[name])
     return contents
 
 

@@ -11,7 +11,7 @@ from urdfsync import __version__, registry
 from urdfsync.config import Config, RobotConfig
 from urdfsync.dependencies import file_type
 from urdfsync.diagnostics import Diagnostic, OutputError, UrdfsyncError
-from urdfsync.domain import Domain, Templates
+from urdfsync.domain import Domain
 from urdfsync.engine import parents, source
 from urdfsync.engine.last_build import LastBuild, option_values
 from urdfsync.engine.options import BuildOptions
@@ -20,7 +20,7 @@ from urdfsync.engine.parents import Parents
 from urdfsync.engine.program import program_hash
 from urdfsync.engine.source import Source
 from urdfsync.engine.users_files import UsersFiles, find_users_files
-from urdfsync.files import shown
+from urdfsync.files import Templates, shown
 from urdfsync.state.record import Generator, Record
 from urdfsync.state.store import Store
 

@@ -12,12 +12,12 @@ import msgspec
 
 from urdfsync.config import RobotConfig
 from urdfsync.diagnostics import UrdfsyncError
-from urdfsync.domain import Domain, Import, Lookup, Role, Target, Templates, Version
+from urdfsync.domain import Domain, Import, Lookup, Role, Target, Version
 from urdfsync.engine.generate import Package, generate
 from urdfsync.engine.imports import MOST_PARTS, RecordedFile, places_of
 from urdfsync.engine.package_files import Folder, PackageFiles
 from urdfsync.engine.rules import NEVER_WRITTEN, OnDisk
-from urdfsync.files import digest
+from urdfsync.files import Templates, digest
 from urdfsync.state.notes import Notes
 from urdfsync.state.record import FileRecord, Record
 from urdfsync.state.store import Aside, Store

@@ -10,19 +10,20 @@ import stat
 from bisect import bisect_right
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 import msgspec
 
 from urdfsync import registry
 from urdfsync.config import Config, RobotConfig, templates_folder
+from urdfsync.config.advice import permissive_options
 from urdfsync.config.trust import find_untrusted_command
 from urdfsync.dependencies import depend_on, file_type, is_file, is_folder, mark_incomplete, note_names, read_file
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError, UrdfsyncError
-from urdfsync.domain import Domain, Reading, Snapshot, Templates
+from urdfsync.domain import Domain, Reading, Snapshot
 from urdfsync.engine.options import BuildOptions
 from urdfsync.facts import read_unrecorded
-from urdfsync.files import digest, kind_of, shown, templates_digest
+from urdfsync.files import Templates, digest, kind_of, shown, templates_digest
 from urdfsync.state.expansion import Expansion, dumps
 from urdfsync.state.store import Store
 
@@ -174,15 +175,31 @@ def _expand(config: Config, robot: RobotConfig, inputs: Inputs, options: BuildOp
     return made
 
 
+class Beside(Protocol):
+    """What a domain says of the file that may stand beside a source; its attribute `beside`."""
+
+    def find(self, source: Path) -> Path:
+        """Return the place of the file beside a source."""
+        ...
+
+    def join(self, content: bytes, other: bytes, file: str) -> tuple[bytes, Sequence[tuple[int, int]]]:
+        """Return a source with further lines for what the file beside it says, and the numbers of each, here and there.
+
+        `file` is how diagnostics name it. Raises SourceError if it can't be read.
+        """
+        ...
+
+
 def _with_file_beside(domain: Domain, source: Path, content: bytes) -> Source:
     """Return a source that may have a file beside it. Raises SourceError."""
-    path = domain.beside(source)
+    path = domain.beside and domain.beside.find(source)
     return joined(domain, content, shown(source), read_file(path) if path and is_file(path) else b"", path)
 
 
 def joined(domain: Domain, content: bytes, name: str, other: bytes, path: Path | None) -> Source:
     """Return a source with what the file beside it says, at `path`. Raises SourceError."""
-    text, lines = domain.join(content, other, shown(path)) if path and other else (content, ())
+    beside: Beside | None = domain.beside
+    text, lines = beside.join(content, other, shown(path)) if beside and path and other else (content, ())
     if not lines:
         return Source(content, name)
     own = [(line, name, line) for line in range(1, lines[0][0])]
@@ -304,6 +321,12 @@ def read(domain: Domain, options: Any, content: bytes, name: str) -> tuple[Snaps
     if reading.snapshot is None or any(finding.severity is Severity.ERROR for finding in reading.diagnostics):
         raise SourceError(*reading.diagnostics)
     return reading.snapshot, reading
+
+
+def read_permissively(domain: Domain, text: Source) -> tuple[Snapshot, Reading]:
+    """Return what `read` does, of a source outside of a project: the domain advises on its options."""
+    with text.locating():
+        return read(domain, permissive_options(domain), text.content, text.name)
 
 
 @functools.lru_cache(maxsize=4)

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
+from typing import Any, TypeAlias
 
 import msgspec
 
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
-from urdfsync.domain import ChangeClass, Role
+from urdfsync.domain import ChangeClass, Import, Role, Snapshot, Target
 from urdfsync.engine.actions import Action, Actions, Reason
 from urdfsync.engine.aside import put_aside
 from urdfsync.engine.decide import Decision
@@ -31,6 +32,9 @@ from urdfsync.state.notes import Notes, Use
 from urdfsync.state.record import FileRecord, Open, Record
 from urdfsync.state.store import Aside, StateHashes
 from urdfsync.state.transaction import FileChange
+
+Drawing: TypeAlias = Callable[[Snapshot, Mapping[str, Import], Target, Any], str | None]
+"""Returns the main model's diagram as SVG text, None for none, and is pure; the attribute `drawing` of a domain."""
 
 
 class Plan(msgspec.Struct, frozen=True):
@@ -66,7 +70,8 @@ def stage(
     )
     is_writing = bool(files) or any(action.writes for action in actions)
     model = generation.now.snapshot, generation.imported.imports, robot.target, robot.options
-    picture = inputs.domain.drawing(*model) if inputs.options.draw else None
+    draw: Drawing | None = inputs.domain.drawing
+    picture = draw(*model) if draw and inputs.options.draw else None
     drawing = None if picture is None else store.drawing(robot.name)
     changes = [*files.values(), *(store.save(drawing, picture.encode()) if picture and drawing else ())]
     if inputs.options.removes:

@@ -14,8 +14,8 @@ from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
-from urdfsync.changes import Change, Changes, is_number
-from urdfsync.domain import ChangeClass, ChangeKind, Effect
+from urdfsync.changes import Change, Changes, Effect, is_number
+from urdfsync.domain import ChangeClass, ChangeKind
 from urdfsync.spelling import same_count
 
 _NAMES = 140

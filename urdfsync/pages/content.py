@@ -17,6 +17,7 @@ from urdfsync.engine.inputs import inspect
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.renames import find_matching
 from urdfsync.engine.result import DisputedFile
+from urdfsync.engine.stage import Drawing
 from urdfsync.files import shown
 from urdfsync.output.outline import outline
 from urdfsync.output.sections import Section
@@ -70,7 +71,8 @@ def gather(
     generation = generate_robot(inspect(config, robot, options))
     compared, older = _with_older(compared, generation, shown_before)
     changes, result = compared.result.changes or Changes(), compared.result
-    domain, snapshot = generation.inputs.domain, generation.now.snapshot
+    draw: Drawing | None = generation.inputs.domain.drawing
+    model = generation.now.snapshot, generation.imported.imports, robot.target, robot.options
     actions = result.actions if against is None else None  # others are those of a comparison
     return Content(
         robot=robot,
@@ -82,7 +84,7 @@ def gather(
         renamed={f"{kind} {old}": f"{kind} {new}" for (kind, old), new in changes.renames.items()},
         changes=_change_words(changes),
         files=_files(generation),
-        diagram=domain.drawing(snapshot, generation.imported.imports, robot.target, robot.options) or "",
+        diagram=(draw and draw(*model)) or "",
         edits=RobotEdits(robot.name, config.root, tuple(find_edited(generation, actions))),
         conflicts=result.conflicts,
     )

@@ -12,11 +12,11 @@ from urdfsync.checks import cache as caches
 from urdfsync.checks.fingerprint import program
 from urdfsync.dependencies import read_file
 from urdfsync.diagnostics import UrdfsyncError
-from urdfsync.domain import Domain, Import
+from urdfsync.domain import Import
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.last_build import NO_MODEL
 from urdfsync.files import digest, shown
-from urdfsync.scene import Scene, Triangles
+from urdfsync.pages.scene import Pictures, Scene, Triangles
 from urdfsync.versions.comparison import Contents
 
 _MOST, _MOST_IN_ALL = 60_000, 500_000
@@ -47,7 +47,7 @@ class _File(NamedTuple):
 
 def picture(generation: Generation, older: Contents | None) -> Picture:
     """Return the picture of a robot, beside an older version. Raises UrdfsyncError for a domain without pictures."""
-    robot, domain, refused = generation.inputs.robot, generation.inputs.domain, generation.imported.refused
+    robot, refused = generation.inputs.robot, generation.imported.refused
     imports, files = _by_hash((generation.now, generation.imported.contents))
     for dependency, file in refused[:_MOST_REFUSED]:
         if dependency.key not in imports:  # else the copy of an earlier build is there
@@ -56,20 +56,21 @@ def picture(generation: Generation, older: Contents | None) -> Picture:
                 name = f"{digest(content)} {dependency.key}"
                 imports[dependency.key] = Import(name, "", "", {})
                 files[name] = _File(dependency.target, content, dependency.key)
-    now, before = domain.scene(generation.now.snapshot, imports, robot.target, robot.options), None
-    if now is None:
+    pictures: Pictures | None = generation.inputs.domain.pictures
+    if pictures is None:
         message = f"packages of the domain `{robot.domain}` have no picture"
         raise UrdfsyncError.of("no-picture", message, shown(robot.source))
+    now, before = pictures.scene(generation.now.snapshot, imports, robot.target, robot.options), None
     if older:
         version, (imports, files_before) = older[0], _by_hash(older)
         with contextlib.suppress(*NO_MODEL):  # what is recorded may be no model
-            before = domain.scene(version.snapshot, imports, robot.target, version.options or robot.options)
+            before = pictures.scene(version.snapshot, imports, robot.target, version.options or robot.options)
         files |= files_before
     used = {shape.mesh for scene in (now, before) if scene for body in scene.bodies for shape in body.shapes}
     names = sorted(used & files.keys())
     most, code = min(_MOST, _MOST_IN_ALL // max(1, len(names))), program(robot.domain)
     cache = caches.UserCache.default()
-    meshes = {name: _read(domain, cache, name, files[name], most, code) for name in names}
+    meshes = {name: _read(pictures, cache, name, files[name], most, code) for name in names}
     if any(isinstance(mesh, Triangles) and mesh.is_simplified for mesh in meshes.values()):
         cache.trim()
     notes = (f"{files[name].path} {note}" for name, mesh in meshes.items() if (note := _note(mesh)))
@@ -86,13 +87,13 @@ def _by_hash(version: Contents) -> tuple[dict[str, Import], dict[str, _File]]:
 
 
 def _read(
-    domain: Domain, cache: caches.UserCache, name: str, file: _File, most: int, code: Iterable[object]
+    pictures: Pictures, cache: caches.UserCache, name: str, file: _File, most: int, code: Iterable[object]
 ) -> Triangles | str:
     """Return the triangles of a mesh, or why it can't be shown."""
     key = caches.digest(name, file.path, most, *code)
     if known := cache.load(key, Triangles):
         return known
-    mesh = domain.triangles(*file, most)
+    mesh = pictures.triangles(*file, most)
     if isinstance(mesh, Triangles) and mesh.is_simplified:  # which takes up to 16 s
         cache.save(key, mesh)
     return mesh

@@ -18,12 +18,12 @@ from urdfsync.checks.process import limits_of
 from urdfsync.checks.texts import check_around, check_layout
 from urdfsync.config import Config, RobotConfig, find_own_library
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, UrdfsyncError
-from urdfsync.domain import Bench
 from urdfsync.engine.options import BuildOptions
 from urdfsync.files import shown
 from urdfsync.modelica.names import STANDARD_LIBRARIES
 from urdfsync.modelica.scopes import Scopes
 from urdfsync.modelica.stored import StoredClasses
+from urdfsync.simulation.bench import Bench, Benches
 from urdfsync.simulation.models import Model, find_model
 from urdfsync.simulation.results import SimulateOptions
 from urdfsync.simulation.values import find_unknown, read_values
@@ -54,7 +54,9 @@ def prepare(config: Config, robot: RobotConfig, options: SimulateOptions, *, for
         raise ConfigError.of("not-built", message, place, hint=hint)
     message, hint = "the package is out of step with its source; it is taken as it is", "run `urdfsync build`"
     late = Diagnostic(Severity.WARNING, "out-of-step", message, place, hint=hint)
-    bench = package.bench or Bench("", "", ())
+    benches: Benches | None = package.generation.inputs.domain.simulation
+    bench = benches.bench(package.generation.now.snapshot, robot.target, robot.options) if benches else None
+    bench = bench or Bench("", "", ())
     name = options.model or (bench.run if for_export or options.motion else "")
     name = name or ("" if options.motion else bench.test)
     if not name:

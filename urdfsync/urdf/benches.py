@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from urdfsync.domain import Axis, Bench, LoopSignals, Signal, Target
+from urdfsync.domain import Snapshot, Target
+from urdfsync.simulation.bench import Axis, Bench, LoopSignals, Signal
 from urdfsync.urdf.artifacts import has_bench
 from urdfsync.urdf.connectors import connector_names
 from urdfsync.urdf.drives import assembly
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS, MOTIONS, Joint, JointType, Motion, limits_acceleration
+from urdfsync.urdf.snapshot import from_snapshot
 
 _VARIABLES: Mapping[Motion, tuple[str, str, str, str]] = {
     "rotational": ("revolute.phi", "revolute.w", "tau", "revolute.a"),
@@ -30,19 +32,24 @@ _FREEDOMS: Mapping[JointType, int] = {"fixed": 0, "planar": 3, "floating": 6}
 """Degrees of freedom of joints that do not have one."""
 
 
-def bench(tree: KinematicTree, target: Target, options: Options) -> Bench | None:
+def bench(snapshot: Snapshot, target: Target, options: Options) -> Bench | None:
     """Return how a robot is simulated: by Test and Run of its package, else by the generic robot with its record."""
-    dependent = assembly(tree, options).dependent
-    independent = (joint for joint in tree.joints if joint.mimic is None and joint.name not in dependent)
-    freedoms = sum(_FREEDOMS.get(joint.type, 1) for joint in independent)
-    freedoms += _FREEDOMS["floating"] if options.base == "floating" else 0
-    layouts = {"package": _axes(tree, options, dependent), "record": _generic_axes(tree)}
+    tree = KinematicTree.of(from_snapshot(snapshot), (target.name,))
+    layouts = {"package": _axes(tree, options, assembly(tree, options).dependent), "record": _generic_axes(tree)}
     axes = tuple(tuple(layout) for approach, layout in layouts.items() if approach in options.approach)
     if "package" in options.approach:
-        return Bench(f"{target.name}Test", f"{target.name}Run", axes, freedoms, tuple(_loops(tree)))
-    if has_bench(tree.joints, options):
-        return Bench(f"{target.name}Generic", "", axes, freedoms)
-    return None
+        return Bench(f"{target.name}Test", f"{target.name}Run", axes, tuple(_loops(tree)))
+    return Bench(f"{target.name}Generic", "", axes) if has_bench(tree.joints, options) else None
+
+
+def freedoms(tree: KinematicTree, options: Options) -> int | None:
+    """Return the degrees of freedom of a robot in its bench; None if there is none."""
+    if "package" not in options.approach and not has_bench(tree.joints, options):
+        return None
+    dependent = assembly(tree, options).dependent
+    independent = (joint for joint in tree.joints if joint.mimic is None and joint.name not in dependent)
+    base = _FREEDOMS["floating"] if options.base == "floating" else 0
+    return base + sum(_FREEDOMS.get(joint.type, 1) for joint in independent)
 
 
 def _loops(tree: KinematicTree) -> Iterator[LoopSignals]:

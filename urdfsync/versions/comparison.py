@@ -16,10 +16,11 @@ from typing import NamedTuple, TypeAlias
 import msgspec
 
 from urdfsync import changes, registry
-from urdfsync.changes import Changes
+from urdfsync.changes import Changes, Effect, Effects
 from urdfsync.config import FILE_NAME, Config, RobotConfig
+from urdfsync.config.advice import permissive_options
 from urdfsync.diagnostics import ConfigError, Diagnostic, SourceError, findings_of
-from urdfsync.domain import ChangeClass, Domain, Effect, Lookup, Role, Target, Version
+from urdfsync.domain import ChangeClass, Domain, Lookup, Role, Target, Version
 from urdfsync.engine import imports
 from urdfsync.engine import source as source_files
 from urdfsync.engine.actions import Action, Actions, Reason
@@ -130,7 +131,7 @@ def select_sources(
 def robot_of_file(path: Path) -> RobotConfig:
     """Return a robot for a source that is in no configuration, with default settings; what can be left out is."""
     name = class_name(path.name.partition(".")[0])
-    options = registry.domain(_DOMAIN).permissive_options()
+    options = permissive_options(registry.domain(_DOMAIN))
     return RobotConfig(
         name=path.name,
         source=path,
@@ -269,7 +270,7 @@ def _in_revision(revision: Revision, robot: RobotConfig, config: Config | None) 
         content = revision.read(robot.source)
         if config is None or not source_files.is_xacro(robot.source, content):
             domain = registry.domain(robot.domain)
-            beside = domain.beside(robot.source)
+            beside = domain.beside and domain.beside.find(robot.source)
             other = revision.contents([beside]).get(beside, b"") if beside else b""
             return source_files.joined(domain, content, label, other, beside)
     path = Store(config.root).expansion(robot.name)
@@ -295,7 +296,10 @@ def _files_of(
 def _effects(
     domain: Domain, old: Version, new: Version, differences: Changes, robot: RobotConfig
 ) -> tuple[Effect, ...]:
-    return (*domain.effects(old, new), *domain.interface(old, new, differences.renames, robot.target, robot.options))
+    asked: Effects | None = domain.effects
+    if asked is None:
+        return ()
+    return (*asked.effects(old, new), *asked.interface(old, new, differences.renames, robot.target, robot.options))
 
 
 def _read(

@@ -16,8 +16,9 @@ from support.cases import often
 from support.packages import RENDERER, read
 
 from urdfsync.changes import compare
-from urdfsync.domain import Artifact, ChangeClass, Import, Lookup, Order, Role, Snapshot, Target, Templates, Version
+from urdfsync.domain import Artifact, ChangeClass, Import, Lookup, Order, Role, Snapshot, Target, Version
 from urdfsync.engine.generate import Package
+from urdfsync.files import Templates
 from urdfsync.urdf.domain import DOMAIN
 from urdfsync.urdf.options import Options
 

@@ -8,7 +8,8 @@ import msgspec
 import pytest
 from support.urdfs import joint, link, links, version
 
-from urdfsync.domain import Effect, ElementKey, Target, Version
+from urdfsync.changes import Effect
+from urdfsync.domain import ElementKey, Target, Version
 from urdfsync.urdf.diff.effects import effects, find_doubtful, interface
 from urdfsync.urdf.names import identify
 from urdfsync.urdf.options import Options

@@ -7,7 +7,7 @@ import pytest
 import trimesh
 from support.meshes import stl
 
-from urdfsync.scene import Triangles
+from urdfsync.pages.scene import Triangles
 from urdfsync.urdf.meshes.convert import triangles
 
 

@@ -9,7 +9,8 @@ import pytest
 from msgspec.structs import replace
 from support.loops import FOUR_BAR, ROBOTS, joint, to_urdf
 
-from urdfsync.domain import Sample, Target
+from urdfsync.checks.experiment import Sample
+from urdfsync.domain import Target
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.physics.closing import OpenLoopError

@@ -11,8 +11,9 @@ from support.loops import FOUR_BAR, to_options, to_urdf
 from support.urdfs import dynamics, joint, limit, link, links, robot
 
 from urdfsync.checks.compilation import compare_all
+from urdfsync.checks.experiment import TOLERANCE, Experiment, Part, Quantity, Sample
 from urdfsync.diagnostics import SourceError
-from urdfsync.domain import TOLERANCE, Experiment, Part, Quantity, Sample, Target
+from urdfsync.domain import Target
 from urdfsync.urdf.domain import DOMAIN
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.physics.reference import read
@@ -29,7 +30,7 @@ BARE = robot(link("base"), link("arm"), joint("elbow", "continuous", "base", "ar
 
 
 def experiment(urdf: str, step: Any = None, **options: Any) -> Experiment:
-    found = DOMAIN.experiment(Sample(urdf.encode(), "robot.urdf", BOT, Options(**options), {}), step)
+    found = DOMAIN.checks.experiment(Sample(urdf.encode(), "robot.urdf", BOT, Options(**options), {}), step)
     assert isinstance(found, Experiment)
     return found
 
@@ -92,7 +93,7 @@ def test_without_pinocchio_there_is_no_experiment(monkeypatch: pytest.MonkeyPatc
 def test_a_robot_with_a_joint_that_nothing_drives_is_not_compared(kind: str, approach: tuple[str, ...]) -> None:
     loose = ELBOW.replace('type="revolute"', f'type="{kind}"').encode()
     options = Options(approach=approach)  # type: ignore[arg-type]
-    assert DOMAIN.experiment(Sample(loose, "robot.urdf", BOT, options, {})) == (
+    assert DOMAIN.checks.experiment(Sample(loose, "robot.urdf", BOT, options, {})) == (
         f"joint elbow is {kind}, and nothing prescribes how it moves"
     )
 

@@ -5,8 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 
+from urdfsync.changes import Effect
+from urdfsync.config.advice import brings_back
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.domain import Effect, ElementKey, Target, Version, brings_back, displaced
+from urdfsync.domain import ElementKey, Target, Version, displaced
 from urdfsync.urdf.connectors import Connectors, connector_names, connector_options, every_connector, input_vector
 from urdfsync.urdf.kinematics.poses import compose, link_poses, pose
 from urdfsync.urdf.kinematics.tree import KinematicTree

@@ -19,7 +19,8 @@ from urllib.parse import unquote
 
 import msgspec
 
-from urdfsync.domain import Dependency, Lookup
+from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.domain import Dependency, Import, Lookup
 from urdfsync.urdf.robot import Mesh, Vector
 
 UNIT_SCALE: Vector = (1.0, 1.0, 1.0)
@@ -85,6 +86,25 @@ def _has_colors(mesh: Mesh, visual: Mapping[str, Any]) -> bool:
     """Return whether a visual has the colours of its mesh: the URDF gives it none."""
     material = visual.get("material") or {}
     return suffix(mesh.filename) in COLORED and material.get("rgba") is None
+
+
+def mentioned(dependency: Dependency, file: str, content: bytes) -> Sequence[str]:
+    """Return the buffers of a glTF file, and materials and textures of a mesh whose own colours are drawn."""
+    is_needed = TEXTURED in dependency.facts or suffix(dependency.uri) == GLTF
+    return mentioned_files(file, content) if is_needed else ()
+
+
+def findings(imports: Mapping[str, Import]) -> Iterator[tuple[str, Diagnostic]]:
+    """Yield a warning for each mesh without some of its colours, and a note if textures become colours."""
+    for key, file in imports.items():
+        if missing := file.facts.get(COLORLESS):
+            message = f"mesh `{mesh(key).filename}` lacks colours: "
+            hint = "put what is missing beside the mesh, or give the visual a <material>"
+            yield key, Diagnostic(Severity.WARNING, "mesh-colors", message + "; ".join(missing), hint=hint)
+    count = sum(bool(file.facts.get(TEXTURED)) for file in imports.values())
+    if count:
+        message = f"{count} {'mesh has' if count == 1 else 'meshes have'} textures, which become their mean colours"
+        yield "", Diagnostic(Severity.NOTE, "texture", message)
 
 
 def mentioned_files(file: str, content: bytes) -> list[str]:

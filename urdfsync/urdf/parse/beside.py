@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
 from typing import Any
 from xml.etree.ElementTree import SubElement
 
@@ -36,6 +37,11 @@ _DEEPEST = 50
 _MOST = 10_000_000
 """Characters of all elements: aliases may repeat a long name 10,000 times."""
 _DIRECTIONS = {"x": "1 0 0", "y": "0 1 0", "z": "0 0 1"}
+
+
+def find(source: Path) -> Path:
+    """Return the place of the YAML with the loops of a robot."""
+    return source.with_suffix(".yaml")
 
 
 def join(content: bytes, other: bytes, file: str) -> tuple[bytes, Sequence[tuple[int, int]]]:

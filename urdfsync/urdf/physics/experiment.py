@@ -7,8 +7,8 @@ from collections.abc import Iterator
 import msgspec
 import numpy as np
 
+from urdfsync.checks.experiment import Compared, Experiment, Part, Quantity, Sample, Trial
 from urdfsync.diagnostics import SourceError
-from urdfsync.domain import Compared, Experiment, Part, Quantity, Sample, Trial
 from urdfsync.urdf.drives import assembly, friction_law, is_chosen
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.model.record import obstacles

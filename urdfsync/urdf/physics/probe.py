@@ -10,7 +10,8 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync.domain import Probe, Target
+from urdfsync.checks.experiment import Probe
+from urdfsync.domain import Target
 from urdfsync.modelica.literals import matrix, vector
 from urdfsync.urdf.connectors import connector_names
 from urdfsync.urdf.kinematics.tree import KinematicTree

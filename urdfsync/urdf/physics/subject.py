@@ -11,7 +11,8 @@ from xml.etree.ElementTree import Element
 import numpy as np
 from numpy.polynomial import Polynomial
 
-from urdfsync.domain import Import, Sample
+from urdfsync.checks.experiment import Sample
+from urdfsync.domain import Import
 from urdfsync.urdf.drives import assembly
 from urdfsync.urdf.kinematics.poses import start_positions
 from urdfsync.urdf.kinematics.tree import KinematicTree

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 
-from urdfsync.domain import Deviation, Part, Quantity, Target
+from urdfsync.checks.experiment import Deviation, Part, Quantity
+from urdfsync.domain import Target
 from urdfsync.modelica.literals import string
 from urdfsync.modelica.parser import parse
 from urdfsync.modelica.syntax import Class, Component, Modifier, Name

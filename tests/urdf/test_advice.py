@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from support import corpus as real
 
-from urdfsync.urdf.kinematics.base_guess import guess_base
+from urdfsync.urdf.advice import guess_base
 from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.robot import Joint, JointType, Link, Robot
 

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import TypeAlias
+from collections.abc import Mapping, Sequence
+from typing import Any, Protocol, TypeAlias
 
 import msgspec
+
+from urdfsync.domain import Import, Snapshot, Target
 
 Pose: TypeAlias = tuple[float, ...]
 """16 numbers of a homogeneous matrix, column after column, as WebGL has them."""
@@ -116,3 +118,21 @@ class Triangles(msgspec.Struct, frozen=True):
     """Number of triangles of the file itself."""
     is_simplified: bool
     """Whether corners that are apart in the file have become one."""
+
+
+class Pictures(Protocol):
+    """What pages ask of a domain; its attribute `pictures`."""
+
+    def scene(self, snapshot: Snapshot, imports: Mapping[str, Import], target: Target, options: Any) -> Scene:
+        """Return the model as a picture with axes to move. Pure.
+
+        An import without facts is a file that is too large for the package.
+        """
+        ...
+
+    def triangles(self, path: str, content: bytes, key: str, most: int) -> Triangles | str:
+        """Return at `most` so many triangles of a mesh, or about that; or why there are none.
+
+        It is an imported file at `path`, or what the dependency `key` has, if that is too large to be imported.
+        """
+        ...

@@ -1,0 +1,219 @@
+"""Comparisons of a package with an independent reference, in values, and what `check` asks of a domain."""
+
+from __future__ import annotations
+
+import enum
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any, Protocol
+
+import msgspec
+
+from urdfsync.diagnostics import Diagnostic
+from urdfsync.domain import Import, Snapshot, Target
+
+
+class Part(enum.StrEnum):
+    """Part of a model that a verdict speaks of."""
+
+    BODIES = "rigid bodies"
+    LOSSES = "friction and gears"
+    FREE_MOTION = "free motion"
+    """Accelerations that follow from efforts."""
+    LOOPS = "loops"
+    """Gaps, and the forces that close them."""
+    BENCHES = "Run and Test"
+    SENSORS = "sensors"
+    LIMITS = "limits"
+    CONTACTS = "contacts"
+
+
+class Quantity(enum.StrEnum):
+    """Quantity of a frame, an axis, the root or the whole model that is compared with a reference; in SI units."""
+
+    POSITION = "position"
+    ORIENTATION = "orientation"
+    """Elements of the rotation matrix."""
+    EFFORT = "effort"
+    REACTION = "reaction"
+    """Force and torque that hold the root."""
+    MASS = "mass"
+    CENTRE = "centre of mass"
+    ACCELERATION = "acceleration"
+    READING = "reading"
+    """Of a sensor."""
+    GEAR = "gear"
+    """Reduction, offset and inertia of the rotor."""
+    WARNING = "warning"
+    """Whether a limit is passed: 1 if so, else 0."""
+    CONNECTION = "connection"
+    """Whether a bench is connected as it should be: 0 if so, else 1."""
+    GROUND = "ground force"
+    CLOSURE = "gap"
+    """From one frame of a loop to the other."""
+
+
+TOLERANCE = 1e-10
+"""The greatest difference that counts as agreement, relative to the greatest value of its kind or 1."""
+_TOLERANCES = {
+    Quantity.ACCELERATION: 1e-7,  # equations are solved for them, where digits are lost
+    Quantity.GROUND: 1e-2,  # without a reference, and stiff: 1 % of the depth makes 1 % of the force
+}
+
+
+class Deviation(msgspec.Struct, frozen=True):
+    """Greatest deviation of one quantity of one element from the reference, over all instants."""
+
+    KEYS = ("quantity", "element", "difference", "value", "size", "unit", "part", "detail", "relative", "agrees")
+
+    quantity: Quantity
+    element: str
+    """The element in the domain's words: `link hand`, `joint elbow`, `robot`."""
+    difference: float
+    """The greatest absolute difference, in `unit`; infinite or NaN if the simulation gave no number."""
+    value: float
+    """The greatest absolute value of the reference for this element, in `unit`."""
+    size: float
+    """The greatest absolute value of the reference for this quantity in this unit over all elements."""
+    unit: str
+    part: Part = Part.BODIES
+    detail: str = ""
+    """Which one of several: `below its lower position limit`."""
+    least_tolerance: float = 0.0
+    """See `Compared.least_tolerance`."""
+
+    @property
+    def key(self) -> tuple[str, ...]:
+        """All that says which quantity of which element this is."""
+        return self.part, self.quantity, self.element, self.unit, self.detail
+
+    @property
+    def relative(self) -> float:
+        """Difference in relation to the greatest value of its kind, or to 1; infinite if that is no number."""
+        relative = self.difference / max(1.0, self.size)
+        return math.inf if math.isnan(relative) else relative
+
+    @property
+    def tolerance(self) -> float:
+        """The greatest relative difference that counts as agreement."""
+        return max(_TOLERANCES.get(self.quantity, TOLERANCE), self.least_tolerance)
+
+    @property
+    def agrees(self) -> bool:
+        """Whether the difference is within the tolerance."""
+        return self.relative <= self.tolerance
+
+
+class Probe(msgspec.Struct, frozen=True):
+    """A model that puts a package to the test: Modelica text, what to simulate, and which values to hand back."""
+
+    source: str
+    """One package; it names the libraries that it needs in imports."""
+    model: str
+    """Full name of the model in it."""
+    stop: float
+    """End of the simulation that begins at 0, in s."""
+    step: float
+    """Interval of results, in s."""
+    values: tuple[str, ...]
+    optional: tuple[str, ...] = ()
+    """Variables that are handed back as well, if the package has them."""
+    tolerance: float | None = None
+    """Of the integration; None for the compiler's own."""
+
+
+class Compared(msgspec.Struct, frozen=True):
+    """One quantity of one element that is compared: which values of the probe it is made of, and when."""
+
+    quantity: Quantity
+    element: str
+    unit: str
+    values: tuple[str, ...]
+    instants: tuple[float, ...]
+    """Times, in s."""
+    part: Part = Part.BODIES
+    detail: str = ""
+    """See `Deviation.detail`."""
+    least_tolerance: float = 0.0
+    """The least relative difference that counts as agreement, where a compiler loses more digits than usual."""
+
+
+class Trial(msgspec.Struct, frozen=True):
+    """One simulation of an experiment."""
+
+    name: str
+    """In words, for messages: `free motion`."""
+    probe: Probe
+    compared: tuple[Compared, ...]
+    """From the root outwards."""
+    expected: Mapping[str, tuple[float, ...]]
+    """Expected numbers of each value at the times in `time`; NaN is possible."""
+    over_time: tuple[Compared, ...] = ()
+    """What is drawn at all times, and no part of the verdict."""
+    expected_over_time: Mapping[str, tuple[float, ...]] = {}
+    """The same as `expected` for it."""
+
+
+class Experiment(msgspec.Struct, frozen=True):
+    """A comparison of a generated package with an independent reference that reads the same source."""
+
+    reference: str
+    """Name and version."""
+    content: bytes
+    """The source to generate the package from: the one given, or a copy that has what a comparison needs."""
+    options: Any
+    """The options to generate it with, likewise."""
+    trials: tuple[Trial, ...]
+    """They move a package that follows from `content`, and as well one that follows from the source.
+
+    The first one tells what single edits do; it has to come to its end.
+    """
+    notes: tuple[str, ...] = ()
+    """Differences of `content` from the given source, with reasons: one sentence each, without a full stop."""
+    unchecked: tuple[str, ...] = ()
+    """Parts that are not compared, with reasons, likewise."""
+
+
+class Sample(msgspec.Struct, frozen=True):
+    """A source, and what its package is generated with."""
+
+    content: bytes
+    file: str
+    """The source's name in diagnostics."""
+    target: Target
+    options: Any
+    imports: Mapping[str, Import]
+
+
+class Checks(Protocol):
+    """What `check` asks of a domain; its attribute `checks`."""
+
+    def cross_check(self, content: bytes, file: str) -> Sequence[Diagnostic]:
+        """Return differences from the model that another reader finds in a source without errors. It may take long.
+
+        `file` is the source's name in diagnostics.
+        """
+        ...
+
+    def models(self, snapshot: Snapshot, target: Target, options: Any) -> Sequence[str]:
+        """Return the classes that have to compile by themselves, by name below the package, the main one first."""
+        ...
+
+    def freedoms(self, snapshot: Snapshot, options: Any) -> int | None:
+        """Return the degrees of freedom of the main model; None if nothing in the package can be simulated."""
+        ...
+
+    def experiment(self, sample: Sample, step: float | None = None) -> Experiment | str:
+        """Return a comparison of the generated package with an independent reference, or why there is none.
+
+        What the source lacks for a telling comparison (inertias, say) is made up. With a `step`, in s, there is
+        something to draw: `Trial.over_time`. It runs in a process of its own. Raises SourceError if the reference can't
+        be had or can't read it.
+        """
+        ...
+
+    def wiring(
+        self, texts: Mapping[str, bytes], snapshot: Snapshot, target: Target, options: Any
+    ) -> Iterable[Deviation]:
+        """Return whether the benches of a generated package are connected as they should be, by their texts."""
+        ...

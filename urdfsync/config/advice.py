@@ -1,0 +1,52 @@
+"""What a domain advises on its options."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, Protocol
+
+import msgspec
+
+from urdfsync.diagnostics import Diagnostic
+from urdfsync.domain import Domain, Snapshot, Target
+
+
+class Proposal(msgspec.Struct, frozen=True):
+    """Value that `init` writes for one option, with the reason."""
+
+    option: str
+    value: Any
+    reason: str
+
+
+class Advice(Protocol):
+    """What a domain advises on its options; its attribute `advice`."""
+
+    def permissive_options(self) -> Any:
+        """Return the options that sources outside of a project are read by: what they permit becomes a warning."""
+        ...
+
+    def propose(self, snapshot: Snapshot, diagnostics: Sequence[Diagnostic]) -> Sequence[Proposal]:
+        """Return option values that suit a model better than the defaults, for `init`.
+
+        `diagnostics` are those of reading it by `permissive_options`.
+        """
+        ...
+
+    def option_for(self, name: str, snapshot: Snapshot, target: Target, options: Any) -> str:
+        """Return the option that brings a class, connector, input or output, as the configuration has it.
+
+        Empty if none does, or if `options` bring it.
+        """
+        ...
+
+
+def permissive_options(domain: Domain) -> Any:
+    """Return the options of a domain that sources outside of a project are read by."""
+    advice: Advice | None = domain.advice
+    return advice.permissive_options() if advice else domain.options()
+
+
+def brings_back(option: str, new_name: str = "") -> str:
+    """Return the hint to set the option that brings a name back, perhaps as a new name; empty without option."""
+    return f"set `{option}` to bring it back{f' as `{new_name}`' if new_name else ''}" if option else ""

@@ -1,0 +1,66 @@
+"""How a package is simulated, in values, and what `simulate` asks of a domain."""
+
+from __future__ import annotations
+
+from typing import Any, Protocol
+
+import msgspec
+
+from urdfsync.domain import Snapshot, Target
+
+
+class Signal(msgspec.Struct, frozen=True):
+    """A quantity of a joint in a simulation; names are those of variables and parameters below the main model."""
+
+    variable: str
+    unit: str
+    limits: tuple[str, ...] = ()
+    """Parameters: the lower and the upper limit, one alone for a limit of the absolute value, none for no limit."""
+    added: tuple[str, str] | None = None
+    """A parameter and a variable whose product is a part of the quantity."""
+
+
+class Axis(msgspec.Struct, frozen=True):
+    """Quantities of one moving joint in a simulation."""
+
+    element: str
+    """In the domain's words: `joint elbow`."""
+    position: Signal
+    velocity: Signal
+    effort: Signal | None = None
+    """None for a joint without a drive of its own."""
+    acceleration: Signal | None = None
+    """With the limits while the joint slows down and while it speeds up; None for a joint that has no such limit."""
+    is_dependent: bool = False
+    """Whether the joint follows others through loops."""
+
+
+class LoopSignals(msgspec.Struct, frozen=True):
+    """Variables of a joint that closes a loop in a simulation, below the main model."""
+
+    element: str
+    """In the domain's words: `loop rocker_pin`."""
+    gap: str
+    """Distance of the two frames, in m."""
+    force: tuple[str, ...]
+    torque: tuple[str, ...]
+
+
+class Bench(msgspec.Struct, frozen=True):
+    """Models and variables of a simulation; models are named below the package."""
+
+    test: str
+    """The model that needs no input."""
+    run: str
+    """The model that is driven by inputs; empty if there is none."""
+    layouts: tuple[tuple[Axis, ...], ...]
+    """For each approach, the axes by the names that they have there."""
+    loops: tuple[LoopSignals, ...] = ()
+
+
+class Benches(Protocol):
+    """What `simulate` asks of a domain; its attribute `simulation`."""
+
+    def bench(self, snapshot: Snapshot, target: Target, options: Any) -> Bench | None:
+        """Return the models and variables of a simulation, or None if nothing in the package can be simulated. Pure."""
+        ...
