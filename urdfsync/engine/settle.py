@@ -17,6 +17,7 @@ from urdfsync.engine.actions import Action, Actions, Choice, Reason, UsersChoice
 from urdfsync.engine.conflicts import Conflict, over_bases
 from urdfsync.engine.decide import Decision
 from urdfsync.engine.generation import Generation
+from urdfsync.engine.inputs import Inputs
 from urdfsync.engine.package_files import PackageFiles, encode, text_hash, with_line_ends
 from urdfsync.engine.package_names import names_of
 from urdfsync.files import shown
@@ -55,6 +56,18 @@ class Settled(msgspec.Struct):
     """New names by the old ones, as they were before."""
     keys: set[str] = msgspec.field(default_factory=set)
     """The keys under which the choices were made that came about."""
+
+    def add(
+        self, inputs: Inputs, action: Action, content: bytes | None, record: FileRecord, reason: Reason, choice: Choice
+    ) -> None:
+        """Add what a choice makes of a file at its present path."""
+        key = action.origin or action.path
+        mine, former = inputs.files.read_on_disk(key), inputs.last.files.get(key, FileRecord())
+        if mine is not None and (choice is not Choice.UNDO or content != mine):  # else there is nothing to bring back
+            self.before[key] = Former(mine, former, inputs.last.bases(former))
+        self.contents[key], self.bases[key] = content, record
+        changes = {"path": key, "origin": None, "reason": reason, "choice": choice, "is_waiting": False}
+        self.actions[key] = msgspec.structs.replace(action, **changes)
 
 
 def settle(generation: Generation, decision: Decision) -> Settled:
@@ -130,12 +143,7 @@ def _settle(generation: Generation, decision: Decision, action: Action, chosen: 
         content, reason = encode(text), Reason.KEEP if text == conflict.mine else Reason.MERGE
     else:
         return False
-    former = inputs.last.files.get(key, FileRecord())
-    if mine is not None and (choice is not Choice.UNDO or content != mine):  # else there is nothing to bring back
-        settled.before[key] = Former(mine, former, inputs.last.bases(former))
-    settled.contents[key], settled.bases[key] = content, record
-    changes = {"path": key, "origin": None, "reason": reason, "choice": choice, "is_waiting": False}
-    settled.actions[key] = msgspec.structs.replace(action, **changes)
+    settled.add(inputs, action, content, record, reason, choice)
     return True
 
 
@@ -146,14 +154,16 @@ def _move(generation: Generation, decision: Decision, action: Action, new: str, 
     template = artifacts[inputs.folder.path(key)].template
     places = {one.owner: path for path, one in artifacts.items() if one.template == template}
     known = {known for one, known in inputs.domain.features(generation.now.snapshot) if one == kind}
+    message = "" if new in known else f"the source has no {kind} `{new}`"
+    near = nearest(new, sorted(known - {name}))
+    hint = f"did you mean `{near}`?" if near else "name the part as the source has it"
     if not name:
         message, hint = "it is the file of no single part", "change the names in it, then use --keep"
-        raise ConfigError.of("wrong-rename", message, shown(inputs.files.path(key)), hint=hint)
-    if new == name or f"{kind} {new}" not in places:
-        near = nearest(new, [owner.partition(" ")[2] for owner in sorted(places) if owner != action.owner])
-        message = f"{kind} `{new}` has no such file" if new in known else f"the source has no {kind} `{new}`"
-        message = f"it is the file of {kind} `{name}`" if new == name else message
-        hint = f"did you mean `{near}`?" if near else "name the part as the source has it"
+    elif new == name:
+        message = f"it is the file of {kind} `{name}`"
+    elif not message and f"{kind} {new}" not in places:
+        message = f"{kind} `{new}` has no such file"
+    if message:
         raise ConfigError.of("wrong-rename", message, shown(inputs.files.path(key)), hint=hint)
     path = places[f"{kind} {new}"]
     target, generated = inputs.folder.key(path), generation.package.content(path).decode()
@@ -165,23 +175,12 @@ def _move(generation: Generation, decision: Decision, action: Action, new: str, 
         file, message = shown(inputs.files.path(target)), "your edit does not fit into this file"
         raise ConfigError.of("wrong-rename", message, file, hint="move the edit by hand, then use --take")
     source = with_line_ends(generation.package.content(inputs.folder.path(key)), inputs.files.read(key) or b"")
-    mine = inputs.files.read(target) or b""
-    mine_hash, owner = inputs.files.hash(target, action.role), f"{kind} {new}"
-    moved = Action(target, Reason.MERGE, action.role, owner, generated=generation.package.hash(path), mine=mine_hash)
-    for one, content, record in (
-        (action, source, FileRecord((str(action.generated),))),
-        (
-            moved,
-            with_line_ends(encode(merged), mine),
-            last if is_edited else FileRecord((generation.package.hash(path),)),
-        ),
-    ):
-        former = inputs.last.files.get(one.path, FileRecord())
-        if (text_before := inputs.files.read_on_disk(one.path)) is not None:
-            settled.before[one.path] = Former(text_before, former, inputs.last.bases(former))
-        settled.contents[one.path], settled.bases[one.path] = content, record
-        reason = Reason.UPDATE if one is action else Reason.MERGE
-        settled.actions[one.path] = msgspec.structs.replace(one, reason=reason, choice=Choice.MOVED)
+    content = with_line_ends(encode(merged), inputs.files.read(target) or b"")
+    record = last if is_edited else FileRecord((generation.package.hash(path),))
+    hashes = generation.package.hash(path), inputs.files.hash(target, action.role)
+    other = Action(target, Reason.MERGE, action.role, f"{kind} {new}", generated=hashes[0], mine=hashes[1])
+    settled.add(inputs, action, source, FileRecord((str(action.generated),)), Reason.UPDATE, Choice.MOVED)
+    settled.add(inputs, other, content, record, Reason.MERGE, Choice.MOVED)
     return True
 
 
