@@ -12,7 +12,7 @@ import msgspec
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.domain import ChangeClass, Role
 from urdfsync.engine import united
-from urdfsync.engine.actions import DISPUTED, ORPHANS, Action, Actions, Choice, Reason
+from urdfsync.engine.actions import DISPUTED, ORPHANS, Action, Actions, Reason
 from urdfsync.engine.conflicts import PREFERENCES, Conflict, find_conflict, resolve
 from urdfsync.engine.edit_origins import find_doubts
 from urdfsync.engine.generation import Generation
@@ -209,49 +209,53 @@ def _without_misfits(
 ) -> dict[str, Conflict]:
     """Return the conflicts without the merges that would bring in what means nothing.
 
-    Of contradictions each side is tried in turn: no preference is proposed in vain.
+    Merges are tried first. Then, for contradictions, each side that may be preferred.
     """
-    sound = dict(conflicts)
-    for key, reason in _bad_merges(generation, actions, sound).items():
-        merge = sound[key].merge
-        sound[key] = msgspec.structs.replace(sound[key], merge=merge and merge.rejected, rejected=reason)
-    for side in PREFERENCES:
-        tried = {key for key, one in sound.items() if one.merged(None) is None and one.merged(side) is not None}
-        bad = _bad_merges(generation, actions, sound, dict.fromkeys(tried, side)) if tried else {}
-        for key in tried & bad.keys():
-            sound[key] = msgspec.structs.replace(sound[key], refused={**sound[key].refused, side: bad[key]})
+    sound, before = dict(conflicts), None
+    for side in (None, *sorted(PREFERENCES)):
+        tried = {
+            key: text
+            for key, one in sound.items()
+            if (text := one.merged(side)) is not None and (side is None or one.merged(None) is None)
+        }
+        if not tried:
+            continue
+        planned, merged = resolve(actions, {**sound, **_with_texts(sound, tried)}, merging=True)
+        misfits = _misfits_of(generation, keep_needed(generation, planned, merged), merged, merged.keys())
+        if misfits and before is None:
+            waiting = [msgspec.structs.replace(one, is_waiting=True) for one in actions]
+            paths = {one.origin or one.path for one in conflicts.values()}
+            before = {(one.key, one.fault) for one in _misfits_of(generation, waiting, {}, paths)}
+        for key in {one.key for one in misfits} & tried.keys():
+            conflict = sound[key]
+            new = [
+                one for one in misfits if one.key == key and (conflict.origin or key, one.fault) not in (before or ())
+            ]
+            if not new or tried[key] == conflict.mine:
+                continue
+            reason = f"in the merge, {new[0].finding.message} (line {new[0].finding.line})"
+            merge = conflict.merge and conflict.merge.rejected
+            changed = {"refused": {**conflict.refused, side: reason}} if side else {"merge": merge, "rejected": reason}
+            sound[key] = msgspec.structs.replace(conflict, **changed)
     return sound
 
 
-def _bad_merges(
-    generation: Generation,
-    actions: Sequence[Action],
-    conflicts: Mapping[str, Conflict],
-    choices: Mapping[str, Choice] = {},
-) -> dict[str, str]:
-    """Return why merges would not be right, by key. All that are possible are taken for that."""
-    preferred = dict(conflicts)
-    for key, choice in choices.items():
-        if (merge := conflicts[key].merge) is not None:
-            merge = msgspec.structs.replace(merge, text=conflicts[key].merged(choice))
-            preferred[key] = msgspec.structs.replace(conflicts[key], merge=merge)
-    planned, merged = resolve(actions, preferred, merging=True)
-    if not merged:
-        return {}
-    from urdfsync.engine.fit import Package
+def _with_texts(conflicts: Mapping[str, Conflict], texts: Mapping[str, str]) -> dict[str, Conflict]:
+    """Return conflicts that merge to these texts."""
+    merges = {key: conflicts[key].merge for key in texts}
+    return {
+        key: msgspec.structs.replace(conflicts[key], merge=msgspec.structs.replace(merge, text=texts[key]))
+        for key, merge in merges.items()
+        if merge is not None
+    }
 
-    package = Package(generation, keep_needed(generation, planned, merged), merged, is_open=True)
-    new = package.misfits(merged.keys())
-    if not new:
-        return {}
-    now = Package(generation, [msgspec.structs.replace(one, is_waiting=True) for one in actions], {})
-    old = {(one.key, one.fault) for one in now.misfits({one.origin or one.path for one in conflicts.values()})}
-    reasons = dict[str, str]()
-    for key, conflict in conflicts.items():
-        misfits = [one for one in new if one.key == key and (conflict.origin or key, one.fault) not in old]
-        if misfits and key in merged and merged[key] != conflict.mine:
-            reasons[key] = f"in the merge, {misfits[0].finding.message} (line {misfits[0].finding.line})"
-    return reasons
+
+def _misfits_of(
+    generation: Generation, actions: Sequence[Action], texts: Mapping[str, str], only: Collection[str]
+) -> list[Misfit]:
+    from urdfsync.engine.fit import Package  # imports the parser
+
+    return Package(generation, actions, texts, is_open=bool(texts)).misfits(only)
 
 
 def _find_misfits(generation: Generation, actions: Sequence[Action], texts: Mapping[str, str]) -> Sequence[Misfit]:
