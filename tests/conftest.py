@@ -245,14 +245,14 @@ def snapshot_of() -> Callable[[Path], dict[str, tuple[int, bytes]]]:
 
 @pytest.hookimpl(tryfirst=True)  # before `-m` looks at the marks
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark what shows the same with every Python, three of four cases of a test among them, and put long tests first.
+    """Mark what shows the same with every Python, all but the first case of a test among them, and put long tests first.
 
     The longest of all hardly computes. Then come those that take seconds, so that no process ends late.
     """
     cases = Counter[str]()
     for item in items:
         test = item.nodeid.partition("[")[0]
-        if cases[test] % 4 or _is_same_with_every_python(item):
+        if cases[test] or _is_same_with_every_python(item):
             item.add_marker("once")
         cases[test] += 1
     items.sort(key=lambda item: ("soak" not in item.nodeid, item.get_closest_marker("slow") is None))

@@ -1,6 +1,6 @@
 """A repository of a stranger's: no command runs code of it, writes outside of it, hangs, or ends in a traceback.
 
-Each attack of `support.hostile` meets every command in this process; in CI all meet a build, and one of three the other
+Each attack of `support.hostile` meets every command in this process; in CI all meet a build, and one of six the other
 commands. Modules of the working folder meet the programs, as does a clone with all attacks at once. Audit events of
 Python tell what happens, and a comparison of all folders.
 """
@@ -91,7 +91,7 @@ def test_an_attack_meets_a_build(tmp_path: Path, stale: Path, name: str) -> None
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", [*sampled(OTHERS, 3), *(pytest.param(name, marks=pytest.mark.large) for name in BIG)])
+@pytest.mark.parametrize("name", [*sampled(OTHERS, 6), *(pytest.param(name, marks=pytest.mark.large) for name in BIG)])
 def test_an_attack_meets_every_other_command(tmp_path: Path, stale: Path, name: str) -> None:
     work = Workplace(tmp_path)
     _attack(work, stale, name, READING[1:], READ, afresh=False)

@@ -104,7 +104,7 @@ def edited(text: str, editor: Editor, kinds: list[str]) -> str:
 
 
 @pytest.mark.slow
-@often(30)
+@often(15)
 @given(random=seeds, mine=edits, generated=edits, style=st.sampled_from([None, *STYLES.values()]))
 def test_what_touches_different_things_fits_together(
     random: Random, mine: list[str], generated: list[str], style: Style | None
@@ -127,7 +127,7 @@ def test_what_touches_different_things_fits_together(
     assert merge(theirs, found.text, theirs, is_modelica=True).text == found.text
 
 
-@often(25)
+@often(12)
 @given(random=seeds, mine=edits, generated=edits)
 def test_any_edits(random: Random, mine: list[str], generated: list[str]) -> None:
     base = random.choice(simple_files())
@@ -156,7 +156,7 @@ def commented(text: str, random: Random, name: str = "mine") -> str:
     return text
 
 
-@often(25)
+@often(12)
 @given(random=seeds, kinds=edits)
 def test_comments_stay_wherever_they_are(random: Random, kinds: list[str]) -> None:
     base = random.choice(simple_files())
@@ -169,7 +169,7 @@ def test_comments_stay_wherever_they_are(random: Random, kinds: list[str]) -> No
     assert merge(base, found.text, theirs, is_modelica=True).text == found.text
 
 
-@often(25)
+@often(12)
 @given(random=seeds, mine=edits, other=edits)
 def test_of_two_people_no_comment_is_lost(random: Random, mine: list[str], other: list[str]) -> None:
     base = random.choice(simple_files())
@@ -192,7 +192,7 @@ def read_by_pymoca(text: str) -> tuple[set[str], int]:
 
 
 @pytest.mark.slow
-@often(8)
+@often(4)
 @given(random=seeds)
 def test_another_parser_finds_all_elements(random: Random) -> None:
     base = random.choice([text for text in simple_files() if "equation\n" in text and len(text) < 4_000])
