@@ -245,7 +245,7 @@ def snapshot_of() -> Callable[[Path], dict[str, tuple[int, bytes]]]:
 
 @pytest.hookimpl(tryfirst=True)  # before `-m` looks at the marks
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark what shows the same with every Python, all but the first case of a test among them, and put long tests first.
+    """Mark what shows the same with every Python, and all but the first case of a test, and put long tests first.
 
     The longest of all hardly computes. Then come those that take seconds, so that no process ends late.
     """
@@ -258,8 +258,19 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     items.sort(key=lambda item: ("soak" not in item.nodeid, item.get_closest_marker("slow") is None))
 
 
+_SAME = tuple(f"tests/{name}" for name in (
+    *("merge/", "modelica/", "urdf/", "versions/", "test_branches", "test_edits_meet_exports", "test_forged_states"),
+    *("test_merges", "test_renumbered_parts", "test_unions", "test_united", "test_verdicts"),
+))  # fmt: skip
+
+
 def _is_same_with_every_python(item: pytest.Item) -> bool:
-    """Whether a test compiles models, reads the corpus or draws random cases; compilers have tests of their own."""
+    """Whether a test compiles models, reads the corpus or draws random cases; compilers have tests of their own.
+
+    So do texts and numbers that follow from others, and what git makes of them.
+    """
+    if item.nodeid.startswith(_SAME):
+        return True
     needs = {"modelica_library", "corpus"} & set(getattr(item, "fixturenames", ()))
     is_random = getattr(getattr(item, "obj", None), "is_hypothesis_test", False)
     return bool(needs or is_random) and "checks/compilers" not in item.nodeid
