@@ -32,7 +32,7 @@ NO_CORPUS = "no corpus of robots: set URDFSYNC_CORPUS"
 NO_LIBRARY = "no Modelica Standard Library: set MODELICAPATH"
 
 # a busy machine is no reason to fail; who asks for cases gets fresh ones
-settings.register_profile("urdfsync", deadline=None, derandomize=not CASES)
+settings.register_profile("urdfsync", deadline=None, derandomize=not CASES, max_examples=max(40, CASES))
 settings.load_profile("urdfsync")
 
 _HOME = Path.home()
@@ -259,15 +259,15 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
 
 _SAME = tuple(f"tests/{name}" for name in (
-    *("merge/", "modelica/", "urdf/", "versions/", "test_branches", "test_edits_meet_exports", "test_forged_states"),
-    *("test_merges", "test_renumbered_parts", "test_unions", "test_united", "test_verdicts"),
+    *("engine/", "merge/", "modelica/", "urdf/", "versions/", "test_branches", "test_edits_meet_exports"),
+    *("test_forged_states", "test_merges", "test_renumbered_parts", "test_unions", "test_united", "test_verdicts"),
 ))  # fmt: skip
 
 
 def _is_same_with_every_python(item: pytest.Item) -> bool:
     """Whether a test compiles models, reads the corpus or draws random cases; compilers have tests of their own.
 
-    So do texts and numbers that follow from others, and what git makes of them.
+    So do texts and numbers that follow from others, what git makes of them, and what a build decides.
     """
     if item.nodeid.startswith(_SAME):
         return True
