@@ -32,7 +32,7 @@ NO_CORPUS = "no corpus of robots: set URDFSYNC_CORPUS"
 NO_LIBRARY = "no Modelica Standard Library: set MODELICAPATH"
 
 # a busy machine is no reason to fail; who asks for cases gets fresh ones
-settings.register_profile("urdfsync", deadline=None, derandomize=not CASES)
+settings.register_profile("urdfsync", deadline=None, derandomize=not CASES, max_examples=max(40, CASES))
 settings.load_profile("urdfsync")
 
 _HOME = Path.home()
@@ -245,21 +245,32 @@ def snapshot_of() -> Callable[[Path], dict[str, tuple[int, bytes]]]:
 
 @pytest.hookimpl(tryfirst=True)  # before `-m` looks at the marks
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark what shows the same with every Python, three of four cases of a test among them, and put long tests first.
+    """Mark what shows the same with every Python, and all but the first case of a test, and put long tests first.
 
     The longest of all hardly computes. Then come those that take seconds, so that no process ends late.
     """
     cases = Counter[str]()
     for item in items:
         test = item.nodeid.partition("[")[0]
-        if cases[test] % 4 or _is_same_with_every_python(item):
+        if cases[test] or _is_same_with_every_python(item):
             item.add_marker("once")
         cases[test] += 1
     items.sort(key=lambda item: ("soak" not in item.nodeid, item.get_closest_marker("slow") is None))
 
 
+_SAME = tuple(f"tests/{name}" for name in (
+    *("engine/", "merge/", "modelica/", "urdf/", "versions/", "test_branches", "test_edits_meet_exports"),
+    *("test_forged_states", "test_merges", "test_renumbered_parts", "test_unions", "test_united", "test_verdicts"),
+))  # fmt: skip
+
+
 def _is_same_with_every_python(item: pytest.Item) -> bool:
-    """Whether a test compiles models, reads the corpus or draws random cases; compilers have tests of their own."""
+    """Whether a test compiles models, reads the corpus or draws random cases; compilers have tests of their own.
+
+    So do texts and numbers that follow from others, what git makes of them, and what a build decides.
+    """
+    if item.nodeid.startswith(_SAME):
+        return True
     needs = {"modelica_library", "corpus"} & set(getattr(item, "fixturenames", ()))
     is_random = getattr(getattr(item, "obj", None), "is_hypothesis_test", False)
     return bool(needs or is_random) and "checks/compilers" not in item.nodeid

@@ -22,6 +22,8 @@ from support.cases import sampled
 from support.git import NEEDS_GIT, Repository
 from support.workplace import WATCH, Workplace, changes, check_output, contents
 
+from urdfsync.urdf.meshes import process
+
 BIN = Path(sys.executable).parent
 TESTS = Path(__file__).parent
 ROBOTS = 6
@@ -59,6 +61,12 @@ def stale(tmp_path_factory: pytest.TempPathFactory) -> Path:
         repository.commit()
     hostile.make_stale(work.project)
     return work.project
+
+
+@pytest.fixture(autouse=True)
+def _little_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Meshes without end are given up sooner in this process."""
+    monkeypatch.setattr(process, "CPU_SECONDS", 1.0)
 
 
 def _attack(

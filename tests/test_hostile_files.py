@@ -222,7 +222,7 @@ def of_random(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return work.project
 
 
-@often(50)
+@often(20)
 @given(configurations(), SOURCES, st.lists(COMMANDS, min_size=1, max_size=2))
 def test_a_hostile_configuration(
     of_random: Path, tmp_path: Path, text: bytes, source: bytes, commands: Sequence[Sequence[str]]
@@ -372,7 +372,7 @@ def projects(tmp_path_factory: pytest.TempPathFactory) -> Mapping[str, Path]:
     return found | {"conflict": work.project}
 
 
-@often(25)
+@often(15)
 @given(st.data())
 def test_a_hostile_state(projects: Mapping[str, Path], tmp_path: Path, data: st.DataObject) -> None:
     work, draw = Workplace(tmp_path), cast(st.DrawFn, data.draw)

@@ -23,7 +23,7 @@ from support.crashes import Operation, contents, run
 from urdfsync.engine.result import Result
 from urdfsync.state.transaction import is_interrupted
 
-KILLS = int(os.environ.get("URDFSYNC_KILLS", "40"))
+KILLS = int(os.environ.get("URDFSYNC_KILLS", "20"))
 SEED = secrets.randbelow(10**9) if "URDFSYNC_KILLS" in os.environ else 20
 SAME = 10
 """So many kills of one project and one change."""

@@ -244,7 +244,7 @@ def install(action: Path, place: Path, **variables: str) -> Path:
 @NEEDS_GIT
 @pytest.mark.slow
 def test_the_action_runs_nothing_of_the_checkout(arm: Repository, tmp_path_factory: pytest.TempPathFactory) -> None:
-    """Nor where variables name it."""
+    """Nor where variables name it; xacro comes along, in an environment apart from the job's Python."""
     outside, action, runner = map(tmp_path_factory.mktemp, ("outside", "action", "runner"))
     (action / "backend.py").write_text(BACKEND)
     (action / "pyproject.toml").write_text(
@@ -257,27 +257,8 @@ def test_the_action_runs_nothing_of_the_checkout(arm: Repository, tmp_path_facto
     for name in ("pip.conf", "pip.ini", "setup.cfg"):
         Path(name).write_text(f"[global]\ntarget = {outside}/{name}\n[install]\nprefix = {outside}/{name}\n")
     variables = {"PYTHONPATH": str(arm.folder), "PYTHONHOME": str(arm.folder)}
-    assert install(action, runner, PIP_NO_INDEX="1", **variables).exists()
+    assert "$GITHUB_ACTION_PATH[xacro$" in INSTALL["run"]
+    assert install(action, runner, PIP_NO_INDEX="1", **variables) == runner / "urdfsync/bin/urdfsync"
+    assert (runner / "urdfsync/bin/urdfsync").exists()
     assert report(AGAINST="HEAD~1", **variables)[0] == Exit.OUT_OF_STEP
     assert [path.name for path in outside.iterdir()] == []
-
-
-@posix
-@pytest.mark.slow
-def test_the_action_installs_urdfsync_with_xacro_apart_from_the_jobs_python_and_it_builds_a_robot(
-    folder: Path, tmp_path_factory: pytest.TempPathFactory
-) -> None:
-    program = install(REPOSITORY, tmp_path_factory.mktemp("runner"))
-    assert program.with_name("xacro").exists()
-    alone = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
-
-    def urdfsync(*arguments: str | Path) -> str:
-        return subprocess.run([program, *arguments], env=alone, check=True, capture_output=True, text=True).stdout
-
-    urdfsync("init", REPOSITORY / "modelica/UrdfSync/Resources/robots/six_axis_arm/six_axis_arm.urdf")
-    assert "files written" in urdfsync("build")
-    assert "in step" in urdfsync("build", "--check")
-    assert "MODELICAPATH=" in urdfsync("library")
-    library = Path(json.loads(urdfsync("library", "--format=json"))["results"][0]["folder"])
-    assert (library / "UrdfSync" / "package.mo").is_file()
-    assert program.parents[1] in library.parents

@@ -1,8 +1,13 @@
-"""What users install: a wheel with everything in it; tests/test_merge_requests.py installs one and builds a robot."""
+"""What users install: a wheel with everything in it, from which a robot is built.
+
+`tools/try_installation.py` installs it with all that it needs, and `.ci/run` the project itself.
+"""
 
 from __future__ import annotations
 
 import email
+import json
+import os
 import subprocess
 import sys
 import tarfile
@@ -10,6 +15,9 @@ import zipfile
 from pathlib import Path
 
 import pytest
+from build import ProjectBuilder
+from build.env import DefaultIsolatedEnv
+from pyproject_hooks import quiet_subprocess_runner
 
 REPOSITORY = Path(__file__).parents[1]
 
@@ -23,14 +31,18 @@ def tracked(*folders: str) -> set[str]:
 
 def test_wheel_and_sdist_are_complete(tmp_path: Path) -> None:
     """One test: the distributions are built once."""
-    command: list[str | Path] = [sys.executable, "-m", "build", "--outdir", tmp_path / "dist", REPOSITORY]
-    subprocess.run(command, check=True, capture_output=True)
+    with DefaultIsolatedEnv() as environment:
+        builder = ProjectBuilder.from_isolated_env(environment, REPOSITORY, runner=quiet_subprocess_runner)
+        environment.install(builder.build_system_requires)
+        for distribution in ("sdist", "wheel"):
+            builder.build(distribution, tmp_path / "dist")
     names = sorted((tmp_path / "dist").iterdir())
     subprocess.run([sys.executable, "-m", "twine", "check", "--strict", *names], check=True)
     (wheel,), (sdist,) = (tmp_path.glob(f"dist/*.{ending}") for ending in ("whl", "tar.gz"))
     assert_wheel_carries_templates_and_library(wheel)
     assert_metadata_say_what_it_is(wheel)
     assert_sdist_carries_all_that_the_tests_need(sdist)
+    assert_a_robot_is_built_from_what_the_wheel_has(wheel, tmp_path / "site")
 
 
 def assert_wheel_carries_templates_and_library(wheel: Path) -> None:
@@ -55,3 +67,21 @@ def assert_sdist_carries_all_that_the_tests_need(sdist: Path) -> None:
     assert names >= tracked(
         "urdfsync", "templates", "modelica", "tests", "tools", "docs", "urdfsync.toml", "LICENSE", "action.yml"
     )
+
+
+def assert_a_robot_is_built_from_what_the_wheel_has(wheel: Path, site: Path) -> None:
+    """Unpacked, which is what an installer does; what it needs is that of the tests."""
+    zipfile.ZipFile(wheel).extractall(site)
+    program = [sys.executable, "-P", "-c", "import sys; from urdfsync.__main__ import main; sys.exit(main())"]
+
+    def urdfsync(*arguments: str | Path) -> str:
+        command = [*program, *arguments]
+        environment = {**os.environ, "PYTHONPATH": str(site)}
+        return subprocess.run(command, cwd=site, env=environment, check=True, capture_output=True, text=True).stdout
+
+    urdfsync("init", REPOSITORY / "modelica/UrdfSync/Resources/robots/six_axis_arm/six_axis_arm.urdf")
+    assert "files written" in urdfsync("build")
+    assert "in step" in urdfsync("build", "--check")
+    library = Path(json.loads(urdfsync("library", "--json"))["results"][0]["folder"])
+    assert library.is_relative_to(site)
+    assert (library / "UrdfSync" / "package.mo").is_file()

@@ -20,9 +20,8 @@ PAGE = REPOSITORY / "docs" / "templates.md"
 TEMPLATE = "link/model.mo.jinja"
 ARM = REPOSITORY / "modelica/UrdfSync/Resources/robots/six_axis_arm"
 SHORT_ARM = robot(
-    *links(base_link=4.0, upper_arm=2.0, forearm=1.0),
-    joint("shoulder", "revolute", "base_link", "upper_arm", axis="0 1 0"),
-    joint("elbow", "revolute", "upper_arm", "forearm", axis="0 0 1"),
+    *links(base_link=4.0, forearm=1.0),
+    joint("elbow", "revolute", "base_link", "forearm", axis="0 0 1"),
 )
 
 

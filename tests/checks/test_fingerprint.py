@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import shutil
 from collections.abc import Callable
@@ -9,9 +10,10 @@ from pathlib import Path
 from unittest import mock
 
 import pytest
-from support.networks import RC_FOLDER, edit
+from support.networks import RC_FOLDER, edit, set_keys
 
 from urdfsync import config
+from urdfsync.checks import fingerprint as fingerprints
 from urdfsync.checks.fingerprint import fingerprint
 from urdfsync.checks.results import CheckOptions
 from urdfsync.engine.build import build
@@ -87,6 +89,29 @@ def test_so_does_another_line_of_a_domain(project: Path, tmp_path: Path, monkeyp
     copy.write_text((RC_FOLDER / "rc_domain.py").read_text() + "# a line\n")
     monkeypatch.setattr("rc_domain.__file__", str(copy))
     assert now() not in (before, None)
+
+
+@pytest.mark.parametrize("place", ["code", "library", "templates"])
+def test_so_does_another_line_of_urdfsync_its_library_or_the_templates(
+    project: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, place: str
+) -> None:
+    """Whoever develops urdfsync does not change the version."""
+    file = tmp_path / place / "__init__.py"
+    file.parent.mkdir()
+    monkeypatch.setattr(fingerprints, "_code", fingerprints._code.__wrapped__)  # a process knows its code once
+    before = now()
+    for line in ("# one line\n", "# another line\n"):
+        file.write_text(line)
+        if place == "code":
+            monkeypatch.setattr("urdfsync.__file__", str(file))
+        elif place == "library":
+            monkeypatch.setattr("urdfsync.checks.fingerprint.find_own_library", lambda *_: file.parent)
+        else:
+            set_keys(templates=json.dumps(str(file.parent)))
+            append("urdfsync.toml", '[check]\nlibrary = "libraries"\n')
+        found = now()
+        assert found not in (before, None)
+        before = found
 
 
 def test_contents_count_and_neither_sizes_nor_times(project: Path) -> None:

@@ -22,13 +22,19 @@ from urdfsync.engine.options import BuildOptions
 
 
 @pytest.mark.slow
-def test_each_edit_is_told_with_what_it_changes(arm: Path, modelica_library: Path) -> None:
-    """Edits, of the eighth digit of a mass as well, are results: what is generated agrees with the reference."""
+def test_each_edit_is_told_with_what_it_changes(
+    arm: Path, modelica_library: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    """Edits, of the eighth digit of a mass as well, are results: what is generated agrees with the reference.
+
+    For a page poses and efforts agree over time, too, and are remembered.
+    """
     replace(arm / "Joints" / "ElbowParameters.mo", "damping = 0.1", "damping = 0.2")
     replace(arm / "Links" / "HandParameters.mo", "mass = 0.7", "mass = 0.70000001")
     replace(arm / "Links" / "Base.mo", "model Base", "// looked at\nmodel Base")
     (arm / "Own.mo").write_text("within Arm;\nmodel Own\n  Real x;\nend Own;\n")
-    result = check(physics=True, fresh=True)
+    monkeypatch.setattr("platformdirs.user_cache_path", lambda *_, **__: tmp_path / "cache")
+    result = check(physics=True, curves=True)
     assert codes(result) == []
     assert [(one.code, one.file) for one in result.diagnostics if one.code == "unbalanced"] == [
         ("unbalanced", "modelica/Arm/Own.mo")
@@ -42,6 +48,16 @@ def test_each_edit_is_told_with_what_it_changes(arm: Path, modelica_library: Pat
     assert elements["Joints/ElbowParameters.mo",] == {"joint elbow"}
     assert elements["Links/HandParameters.mo",] >= {"robot", "joint elbow", "joint shoulder"}
     assert {effect.owners for effect in result.effects} == {("joint elbow",), ("link hand",)}
+    curves = result.tools[0].curves
+    assert {curve.element for curve in curves} == {
+        *("link base", "link arm", "link hand", "joint shoulder", "joint elbow")
+    }
+    for curve in curves:
+        assert len(curve.times) == 101
+        assert np.abs(np.subtract(curve.values, curve.expected)).max() < 1e-9
+        assert curve.element == "link base" or np.ptp(curve.values) > 0.05
+    monkeypatch.setattr(robot_check, "_check", None)  # from now on all is remembered
+    assert check(physics=True).tools[0].curves == curves
 
 
 @pytest.mark.slow
@@ -62,25 +78,6 @@ def test_a_generator_that_is_wrong_is_found_whoever_edited_what(arm: Path, model
     assert max(one.relative for one in result.deviations) > 1e-2
     (gap,) = result.gaps
     assert "not ready yet" in gap
-
-
-@pytest.mark.slow
-def test_for_a_page_poses_and_efforts_agree_over_time_too_and_are_remembered(
-    arm: Path, modelica_library: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
-    Path("arm.urdf").write_text(robot(*LINKS[:2], *JOINTS[:1]))
-    rebuild()
-    monkeypatch.setattr("platformdirs.user_cache_path", lambda *_, **__: tmp_path / "cache")
-    drawn = check(physics=True, curves=True)
-    monkeypatch.setattr(robot_check, "_check", None)  # from now on all is remembered
-    again = check(physics=True)
-    assert again.tools[0].curves == drawn.tools[0].curves
-    elements = {curve.element for curve in drawn.tools[0].curves}
-    assert elements == {"link base", "link arm", "joint shoulder"}
-    for curve in drawn.tools[0].curves:
-        assert len(curve.times) == 101
-        assert np.abs(np.subtract(curve.values, curve.expected)).max() < 1e-9
-        assert curve.element == "link base" or np.ptp(curve.values) > 0.1
 
 
 @pytest.mark.large

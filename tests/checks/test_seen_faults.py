@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import os
 import shutil
-import subprocess
-import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
@@ -13,7 +10,6 @@ from typing import NamedTuple
 import pytest
 from support import physics
 from support.cases import sampled
-from support.corpus import REPOSITORY
 from support.loops import UNIVERSAL, to_options, to_urdf
 from support.modelica import URDFSYNC
 from support.urdfs import dynamics, joint, limit, link, links, mimic, robot
@@ -217,48 +213,3 @@ def test_a_fault_in_the_library_is_seen(name: str, modelica_library: Path, tmp_p
     (own / fault.file).write_text(text.replace(fault.old, fault.new), "utf-8")
     (found,) = physics.compare(modelica_library, tmp_path, [prepared(fault, "Bot", base=base)], own)
     assert is_seen(fault, found)
-
-
-SMALL = robot(
-    *links(base=4.0, arm=2.5),
-    joint("elbow", "revolute", "base", "arm", axis="0.3 -0.4 1.2", inside=[limit(-1, 2, 3, 90), dynamics(0.52, 0.4)]),
-)
-COMMAND: Mapping[str, tuple[str, str, str]] = {
-    "library": ("copy/modelica/UrdfSync/Friction/Rotational.mo", "+ parameters.friction", "- parameters.friction"),
-    "template": ("copy/templates/urdf/joint/revolute.mo.jinja", "n = parameters.axis", "n = -parameters.axis"),
-    "reader": ("copy/urdfsync/urdf/parse/fields.py", "numbers[0] if count == 1", "round(numbers[0], 1) if count == 1"),
-}
-"""A text of a file that is replaced by another."""
-
-
-@pytest.mark.parametrize("name", sampled(COMMAND, 3))
-def test_the_command_sees_faults_although_all_was_right_before(
-    name: str, modelica_library: Path, tmp_path: Path
-) -> None:
-    for part in ("urdfsync", "templates", "modelica"):
-        ignored = shutil.ignore_patterns("__pycache__", "Images", "robots")
-        shutil.copytree(REPOSITORY / part, tmp_path / "copy" / part, ignore=ignored)
-    (tmp_path / "arm.urdf").write_text(SMALL)
-    (tmp_path / "urdfsync.toml").write_text('[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\n')
-    environment = os.environ | {
-        "PYTHONPATH": str(tmp_path / "copy"),
-        "XDG_CACHE_HOME": str(tmp_path / "cache"),
-        "MODELICAPATH": str(modelica_library),
-    }
-
-    def urdfsync(*arguments: str) -> subprocess.CompletedProcess[str]:
-        command = [sys.executable, "-m", "urdfsync", *arguments]
-        return subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True, check=False)
-
-    assert urdfsync("build").returncode == 0
-    for _ in range(2):  # the second time by what is remembered
-        checked = urdfsync("check", "--physics", "--strict")
-        assert checked.returncode == 0, checked.stdout + checked.stderr
-    file, old, new = COMMAND[name]
-    text = (tmp_path / file).read_text("utf-8")
-    assert old in text, file
-    (tmp_path / file).write_text(text.replace(old, new), "utf-8")
-    assert urdfsync("build").returncode == 0
-    checked = urdfsync("check", "--physics", "--strict")
-    said = "check your own `templates`, or report a bug" in checked.stdout
-    assert (checked.returncode, said) == (1, True), checked.stdout + checked.stderr

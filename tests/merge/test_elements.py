@@ -104,7 +104,7 @@ def edited(text: str, editor: Editor, kinds: list[str]) -> str:
 
 
 @pytest.mark.slow
-@often(30)
+@often(15)
 @given(random=seeds, mine=edits, generated=edits, style=st.sampled_from([None, *STYLES.values()]))
 def test_what_touches_different_things_fits_together(
     random: Random, mine: list[str], generated: list[str], style: Style | None
@@ -127,7 +127,7 @@ def test_what_touches_different_things_fits_together(
     assert merge(theirs, found.text, theirs, is_modelica=True).text == found.text
 
 
-@often(25)
+@often(12)
 @given(random=seeds, mine=edits, generated=edits)
 def test_any_edits(random: Random, mine: list[str], generated: list[str]) -> None:
     base = random.choice(simple_files())
@@ -156,7 +156,7 @@ def commented(text: str, random: Random, name: str = "mine") -> str:
     return text
 
 
-@often(25)
+@often(12)
 @given(random=seeds, kinds=edits)
 def test_comments_stay_wherever_they_are(random: Random, kinds: list[str]) -> None:
     base = random.choice(simple_files())
@@ -169,7 +169,7 @@ def test_comments_stay_wherever_they_are(random: Random, kinds: list[str]) -> No
     assert merge(base, found.text, theirs, is_modelica=True).text == found.text
 
 
-@often(25)
+@often(12)
 @given(random=seeds, mine=edits, other=edits)
 def test_of_two_people_no_comment_is_lost(random: Random, mine: list[str], other: list[str]) -> None:
     base = random.choice(simple_files())
@@ -192,7 +192,7 @@ def read_by_pymoca(text: str) -> tuple[set[str], int]:
 
 
 @pytest.mark.slow
-@often(8)
+@often(4)
 @given(random=seeds)
 def test_another_parser_finds_all_elements(random: Random) -> None:
     base = random.choice([text for text in simple_files() if "equation\n" in text and len(text) < 4_000])
@@ -206,9 +206,9 @@ def test_another_parser_finds_all_elements(random: Random) -> None:
 
 @pytest.mark.slow
 def test_a_file_that_an_editor_saved_again_takes_every_export() -> None:
-    """Each golden file, and what it is in the other goldens; what has none gets other numbers and elements."""
+    """Golden files, and what they are in the other goldens; what has none gets other numbers and elements."""
     random, variants = Random(0), 0
-    for path, style in zip(GOLDEN, itertools.cycle(STYLES.values()), strict=False):
+    for path, style in zip(GOLDEN[::3], itertools.cycle(STYLES.values()), strict=False):
         base = path.read_text("utf-8")
         _, *inner = path.relative_to(ROOT / "tests" / "golden").parts
         others = [one for one in GOLDEN if one != path and one.parts[-len(inner) :] == tuple(inner)]
@@ -223,7 +223,7 @@ def test_a_file_that_an_editor_saved_again_takes_every_export() -> None:
             found = merge(base, mine, generated, is_modelica=True)
             assert found.text is not None, (path, found.contradictions, found.flaw)
             assert said(found.text) == said(generated), path
-    assert variants > 20
+    assert variants > 10
 
 
 def test_many_comments_in_a_row_end() -> None:

@@ -45,7 +45,7 @@ def git_merge(folder: Path, texts: Texts) -> str | None:
 
 
 @pytest.mark.skipif(shutil.which("git") is None, reason="git is not installed: there is nothing to compare with")
-@often(200)
+@often(100)
 @given(texts=three_texts())
 def test_lines_merge_as_in_git(texts: Texts, tmp_path: Path) -> None:
     expected = git_merge(tmp_path, texts)

@@ -1,7 +1,8 @@
-"""A robot of the user's that extends the generated one goes through histories: built, compiled, and right each time.
+"""A robot of the user's that extends the generated one goes through histories: built and right each time.
 
 The user's package stands beside the generated one: a joint with a rotor takes the place of one joint, and a payload
-hangs on an inner link. Pinocchio says by how much the torques of all axes differ then.
+hangs on an inner link. Pinocchio says by how much the torques of all axes differ then; in CI, `test_customized` and
+`test_custom_arm` simulate such parts.
 """
 
 from __future__ import annotations
@@ -68,12 +69,10 @@ class History(NamedTuple):
     versions: Sequence[int]
     joint: str
     links: Sequence[str]
-    in_ci: Sequence[int] = ()
-    """Those of the versions that are simulated in CI, too."""
 
 
 HISTORIES = {
-    "renamed-links": History("so101_new_calib", (3, 4), "elbow_flex", ("lower_arm", "lower_arm_link"), in_ci=(4,)),
+    "renamed-links": History("so101_new_calib", (3, 4), "elbow_flex", ("lower_arm", "lower_arm_link")),
     "other-sensors": History("spirit_meshes", (0, 2, 3), "10", ("upper2",) * 3),
     "stiff-arms": History(
         "stompymicro_robot_fixed",
@@ -91,10 +90,10 @@ def warnings(result: Result) -> list[str]:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("is_simulated_always", [False, pytest.param(True, marks=pytest.mark.large)])
+@pytest.mark.parametrize("is_simulated", [False, pytest.param(True, marks=pytest.mark.large)])
 @pytest.mark.parametrize("history", HISTORIES.values(), ids=HISTORIES)
 def test_an_extension_survives_and_its_torques_differ_as_pinocchio_says(
-    corpus: Path, modelica_library: Path, tmp_path: Path, history: History, is_simulated_always: bool
+    corpus: Path, modelica_library: Path, tmp_path: Path, history: History, is_simulated: bool
 ) -> None:
     contents = next(all_of for name, all_of in replay.histories().items() if name.endswith(history.name))
     project = Project(tmp_path / "project")
@@ -131,7 +130,7 @@ def test_an_extension_survives_and_its_torques_differ_as_pinocchio_says(
             link = now
             file.write_text(text_of(content, history.joint, link))
             assert warnings(project.build()) == []
-        if is_simulated_always or number in history.in_ci:
+        if is_simulated:
             compare(content, project, modelica_library, history.joint, link)
 
 

@@ -75,36 +75,3 @@ def test_joints_move_as_the_source_says(modelica_library: Path, tmp_path: Path) 
     assert gain[0] == pytest.approx((1 - 1.5 * GRAVITY * 0.2 * math.cos(0.5)) / inertia["elbow"])
     assert lift == pytest.approx(0.25)
     assert grip == pytest.approx(-0.5)
-
-
-def rolling(name: str, radius: float) -> str:
-    """A wheel about its own y."""
-    shape = f'<geometry><cylinder radius="{radius}" length="0.04"/></geometry>'
-    collision = f'<collision><origin rpy="1.5707963267948966 0 0"/>{shape}</collision>'
-    return link(name, 1.0, center="0 0 0", rpy="0 0 0").replace("</link>", f"{collision}</link>")
-
-
-BALL = '<collision><origin xyz="-0.2 0 -0.05"/><geometry><sphere radius="0.05"/></geometry></collision>'
-CART = robot(
-    link("base", 5.0, center="-0.05 0 0", rpy="0 0 0").replace("</link>", f"{BALL}</link>"),
-    rolling("tyre_left", 0.1),
-    rolling("tyre_right", 0.1),
-    joint("left", "continuous", "base", "tyre_left", axis="0 1 0", xyz="0 0.2 0", rpy="0 0 0"),
-    joint("right", "continuous", "base", "tyre_right", axis="0 1 0", xyz="0 -0.2 0", rpy="0 0 0"),
-    interface("left", "VelocityJointInterface"),
-    interface("right", "VelocityJointInterface"),
-    '<gazebo reference="base"><mu1>0</mu1></gazebo>',
-)
-"""Two wheels, and a ball that slides."""
-
-
-def test_wheels_drive_at_the_speed_that_is_given(modelica_library: Path, tmp_path: Path) -> None:
-    """Both turn forward by 3 rad/s after a second: the cart goes straight on, by radius times speed."""
-    package = generate(CART.encode(), Target("Bot", "Bot"), base="floating")
-    inputs = "left_w = min(3, 3*time); right_w = left_w;"
-    signals = ("left.revolute.w", "right.revolute.w", "frame_a.r_0[1]", "frame_a.r_0[2]")
-    left, right, x, y = simulate_run(package, signals, inputs, 2.0, modelica_library, tmp_path)
-    assert left[-1] == pytest.approx(3.0, abs=1e-3)
-    assert right[-1] == pytest.approx(3.0, abs=1e-3)
-    assert (x[-1] - x[-21]) / 0.2 == pytest.approx(0.1 * 3.0, rel=0.02)
-    assert y[-1] == pytest.approx(0, abs=1e-3)

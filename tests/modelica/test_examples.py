@@ -1,4 +1,7 @@
-"""The library's examples: controllers follow, and generated packages are what their robots are."""
+"""The library's examples: controllers follow, and generated packages are what their robots are.
+
+That each kind of link and joint compiles, tests/urdf/test_artifacts.py shows with one of everything.
+"""
 
 from __future__ import annotations
 
@@ -7,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from support import physics
-from support.modelica import GRAVITY, URDFSYNC, Array, Run, Series, compile_task, execute, simulate
+from support.modelica import GRAVITY, URDFSYNC, Array, Run, Series, compile_task, simulate
 
 from urdfsync.modelica.names import class_name
 
@@ -29,13 +32,6 @@ def test_generated_examples_move_as_pinocchio_says(
     (deviations,) = physics.compare(modelica_library, tmp_path, [case])
     assert physics.fault(deviations) is None
     assert case.experiment.notes == ()
-
-
-def test_the_quick_checks_of_generated_examples_compile(modelica_library: Path) -> None:
-    """Without the six-axis arm: what extends it is compiled with the page on models of your own."""
-    names = ("WheeledRobot", "PlanarPlatform", "FloatingBuoy", "FourBar")
-    found = execute(modelica_library, [], [compile_task(f"UrdfSync.Examples.{name}.{name}Test") for name in names])
-    assert [outcome.error for outcome in found] == [""] * len(names)
 
 
 def test_examples_made_by_hand(modelica_library: Path) -> None:

@@ -40,6 +40,10 @@ ARM = robot(
         "force_torque",
         "<pose>0 0 0 0.3 0.2 0.1</pose>" + WRENCH.format("sensor", "child_to_parent"),
     ),
+)
+LOOKING = robot(
+    *links(base=4.0, upper=2.5),
+    joint("shoulder", "revolute", "base", "upper", axis="0 1 0"),
     gazebo("base", "camera", "camera", "<camera><horizontal_fov>1.2</horizontal_fov></camera>"),
     '<sensor name="scan"><parent link="upper"/><origin xyz="1 2 3" rpy="0.1 0 0"/><ray/></sensor>',
 )
@@ -116,7 +120,7 @@ def test_frames_of_cameras_and_scanners_are_where_the_source_places_them(
     modelica_library: Path, tmp_path: Path
 ) -> None:
     """All joints at zero; the numbers are those of the record."""
-    package = generate(ARM.encode(), Target("Arm", "Arm"))
+    package = generate(LOOKING.encode(), Target("Arm", "Arm"))
     body = """Arm.Arm robot;
     Real angle = robot.camera.parameters.horizontalAngle + 0*time;
   equation

@@ -7,10 +7,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from support.modelica import CACHE, URDFSYNC
 from support.simulation import OWN, Compiler, refused, run
 
-from urdfsync.checks import libraries
 from urdfsync.checks.compilers.compiler import CompileResult, SimulationResult
 from urdfsync.diagnostics import Severity
 
@@ -118,21 +116,6 @@ def test_a_model_that_ends_the_simulation_is_a_note(compiler: Compiler) -> None:
 
 
 @pytest.mark.slow
-def test_series_are_those_of_the_compiler_itself(arm: Path, modelica_library: Path) -> None:
-    rumoca = pytest.importorskip("rumoca")
-    result = run(stop=0.5, step=0.1)
-    standard = libraries.find_standard_library(modelica_library)
-    texts = [file.read_bytes() for file in Path("modelica/Arm").rglob("*.mo")]
-    roots = [libraries.standard_library_copy(standard, texts, CACHE), URDFSYNC, Path("modelica/Arm").resolve()]
-    source = "model P\n  import Modelica;\n  import UrdfSync;\n  import Arm;\n  extends Arm.ArmTest;\nend P;\n"
-    model = rumoca.Session(roots=list(map(str, roots))).loads(source, model="P", filename="P.mo")
-    direct = model.simulate((0, 0.5), config=rumoca.SimConfig(dt=0.1, rtol=1e-6, atol=1e-6))
-    assert len(result.series) == 7
-    for name, values in result.series.items():
-        assert np.array_equal(values, direct.time if name == "time" else direct[name]), name
-
-
-@pytest.mark.slow
 def test_a_motion_comes_back(arm: Path, modelica_library: Path) -> None:
     times = np.linspace(0, 1, 51)
     rows = [f"{t!r},{math.sin(2 * t)!r},{math.degrees(math.cos(3 * t))!r}" for t in times.tolist()]
@@ -180,7 +163,7 @@ package Twin
     Part part(numbers = whole.first);
   end Robot;
   model Both
-    extends Arm.ArmTest;
+    parameter Arm.Links.HandParameters hand;
     Robot other;
   end Both;
 end Twin;

@@ -185,7 +185,7 @@ def changed_text(draw: st.DrawFn, text: str) -> str:
 
 
 @pytest.mark.slow
-@often(400)
+@often(150)
 @given(sources(originals()), OPTIONS)
 def test_a_source_is_read_and_generated_or_has_complete_diagnostics(content: bytes, options: Options) -> None:
     reading = DOMAIN.read(content, "bot.urdf", options)

@@ -87,7 +87,7 @@ def check(old: Version, new: Version, options: Options) -> None:
 
 
 @pytest.mark.slow
-@often(150)
+@often(60)
 @given(st.randoms(use_true_random=False), st.integers(0, 3), OPTIONS)
 def test_the_class_of_random_changes_says_which_files_differ(random: Random, count: int, options: Options) -> None:
     first = mutations.version(random)

@@ -75,7 +75,7 @@ def _little_time() -> Iterator[None]:
 
 
 @pytest.mark.slow
-@often(150)
+@often(60)
 @given(damaged(), st.sampled_from([(1.0, 1.0, 1.0), (0.001, 0.001, 0.001), (-1.0, 2.0, 1e30)]), st.booleans())
 def test_a_damaged_mesh_is_read_whole_or_refused(file: tuple[str, bytes], scale: Vector, touches: bool) -> None:
     suffix, content = file

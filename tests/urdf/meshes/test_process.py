@@ -35,12 +35,6 @@ def reader() -> Iterator[MeshProcess]:
     found.end()
 
 
-@pytest.fixture
-def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    monkeypatch.chdir(tmp_path)
-    return tmp_path
-
-
 def _configure(*meshes: str) -> None:
     """A robot whose base shows these meshes, and one that shows none."""
     shapes = "".join(f'<visual><geometry><mesh filename="{mesh}"/></geometry></visual>' for mesh in meshes)
@@ -51,7 +45,10 @@ def _configure(*meshes: str) -> None:
 
 
 @pytest.mark.parametrize("name", HOSTILE)
-def test_each_ends_in_one_finding_within_its_limits(folder: Path, capsys: Capture, name: str) -> None:
+def test_each_ends_in_one_finding_within_its_limits(
+    folder: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch, name: str
+) -> None:
+    monkeypatch.setattr(process, "CPU_SECONDS", 1.0)
     write_hostile(folder, name)
     _configure(name)
     assert cli.main(["build", "arm", "--dry-run", "--verbose"]) == 0
