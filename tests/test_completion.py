@@ -22,7 +22,7 @@ TABLE = Path(completion.__file__).parent / "shells/options.tsv"
 
 VALUES = {"NAME=VALUE": "robot.{}.parameters.", "PATTERN": "robot.{}."}
 """What `completion` makes of the values of options, with a joint in the place of `{}`."""
-FILES = ("FILE", "PATH", "SOURCE", "CONFIG", "BASE", "MINE", "OTHER")
+FILES = ("FILE", "PATH", "SOURCE", "BASE", "MINE", "OTHER")
 
 
 def option_table() -> str:

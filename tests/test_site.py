@@ -22,7 +22,7 @@ def test_the_site(tmp_path: Path) -> None:
     commands = {path.stem.replace("-", "_") for path in (tmp_path / "commands").iterdir()}
     modules = {path.stem for path in (REPOSITORY / "urdfsync/commands").glob("*.py")}
     assert commands <= modules
-    assert "--explain" in (tmp_path / "commands/build.html").read_text(encoding="utf-8")
+    assert "--dry-run" in (tmp_path / "commands/build.html").read_text(encoding="utf-8")
     functions = (tmp_path / "functions.html").read_text(encoding="utf-8")
     assert all(f'id="urdfsync.{name}"' in functions for name in urdfsync.__all__ if name != "__version__")
     pages = {path.stem for path in (REPOSITORY / "docs").glob("*.md")}

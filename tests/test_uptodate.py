@@ -252,7 +252,7 @@ def test_what_becomes_of_a_source_mesh_is_told(folder: Path, command: list[str],
     edit(folder)
     assert saved(*command) is None
     capsys.readouterr()
-    cli.main([*command, *(["--explain"] if command is not STATUS else [])])
+    cli.main([*command, *(["--verbose"] if command is not STATUS else [])])
     said = capsys.readouterr()
     assert words in said.out + said.err
     assert cli.main(["build", "--check", "-q"]) == (not name.startswith(("deleted", "no")) and command is not BUILD)

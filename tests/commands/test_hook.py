@@ -257,7 +257,7 @@ def test_a_configuration_in_a_folder(
     monkeypatch.chdir(repo.folder)
     resistor(130)
     repo.git("add", ".")
-    assert said(capsys, "check", f"{repo.folder}/{name}/urdfsync.toml", code=0) == []
+    assert said(capsys, "check", "--config", f"{repo.folder}/{name}/urdfsync.toml", code=0) == []
     edit(f"{name}/ladder.json", "120", "140")
     repo.git("add", ".")
     words = "error: robot `ladder`: out of step: 1 file to write; `urdfsync hook build` [out-of-step]"
@@ -269,11 +269,11 @@ def test_a_configuration_that_is_not_tracked_is_told(repo: Repository, capsys: C
     assert f"`{add('urdfsync.toml')}`" in said(capsys, "check")[-1]
     repo.git("rm", "-q", "-r", "--cached", ".urdfsync")
     assert said(capsys, "check", code=0) == [], "then there is nothing to judge"
-    assert "git add " in said(capsys, "check", "urdfsync.toml")[-1]
+    assert "git add " in said(capsys, "check", "--config", "urdfsync.toml")[-1]
     repo.git("add", ".urdfsync")
     Path("urdfsync.toml").unlink()
     assert said(capsys, "check", code=0) == [], "the robot is gone, but for its state"
-    assert "no-config" in said(capsys, "check", "typo.toml", code=2)[0]
+    assert "no-config" in said(capsys, "check", "--config", "typo.toml", code=2)[0]
     repo.git("reset", "-q", "--hard")
     Path("urdfsync.toml").unlink()
     assert "no-config" in said(capsys, "check", code=2)[0]

@@ -88,7 +88,7 @@ def test_a_joint_that_is_driven_no_more_is_named_with_what_run_loses(arm: Path, 
 
 def test_a_model_that_is_asked_for_no_more_is_named_with_the_key_that_keeps_it(arm: Path, execute: Execute) -> None:
     configure(arm, 'approach = ["record"]\n')
-    found = execute("build", "--explain").words
+    found = execute("build", "--verbose").words
     assert "the option `approach` changed" in found
     assert 'robot: its model `Arm` is gone; set `approach = ["package", "record"]` to bring it back' in found
 

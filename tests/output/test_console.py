@@ -25,7 +25,7 @@ def test_a_terminal_gets_colours_unless_it_wants_none(
     if variable:
         monkeypatch.setenv(variable, "dumb")
     (project / "step.csv").unlink()
-    for arguments in (["build", "--explain"], ["build"], ["build", "--full"], ["build", "nobody"]):
+    for arguments in (["build", "--verbose"], ["build"], ["build", "--full"], ["build", "nobody"]):
         screen, errors = Terminal(), Terminal()
         monkeypatch.setattr(sys, "stdout", screen)
         monkeypatch.setattr(sys, "stderr", errors)

@@ -32,7 +32,7 @@ def add(commands: arguments.Commands) -> None:
         formats=True,
         help="bring the packages in step with their sources",
         description="Bring Modelica packages in step with their sources. Files that you edited are never overwritten.",
-        epilog="example: urdfsync build arm --dry-run --explain",
+        epilog="example: urdfsync build arm --dry-run --verbose",
     )
     mode = parser.add_mutually_exclusive_group()
     arguments.add_dry_run(mode)
@@ -42,15 +42,12 @@ def add(commands: arguments.Commands) -> None:
     merge = "merge changes into files that you edited, unless they contradict your edits"
     parser.add_argument("--merge", action="store_true", help=merge)
     parser.add_argument("--full", action="store_true", help="render and compare everything, even if nothing changed")
-    explain = "list all changes, and what happens to each file and why; unchanged files only with -v"
-    parser.add_argument("--explain", action="store_true", help=explain)
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
     """Build the robots, one after the other, and show each as soon as it is built."""
     given = {"dry": args.dry_run or args.check, "merge": args.merge}
-    given["on_result"] = partial(show_result, console, explain=args.explain)
-    results = arguments.call(build, BuildOptions, args, console, **given)
+    results = arguments.call(build, BuildOptions, args, console, on_result=partial(show_result, console), **given)
     console.tell(_next_steps(results))
     return console.end(exit_code(results, args.check))
 

@@ -17,7 +17,7 @@ import msgspec
 from urdfsync import config as configuration
 from urdfsync import git, hook, uptodate
 from urdfsync.commands import arguments
-from urdfsync.config import FILE_NAME, STATE_FOLDER, Config, RobotConfig
+from urdfsync.config import STATE_FOLDER, Config, RobotConfig
 from urdfsync.dependencies import Dependencies
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError, findings_of
 from urdfsync.engine import parents
@@ -55,21 +55,19 @@ def add(commands: arguments.Commands) -> None:
         "--wait --jobs",
         help="build or check what is being committed; for hooks of git",
         description="Build or check the robots that a commit touches, and make sure that all of it is staged. "
-        "All configurations that git tracks are looked at. The index is never written.",
+        "All configurations that git tracks are looked at, or that of --config. The index is never written.",
         epilog="example: urdfsync hook check",
     )
-    modes, configs = "build brings packages in step, check writes nothing", f"only these, instead of all {FILE_NAME}"
+    modes = "build brings packages in step, check writes nothing"
     parser.add_argument("mode", choices=("build", "check"), help=modes)
-    parser.add_argument("configs", nargs="*", type=Path, metavar="CONFIG", help=configs)
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
-    """Check the configurations that the arguments name, or all that git tracks."""
-    named = [*args.configs, *filter(None, [args.config])]
+    """Check the configuration that the arguments name, or all that git tracks."""
     faults, errors = list[Fault](), list[Diagnostic]()
     try:
         commit = Commit()
-        paths = commit.paths(named) if named else hook.find_configurations(commit.index)
+        paths = commit.paths([args.config]) if args.config else hook.find_configurations(commit.index)
         for path in sorted(paths) if commit.touched else ():
             try:
                 if not hook.passes(commit.index, path):

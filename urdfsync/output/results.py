@@ -13,7 +13,6 @@ from urdfsync.output.conflicts import conflict_lines
 from urdfsync.output.console import Console, StyledLine, first_lines, has_marks, line
 from urdfsync.output.phrases import change_lines, reason
 from urdfsync.output.repeated import show_findings
-from urdfsync.spelling import counted
 
 _STYLES = {Kind.WRITE: "green", Kind.DELETE: "magenta", Kind.CONFLICT: "bold red"}
 _STYLES_LEFT: dict[FileStatus | None, str] = {FileStatus.EDITED: "cyan", FileStatus.ORPHAN: "yellow"}
@@ -58,13 +57,13 @@ def change_line(text: str) -> StyledLine:
     return line((f"  {element}{colon}", "bold" if colon else ""), (what, style))
 
 
-def show_result(console: Console, result: Result, *, explain: bool = False, named: Container[str] = ()) -> None:
+def show_result(console: Console, result: Result, *, named: Container[str] = ()) -> None:
     """Show what was done with one robot; `named` files are listed."""
     if console.is_document:
         from urdfsync.output.build_section import build_section  # 2 of 220 ms of a build
 
         console.add(result, build_section)
-    show_lines(console, result, build_lines(result, console, explain=explain, named=named), result.diagnostics)
+    show_lines(console, result, build_lines(result, console, named), result.diagnostics)
 
 
 def show_lines(
@@ -79,30 +78,25 @@ def show_lines(
         console.print(lines, error=result.failed)
 
 
-def build_lines(
-    result: Result, console: Console, *, explain: bool = False, named: Container[str] = ()
-) -> Iterator[StyledLine]:
+def build_lines(result: Result, console: Console, named: Container[str] = ()) -> Iterator[StyledLine]:
     """Yield what was done with one robot, without its findings."""
     yield headline(result, result.summary, is_fine=not (result.conflicts or result.is_broken))
     if not console.quiet:
-        yield from result_lines(result, verbose=console.verbose, explain=explain, named=named)
+        yield from result_lines(result, verbose=console.verbose, named=named)
     if result.conflicts:
         yield from conflict_lines(result, console)
 
 
-def result_lines(
-    result: Result, *, verbose: bool, explain: bool = False, named: Container[str] = ()
-) -> Iterator[StyledLine]:
-    """Yield what changed, files and the diagram: all but headline and conflicts; `explain` names every file.
+def result_lines(result: Result, *, verbose: bool, named: Container[str] = ()) -> Iterator[StyledLine]:
+    """Yield what changed, files and the diagram: all but headline and conflicts.
 
-    Without it, files that are `named` by their keys are among those that are listed.
+    Without `verbose`, files that are `named` by their keys are among those that are listed.
     """
     if result.effective_changes:
-        most = None if verbose or explain else _CHANGES
-        changed = map(change_line, change_lines(result.effective_changes, most, everything=verbose))
-        yield from first_lines(list(changed), _CHANGES, "line", verbose=verbose or explain)
-    actions: Sequence[Action] = result.actions if verbose and explain else result.actions.decided
-    if not (verbose or explain):
+        changed = change_lines(result.effective_changes, None if verbose else _CHANGES, everything=verbose)
+        yield from first_lines(list(map(change_line, changed)), _CHANGES, "line", verbose=verbose)
+    actions: Sequence[Action] = result.actions.decided
+    if not verbose:
         actions = [
             action
             for action in actions
@@ -111,8 +105,6 @@ def result_lines(
         ]
     for action in sorted(actions, key=lambda action: action.path.rpartition("/")):
         yield action_line(result, action, reason(action, result.effective_changes, brief=True))
-    if explain and (rest := len(result.actions) - len(actions)):
-        yield line((f"  {counted(rest, 'unchanged file')}; --verbose names each", "dim"))
     if any(action.reason is Reason.ORPHAN for action in actions):
         yield line((_ORPHANS, "dim"))
     if result.drawing:
