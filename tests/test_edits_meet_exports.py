@@ -43,18 +43,11 @@ LARGER = (
 """What is new in it adds to each model: a visual, friction, a link with its joint, a drive."""
 
 
-def init(execute: Execute) -> None:
-    """Write a configuration whose builds merge."""
-    execute("init", "arm.urdf")
-    file = Path("urdfsync.toml")
-    file.write_text(file.read_text().replace("# on_conflict", "on_conflict"))
-
-
 @pytest.fixture
 def arm(folder: Path, execute: Execute) -> Path:
     """A project with an arm of two links, which is built."""
     export(*ARM)
-    init(execute)
+    execute("init", "arm.urdf", "--merge")
     execute("build")
     return folder
 
@@ -131,7 +124,7 @@ def test_what_is_kept_compiles(arm: Path, execute: Execute, modelica_library: Pa
 
 def test_a_connection_follows_its_part_although_another_one_takes_its_name(folder: Path, execute: Execute) -> None:
     export(link("hand", 11.5), turn("hand", "base", "hand"))
-    init(execute)
+    execute("init", "arm.urdf", "--merge")
     execute("build")
     model = PACKAGE / "Arm.mo"
     twins = {

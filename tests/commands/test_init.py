@@ -7,7 +7,7 @@ import tomllib
 from pathlib import Path
 
 import pytest
-from support.commands import Execute
+from support.commands import Execute, Terminal
 from support.git import NEEDS_GIT, Repository
 
 from urdfsync import config
@@ -175,12 +175,39 @@ def clone(bare: Path, monkeypatch: pytest.MonkeyPatch) -> Repository:
     return Repository(bare, monkeypatch)
 
 
+def has_driver(clone: Repository) -> bool:
+    """Whether git merges with urdfsync; both parts of that, or none."""
+    attributes = clone.folder / ".gitattributes"
+    is_named = attributes.exists() and attributes.read_text() == "*.mo merge=urdfsync\n"
+    assert is_named == ("merge.urdfsync.driver=" in clone.git("config", "--list", "--local"))
+    return is_named
+
+
 @NEEDS_GIT
-def test_the_merge_driver_is_a_hint_until_it_is_there(clone: Repository, execute: Execute) -> None:
-    assert "`urdfsync merge-driver --install` [no-merge-driver]" in execute(*INIT, "ladder.json").err
-    execute("merge-driver", "--install")
+def test_the_merge_driver_is_set_up_by_name(clone: Repository, execute: Execute) -> None:
+    assert execute(*INIT, "ladder.json", "--merge-driver").lines[0] == f"git merges with urdfsync in {clone.folder}"
+    assert has_driver(clone)
     (clone.folder / "urdfsync.toml").unlink()
-    assert execute(*INIT, "ladder.json").err == ""
+    assert "no-merge-driver" not in execute(*INIT, "ladder.json").err, "it is there already"
+
+
+@NEEDS_GIT
+@pytest.mark.parametrize(("answer", "agrees"), [("y", True), ("", False)])
+def test_the_merge_driver_is_offered(
+    clone: Repository, execute: Execute, monkeypatch: pytest.MonkeyPatch, answer: str, agrees: bool
+) -> None:
+    monkeypatch.setattr(sys, "stdin", Terminal(answer))
+    printed = execute(*INIT, "ladder.json")
+    assert "merge these models by their elements, in this clone? [y/N]" in printed.out
+    assert "no-merge-driver" not in printed.err
+    assert has_driver(clone) is agrees
+    assert (clone.folder / "urdfsync.toml").exists()
+
+
+@NEEDS_GIT
+def test_without_a_terminal_the_merge_driver_is_a_hint(clone: Repository, execute: Execute) -> None:
+    assert "`urdfsync merge-driver --install` [no-merge-driver]" in execute(*INIT, "ladder.json").err
+    assert not has_driver(clone)
 
 
 @NEEDS_GIT
@@ -188,4 +215,9 @@ def test_outside_of_a_clone_no_driver_is_spoken_of(
     bare: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("GIT_CEILING_DIRECTORIES", str(bare.parent))
-    assert execute(*INIT, "ladder.json").err == ""
+    monkeypatch.setattr(sys, "stdin", Terminal("y"))
+    printed = execute(*INIT, "ladder.json")
+    assert (printed.err, "[y/N]" in printed.out) == ("", False)
+    (bare / "urdfsync.toml").unlink()
+    assert "run it in a clone [git]" in execute(*INIT, "ladder.json", "--merge-driver", code=2).err
+    assert not (bare / "urdfsync.toml").exists()

@@ -41,6 +41,19 @@ class Printed(NamedTuple):
         return document
 
 
+class Terminal:
+    """Somebody who answers."""
+
+    def __init__(self, words: str) -> None:
+        self._words = words
+
+    def isatty(self) -> bool:
+        return True
+
+    def readline(self) -> str:
+        return self._words
+
+
 Execute = Callable[..., Printed]
 """The fixture `execute`."""
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import itertools
 import math
+import sys
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NoReturn, TypeAlias, TypeVar, get_args
@@ -203,3 +204,18 @@ def _may_be_xacro(source: Path) -> bool:
         return is_xacro(source, read_unrecorded(source))
     except OSError:
         return True
+
+
+def can_ask(console: Console) -> bool:
+    """Return whether somebody is there to answer."""
+    return not console.is_document and sys.stdin is not None and sys.stdin.isatty()
+
+
+def is_confirmed(question: str, done: str, console: Console) -> bool:
+    """Ask the user whether something is to be `done`. Raises UrdfsyncError if nobody is there to answer."""
+    if not can_ask(console):
+        message, hint = f"nothing was {done}: there is no terminal to ask on", "look at what is shown, then give --yes"
+        raise UrdfsyncError.of("not-confirmed", message, hint=hint)
+    sys.stdout.write(f"{question} [y/N] ")
+    sys.stdout.flush()
+    return sys.stdin.readline().strip().lower() in ("y", "yes")

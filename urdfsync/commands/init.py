@@ -38,7 +38,7 @@ _DEFAULTS = """\
 output = "modelica"  # the folder that the packages go into
 # create_parents = true  # make the packages around `package` if they do not exist
 # on_build = "check"  # compile each package after its build, as `urdfsync check` does; default "nothing"
-# on_conflict = "merge"  # where you and the source changed a file, merge what fits together; default "keep"
+{on_conflict}on_conflict = "merge"  # where you and the source changed a file, merge what fits together; default "keep"
 # package_paths = []  # folders in which `package://` is looked for
 # users = []  # where models of your own use the robots, beside this folder: a build names the uses of what is gone
 # ignore = []  # codes of warnings that are not told, as in ["mesh-not-found"]
@@ -69,6 +69,10 @@ def add(commands: arguments.Commands) -> None:
     )
     sources = "URDF files (default: all below this folder), or xacro files with arguments NAME:=VALUE"
     parser.add_argument("sources", nargs="*", metavar="SOURCE", help=sources)
+    merge = "let builds merge changes into files that you edited, unless they contradict your edits"
+    parser.add_argument("--merge", action="store_true", help=merge)
+    driver = "let git merge models by their elements in this clone, as `urdfsync merge-driver --install`"
+    parser.add_argument("--merge-driver", action="store_true", help=driver)
     parser.add_argument("--domain", default="urdf", metavar="NAME", help="format of the sources (default: %(default)s)")
 
 
@@ -79,12 +83,21 @@ def run(args: argparse.Namespace, console: Console) -> int:
     domain = registry.domain(args.domain)
     named, given = arguments.split_sources(args.sources, args.parser)
     guesses, warnings = guess_robots(domain, file.parent, named, given)
+    is_clone = merge_driver.can_install(file.parent)
+    question = "Let git merge these models by their elements, in this clone?"
+    is_asked = is_clone and not args.merge_driver and arguments.can_ask(console)
+    installs = args.merge_driver or (is_asked and arguments.is_confirmed(question, "installed", console))
+    if installs:
+        merge_driver.install(file.parent, console)
+    _refuse_existing(file)
     with write_errors(file):
         write_schema(file.parent)  # first: with a configuration, `init` could not be run again
-        put(file, configuration_text(domain, guesses).encode())
-    if merge_driver.can_install(file.parent):
-        hint = "for elements, `urdfsync merge-driver --install`"
-        message = "git merges models line by line in this clone"
+        put(file, configuration_text(domain, guesses, merges=args.merge).encode())
+    if is_clone and not (is_asked or installs):
+        message, hint = (
+            "git merges models line by line in this clone",
+            "for elements, `urdfsync merge-driver --install`",
+        )
         warnings.append(Diagnostic(Severity.NOTE, "no-merge-driver", message, hint=hint))
     console.warnings(warnings)
     return show_guesses(console, file, "written", guesses)
@@ -159,9 +172,10 @@ def _guess(
     return guess, (*text.diagnostics, *map(text.locate, reading.diagnostics))
 
 
-def configuration_text(domain: Domain, guesses: Sequence[Guess]) -> str:
-    """Return a configuration with comments."""
-    return "\n".join([_HEADER, _DEFAULTS, *(robot_table(guess, domain) for guess in guesses)])
+def configuration_text(domain: Domain, guesses: Sequence[Guess], *, merges: bool) -> str:
+    """Return a configuration with comments; `merges` is consent to merge edited files."""
+    defaults = _DEFAULTS.format(on_conflict="" if merges else "# ")
+    return "\n".join([_HEADER, defaults, *(robot_table(guess, domain) for guess in guesses)])
 
 
 def robot_table(guess: Guess, domain: Domain) -> str:

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import argparse
-import sys
 
 from urdfsync import tomlfile
 from urdfsync.api import load
 from urdfsync.commands import arguments
 from urdfsync.commands.init import write_errors
 from urdfsync.config import Config
-from urdfsync.diagnostics import ConfigError, UrdfsyncError
+from urdfsync.diagnostics import ConfigError
 from urdfsync.engine.actions import ORPHANS, Action, Reason
 from urdfsync.engine.build import build
 from urdfsync.engine.result import Result, exit_code
@@ -52,7 +51,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     if not args.yes:
         (result,) = build(configuration, robots, arguments.request(args, console, dry=True, removes=True))
         _show(console, result, f"its table in {shown(configuration.file)} goes")
-    if args.yes or not (args.dry_run or result.failed or not _is_confirmed(console)):
+    if args.yes or not (args.dry_run or result.failed or not arguments.is_confirmed("Remove it?", "removed", console)):
         # the generator holds the build lock until the loop ends: no other build brings the package back meanwhile
         for result in build(configuration, robots, arguments.request(args, console, removes=True)):
             if not result.failed:
@@ -99,13 +98,3 @@ def _without_robot(configuration: Config, robot: str, content: bytes) -> bytes:
         message, hint = f"`{robot}` is no table `[robots.{robot}]`", "write it as one, then remove it"
         raise ConfigError.of("inline-robots", message, name, hint=hint)
     return f"{mark}{new}".encode()
-
-
-def _is_confirmed(console: Console) -> bool:
-    """Ask the user. Raises UrdfsyncError if nobody is there to answer."""
-    if console.is_document or sys.stdin is None or not sys.stdin.isatty():
-        message, hint = "nothing was removed: there is no terminal to ask on", "look at what is shown, then give --yes"
-        raise UrdfsyncError.of("not-confirmed", message, hint=hint)
-    sys.stdout.write("Remove it? [y/N] ")
-    sys.stdout.flush()
-    return sys.stdin.readline().strip().lower() in ("y", "yes")
