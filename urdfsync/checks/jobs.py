@@ -94,9 +94,7 @@ def _with_originals(result: CompileResult, originals: Mapping[str, Path]) -> Com
 
 
 def _readable(path: Path, folder: Path, changed: Mapping[Path, bytes]) -> str:
-    """Return the path at which the compiler can read a library: of a copy if the path is not UTF-8, or a file has
-    changed.
-    """
+    """Return the readable path of a library for the compiler: a copy if it is not UTF-8, or if a file has changed."""
     inside = {file: content for file, content in changed.items() if file == path or path in file.parents}
     try:
         str(path).encode()
