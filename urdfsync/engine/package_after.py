@@ -1,6 +1,6 @@
-"""The files of a robot's package as a build leaves them, and those of the user's around it.
+"""The files of a robot's package after a build, and the user's files around it.
 
-Apart from `fit`, which resolves names in them: a build of a package that nobody edited imports no parser.
+Separate from `fit`, which resolves names: a build of an unedited package imports no parser.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from urdfsync.modelica.files import files_that_use
 
 
 def as_file(path: str) -> str:
-    """Return the path of the file that a class has as long as it is no folder."""
+    """Return the path of a class's file, if the class is no folder."""
     return f"{path.removesuffix('/package.mo').removesuffix('.mo')}.mo"
 
 
@@ -27,20 +27,20 @@ class _File(NamedTuple):
 
     key: str
     text: str | None = None
-    """A text that the build writes, other than the generated one."""
+    """A text that the build writes and that is not the generated one."""
     is_generated: bool = False
     is_edited: bool = False
-    """Whether the user wrote in it."""
+    """Whether the user edited it."""
     is_users: bool = False
     """Whether it is the user's own."""
     is_expected: bool = True
-    """Whether a file of its name is generated."""
+    """Whether a file of this name is generated."""
 
 
 class PackageAfter(Mapping[str, bytes]):
-    """The files of a robot's package as a build leaves them, by their paths below it, and the user's around it.
+    """The files of a robot's package after a build, by their paths below it, and the user's files around it.
 
-    Contents are made when they are asked for: rendering 4,000 takes a second.
+    Contents are made on demand: rendering 4,000 takes a second.
     """
 
     def __init__(
@@ -53,10 +53,10 @@ class PackageAfter(Mapping[str, bytes]):
         *,
         is_open: bool = False,
     ) -> None:
-        """`merged` are texts that the build writes, by key; `contents` counts for what is in files of the user's.
+        """`merged` are texts that the build writes, by key; `contents` overrides the user's files.
 
-        Files that use one of the `former_names` have to do with the package, too. If it `is_open` what becomes of files
-        in conflict, they may have anything.
+        Files that use one of the `former_names` use the package, too. If it `is_open`, files in conflict may declare
+        any name.
         """
         self._generation, self._inputs, self._actions = generation, generation.inputs, actions
         self._contents, self._read_contents, self._generated = contents or {}, dict[str, bytes](), set[bytes]()
@@ -98,7 +98,7 @@ class PackageAfter(Mapping[str, bytes]):
         return found
 
     def _files_around(self, former_names: Collection[str]) -> dict[Path, bytes]:
-        """Return the user's files outside of the package that may use it."""
+        """Return the user's files outside of the package that may use the package."""
         inputs, files = self._inputs, self._inputs.files
         found = {**inputs.users_files.mentioning, **files_that_use(inputs.users_files.all, former_names)}
         if inputs.has_moved:
@@ -108,7 +108,7 @@ class PackageAfter(Mapping[str, bytes]):
         return {path: self._contents.get(path, content) for path, content in found.items()}
 
     def __getitem__(self, path: str) -> bytes:
-        """Return what is in a file of the package. Raises KeyError."""
+        """Return the content of a file of the package. Raises KeyError."""
         if path not in self._read_contents:
             file, files = self._files[path], self._inputs.files
             if file.is_generated:
@@ -133,12 +133,12 @@ class PackageAfter(Mapping[str, bytes]):
 
     @cached_property
     def own(self) -> set[Path]:
-        """The files that the user wrote, and not only edited."""
+        """The user's own files, without edited ones."""
         return {self._inputs.files.path(file.key) for file in self._files.values() if file.is_users} | {*self.around}
 
     @cached_property
     def extended_orders(self) -> dict[str, tuple[str, set[str]]]:
-        """Text of each `package.order` with lines that no generated class has, and these lines, by path."""
+        """The text of each `package.order` that names classes of the user's, and these lines, by path."""
         inputs, files, orders = self._inputs, self._inputs.files, self._generation.package.orders
         users = [f"{path.removesuffix('.mo')}.order" for path, file in self._files.items() if file.is_users]
         texts = {path: files.any_text(inputs.folder.key(path)) for path in users if path.endswith("package.order")}
