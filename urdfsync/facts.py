@@ -114,7 +114,7 @@ def hash_content(content: bytes) -> str:
 
 
 def read_unrecorded(path: str | os.PathLike[str]) -> bytes:
-    """Read a file as `read_file` does, without recording it: `read_stat` has recorded it, or no answer depends on it."""
+    """Read a file as `read_file` does, without recording it: `read_stat` did, or no answer depends on it."""
     # a pipe would wait for somebody who writes to it
     with open(path, "rb", buffering=0, opener=lambda path, flags: os.open(path, flags | _NONBLOCK)) as file:
         status = os.fstat(file.fileno())

@@ -68,9 +68,10 @@ class UrdfDomain(Domain):
         return options.uses
 
     def read(self, content: bytes, file: str, options: Options) -> Reading:
-        """Read a URDF; warn of one without errors also if it is implausible, or can't be simulated.
+        """Read a URDF.
 
-        Names in options are held against the robot.
+        Without errors, also warn of implausible values, and of robots that can't be simulated. Names in options are
+        checked against the robot.
         """
         robot, diagnostics, lines, unmodelled = read_robot(content, file, options)
         if robot is None:
@@ -119,7 +120,7 @@ class UrdfDomain(Domain):
     def dependencies(
         self, snapshot: Snapshot, lookup: Lookup, options: Options, lines: Mapping[str, int]
     ) -> Sequence[Dependency]:
-        """Return the meshes of the shapes that something in the package is made of."""
+        """Return the meshes of the shapes that the package uses."""
         if options.meshes != "import":
             return ()
         has_collisions = options.collisions and ("package" in options.approach or options.base == "floating")
@@ -127,12 +128,12 @@ class UrdfDomain(Domain):
         return dependencies(snapshot["links"], kinds, lookup, lines, touches=options.base == "floating")
 
     def mentioned(self, dependency: Dependency, file: str, content: bytes) -> Sequence[str]:
-        """Return the buffers of a glTF file, and materials and textures of a mesh whose own colours are drawn."""
+        """Return the buffers of a glTF file, and the materials and textures of a mesh with its own colours."""
         is_needed = TEXTURED in dependency.facts or suffix(dependency.uri) == GLTF
         return mentioned_files(file, content) if is_needed else ()
 
     def convert(self, dependency: Dependency, file: Path, content: bytes, others: Mapping[str, bytes]) -> Conversion:
-        """Return a mesh as STL or OBJ, with its bounds and its outermost points, and by its colours."""
+        """Return a mesh as STL or OBJ, split by its colours, with its bounds and its outermost points."""
         from urdfsync.urdf.meshes.convert import convert  # 10 ms, and only new meshes need it
 
         return convert(dependency, file, content, others)
@@ -150,11 +151,11 @@ class UrdfDomain(Domain):
             yield "", Diagnostic(Severity.NOTE, "texture", message)
 
     def permissive_options(self) -> Options:
-        """Allow all that can be left out of a model."""
+        """Allow all parts that can be left out of a model."""
         return Options(allow=get_args(LeftOut))
 
     def propose(self, snapshot: Snapshot, diagnostics: Sequence[Diagnostic]) -> Sequence[Proposal]:
-        """Guess whether the robot is mobile; allow the errors about parts that no model has."""
+        """Guess whether the robot is mobile; allow errors about parts that models leave out."""
         from urdfsync.urdf.kinematics.base_guess import guess_base
 
         base, codes = guess_base(from_snapshot(snapshot)), {entry.code for entry in diagnostics}
@@ -182,7 +183,7 @@ class UrdfDomain(Domain):
         target: Target,
         options: Options,
     ) -> str | None:
-        """Return the diagram of the robot model, which only the package approach has."""
+        """Return the diagram of the robot model; only the package approach has one."""
         from urdfsync.urdf.diagram.drawing import draw
 
         return draw(from_snapshot(snapshot), target, options) if "package" in options.approach else None
@@ -208,7 +209,7 @@ class UrdfDomain(Domain):
     def record(
         self, reading: Reading, file: str, target: Target, options: Options
     ) -> tuple[Artifact, Sequence[Diagnostic]] | None:
-        """Return the record of the whole robot, and which joints the generic robot can't move."""
+        """Return the record of the whole robot, and the joints that the generic robot can't move."""
         if reading.snapshot is None:
             return None
         robot = from_snapshot(reading.snapshot)
@@ -216,7 +217,7 @@ class UrdfDomain(Domain):
         return package.record(robot, target, options), located(findings, file, reading.lines)
 
     def experiment(self, sample: Sample, step: float | None = None) -> Experiment | str:
-        """Return the comparison with Pinocchio, or why a robot has none, such as one with planar or floating joints."""
+        """Return the comparison with Pinocchio, or why there is none, such as planar or floating joints."""
         from urdfsync.urdf.physics.experiment import experiment  # with numpy, which no build needs
 
         return experiment(sample, step)
@@ -224,7 +225,7 @@ class UrdfDomain(Domain):
     def wiring(
         self, texts: Mapping[str, bytes], snapshot: Snapshot, target: Target, options: Options
     ) -> Iterable[Deviation]:
-        """Look at the connections of Run and Test, which only the package approach has."""
+        """Check the connections of Run and Test; only the package approach has them."""
         from urdfsync.urdf.physics.wiring import wiring  # no build needs it
 
         tree = KinematicTree.of(from_snapshot(snapshot), (target.name,))
