@@ -21,11 +21,11 @@ from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS, Joint, Link, Loop, Mesh, Robot, Unit
 
 _NO_FACTS = {"bounds": (), "hull": ()}
-"""Of a mesh that is too large for the package: a picture needs none."""
+"""Facts of a mesh that is too large for the package: a picture needs none."""
 
 
 def scene(robot: Robot, imports: Mapping[str, Import], target: Target, options: Options) -> Scene:
-    """Return the picture of a robot. Shapes whose mesh is not imported are named as missing."""
+    """Return the picture of a robot. Shapes without an imported mesh are named as missing."""
     imports = {
         key: file if file.facts else msgspec.structs.replace(file, facts=_NO_FACTS) for key, file in imports.items()
     }
