@@ -1,7 +1,7 @@
 """The functions behind the commands, for scripts and notebooks: `urdfsync.build` and the others (docs/api.md).
 
-They print nothing. What a command would end with as an error, they raise. Functions import what they alone need: the
-checks take 100 ms to load, the merge 20 ms, and a build has to be quick.
+They print nothing, and raise the errors of the commands. Each function imports its own modules: the checks take 100 ms
+to load, the merge 20 ms, and a build has to be quick.
 """
 
 from __future__ import annotations
@@ -80,7 +80,7 @@ class Results(list[R]):
 
 
 class WholeRecord(msgspec.Struct, frozen=True):
-    """A whole robot as one record of Modelica, in the package `within`, which is empty for none."""
+    """A whole robot as one record of Modelica, in the package `within`; empty for no package."""
 
     KEYS = ("name", "within", "text", "file", "is_written")
 
@@ -89,18 +89,18 @@ class WholeRecord(msgspec.Struct, frozen=True):
     within: str
     diagnostics: tuple[Diagnostic, ...]
     file: Path | None = None
-    """The file that has it, which `urdfsync record --output` names."""
+    """The file that holds it: that of `urdfsync record --output`."""
     is_written: bool = False
-    """Whether the file did not have it before."""
+    """Whether the file was written; False if it held the record already."""
 
     def _repr_html_(self) -> str:
         return html([*findings(self.diagnostics), *(line((text, "")) for text in self.text.splitlines())])
 
 
 def load(config: Place = None) -> Config:
-    """Return the configuration in a file; one that is loaded stays as it is.
+    """Return the configuration in a file, or a loaded configuration itself.
 
-    Its `robots` have their names, sources and packages. Raises ConfigError with all that is wrong in the file.
+    Its `robots` have their names, sources and packages. Raises ConfigError with all faults of the file.
     """
     if isinstance(config, Config):
         return config
@@ -118,8 +118,8 @@ def build(
 
     `robots` are names, sources or outputs; without any, all robots are built. With `merge`, changes are merged into
     edited files. `given` are fields of `BuildOptions`, such as `dry` for a dry run. A robot that can't be built has
-    `failed`, and says why in `diagnostics`; the others are built. `on_result` gets each result as soon as it is there.
-    Raises UrdfsyncError for a configuration that can't be used, and for a robot that it does not have.
+    `failed` and `diagnostics`; the others are built. `on_result` gets each result as soon as it is there. Raises
+    UrdfsyncError for a bad configuration, and for an unknown robot.
     """
     loaded = load(config)
     chosen: Sequence[RobotConfig] = loaded.select(robots)
@@ -141,9 +141,9 @@ def build_and_check(config: Config, robots: Sequence[RobotConfig], options: Buil
 
 
 def status(*robots: str, **given: Any) -> Results[Result]:
-    """Say how each file stands, from a `build` that writes nothing: `action.status` of a result's `actions`.
+    """Return the results of a `build` that writes nothing; `action.status` tells the state of each file.
 
-    No command that makes a source is run: `stale` names its inputs that changed.
+    No `command` runs; `stale` names its changed inputs.
     """
     from urdfsync.output.status import lines
 
@@ -201,8 +201,8 @@ def check(
 ) -> Results[CheckResult]:
     """Check packages as they are on disk, as `urdfsync check` does; `result.status` is the verdict.
 
-    `given` are fields of `CheckOptions`, such as `physics`. Raises UrdfsyncError for a configuration that can't be
-    used, a robot that it does not have, a compiler that is not trusted, and where there is no place for the cache.
+    `given` are fields of `CheckOptions`, such as `physics`. Raises UrdfsyncError for a bad configuration, an unknown
+    robot, an untrusted compiler, and a cache that can't be written.
     """
     from urdfsync.checks import compilers, run
     from urdfsync.checks.report import robot_lines
@@ -254,8 +254,8 @@ def record(
 ) -> WholeRecord:
     """Return the record of a source, as `urdfsync record` writes it; for xacro, with its `arguments`.
 
-    The record is called `class_`, or by the source. Raises SourceError for a source that can't be read, and ConfigError
-    for a name that can't be used.
+    The record's name is `class_`, or follows from the source. Raises SourceError for a source that can't be read, and
+    ConfigError for a name that can't be used.
     """
     from urdfsync import registry
     from urdfsync.engine import source as sources
@@ -276,7 +276,7 @@ def record(
 
 
 def _target(name: str, within: str, source: Path) -> Target:
-    """Return the class: the chosen one, else one after the source. Raises ConfigError."""
+    """Return the class: the chosen one, else one named after the source. Raises ConfigError."""
     if name and not is_class_name(name):
         hint = "choose one that begins with a capital and is not reserved by Modelica or urdfsync"
         raise ConfigError.of("modelica-name", f"{name!r} can't be a class", hint=hint)

@@ -1,4 +1,4 @@
-"""Compare two versions of a model: classified changes, and the files that these concern. Knows no domain."""
+"""Compares two versions of a model: classifies changes, and finds their files. Knows no domain."""
 
 from __future__ import annotations
 
@@ -81,7 +81,7 @@ class Change(msgspec.Struct, frozen=True):
     new: Any
     unit: str = ""
     noise: bool = False
-    """Whether only the rounding of a number may have changed. It is applied like any other change."""
+    """Whether only the rounding of a number may have changed. Builds apply it all the same."""
 
     def __post_init__(self) -> None:
         """Find out whether it is noise, which follows from the values."""
@@ -137,7 +137,7 @@ class Changes(msgspec.Struct, frozen=True):
 def compare(old: Version, new: Version, domain: Domain, options: Any, matching: Matching | None = None) -> Changes:
     """Return the changes from one version to another, with the domain's options of the new one.
 
-    `matching` tells which element is which; None to find that out.
+    `matching` pairs elements; None to find the pairs.
     """
     differences: list[Difference] = []
     if matching is None:
@@ -178,8 +178,8 @@ def moved_files(
     """Return old path → new path of each file that belongs to the same element as before, but is at another place.
 
     Both mappings have the owner and the template of files by their path. A file moves with its element's new name, or
-    with an identifier that had to give way to another element's. Where an element has several files of one template
-    that moved, nothing is matched. Files of an element whose name another one has now are left where they are.
+    with its new identifier. Several moved files of one element and template are not matched. Files of an element whose
+    name another one has now stay.
     """
     if old == new and not renames:
         return {}
@@ -208,7 +208,7 @@ def is_number(value: object) -> bool:
 
 
 def _of_snapshots(old: Snapshot, new: Snapshot) -> Iterator[Difference]:
-    """Yield the differences of two snapshots; elements that are equal cost one comparison."""
+    """Yield the differences of two snapshots; equal elements cost one comparison."""
     for part in dict.fromkeys([*new, *old]):
         before, after = old.get(part), new.get(part)
         if not (isinstance(before, Mapping) and isinstance(after, Mapping)):

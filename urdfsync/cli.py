@@ -1,4 +1,4 @@
-"""The command line: arguments to a call of one command, and whatever becomes of it to an exit code."""
+"""The command line: turns arguments into the call of a command, and its outcome into an exit code."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _COMMANDS = (
     "init add remove adopt build diff report status watch check simulate fmu resolve record hook merge-driver library "
     "schema completion"
 ).split()
-"""In the order of the help. Each is a module of `commands`, loaded if it may be the one."""
+"""In the order of the help. Each is a module of `commands`, loaded only if its command may be meant."""
 
 
 _GARBAGE_THRESHOLD = 1_000_000
@@ -32,7 +32,7 @@ _GARBAGE_THRESHOLD = 1_000_000
 
 
 def main(given: Sequence[str] | None = None) -> int:
-    """Run a command; returns the exit code. Whatever happens is told in one line, never by a traceback alone."""
+    """Run a command; returns the exit code. An unforeseen error is one line that names the file of its traceback."""
     gc.set_threshold(_GARBAGE_THRESHOLD, *gc.get_threshold()[1:])
     given = sys.argv[1:] if given is None else list(given)
     try:
@@ -89,7 +89,7 @@ def _main(given: list[str]) -> int:
 
 
 def _arguments(given: list[str]) -> argparse.Namespace:
-    """Return the arguments of a command. Raises UsageError, with what may have been meant."""
+    """Return the arguments of a command. Raises UsageError, with the likely intention as hint."""
     parser = _parser(given)
     if given and not (given[0].startswith("-") or given[0] in _COMMANDS):
         raise arguments.UsageError(parser, f"no command `{given[0]}`", _meant(given[0], _COMMANDS))
@@ -106,7 +106,7 @@ def _meant(name: str, known: Iterable[str]) -> str:
 
 
 def _call(args: argparse.Namespace, console: Console) -> int:
-    """Run the command. What fails while it is cleared away after an interruption is that interruption."""
+    """Run the command. An error during the clean-up after an interruption counts as the interruption."""
     try:
         return int(_module(args.command).run(args, console))
     except Exception as error:
@@ -119,7 +119,7 @@ def _call(args: argparse.Namespace, console: Console) -> int:
 
 
 def _for_git(given: Sequence[str], error: int) -> int:
-    """Return the exit code of an error as git's merge driver tells it: smaller ones are numbers of conflicts."""
+    """Return the exit code of an error for git's merge driver: smaller codes count conflicts."""
     return arguments.DRIVER_ERROR if _command(given) == "merge-driver" and "--install" not in given else error
 
 
@@ -129,7 +129,7 @@ def _command(given: Sequence[str]) -> str:
 
 @contextlib.contextmanager
 def _terminated_as_interrupted() -> Iterator[None]:
-    """Let SIGTERM end a command as Ctrl-C does, with its state in order; `watch` has handlers of its own."""
+    """Let SIGTERM end a command as Ctrl-C does, with clean-up; `watch` has handlers of its own."""
     if threading.current_thread() is not threading.main_thread() or signal.getsignal(signal.SIGTERM) != signal.SIG_DFL:
         yield
         return
@@ -141,7 +141,7 @@ def _terminated_as_interrupted() -> Iterator[None]:
 
 
 def _parser(given: Sequence[str]) -> arguments.Parser:
-    """Return the parser of a command, if one comes first; else that of all."""
+    """Return the parser of a command, if a command comes first; else the parser of all commands."""
     names = given[:1] if given and given[0] in _COMMANDS else _COMMANDS
     parser = arguments.Parser(
         prog="urdfsync",

@@ -1,9 +1,8 @@
-"""Completion in shells: prints the script for one, and answers what that asks.
+"""Completion in shells: prints the script for a shell, and answers its questions.
 
-A shell waits for the answer at each TAB, so nothing is imported here that takes longer than a few ms: options come from
-a table of all parsers, robots and joints from the configuration and the recorded state. Whatever is wrong with these,
-there is nothing to complete, and nothing is said. Names that a shell could take for more than a name are left out: a
-project may be a stranger's.
+A shell waits for the answer at each TAB, so imports here take a few ms at most. Options come from a table of all
+parsers, robots and joints from the configuration and the recorded state. If these are faulty, the answer is empty.
+Names with special characters of shells are left out: a project may be a stranger's.
 """
 
 from __future__ import annotations
@@ -18,14 +17,14 @@ SHELLS = ("bash", "zsh", "fish")
 _SHELLS = os.path.join(os.path.dirname(__file__), "shells")
 _STATE = ".urdfsync/robots"
 _LARGEST = 500_000
-"""Bytes of a configuration that are read in a fifth of a second; hundreds of robots have fewer."""
+"""Largest configuration in bytes: it is read in a fifth of a second, and hundreds of robots have a smaller one."""
 _LARGEST_STATES = 10_000_000
-"""Bytes of recorded states that are read in a fifth of a second: those of robots with 10,000 links."""
+"""Largest recorded states in bytes: they are read in a fifth of a second, and belong to robots with 10,000 links."""
 _SAFE = frozenset("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.-")
 
 
 def answer(arguments: list[str]) -> bool:
-    """Print what `urdfsync completion SHELL`, or its script with words of a line, asks for; False for anything else."""
+    """Print the script for `urdfsync completion SHELL`, or the answer to that script; False for other arguments."""
     if not arguments or arguments[0] not in SHELLS or arguments[1:2] not in ([], ["--"]):
         return False
     if len(arguments) == 1:
@@ -36,7 +35,7 @@ def answer(arguments: list[str]) -> bool:
 
 
 def complete(words: list[str]) -> list[tuple[str, str]]:
-    """Return what the last word may become, each with its meaning."""
+    """Return the completions of the last word, each with its meaning."""
     *before, current = words or [""]
     table = [line.split("\t") for line in read_unrecorded(f"{_SHELLS}/options.tsv").decode().splitlines()]
     rows = [row for row in table if row[0] == (before[0] if before else "")]  # those of a command, or all commands
@@ -56,7 +55,7 @@ def complete(words: list[str]) -> list[tuple[str, str]]:
 
 
 def _names(kind: str, words: list[str]) -> list[str]:
-    """Return the values of a kind: robots, texts with a joint in them, one choice; of others nothing is known."""
+    """Return the values of a kind: robots, texts with a joint in them, or choices; none for other kinds."""
     if kind == "ROBOT":
         return _robots(words)
     if "{}" in kind:
@@ -77,7 +76,7 @@ def _robots(words: list[str]) -> list[str]:
 
 
 def _joints(words: list[str]) -> list[str]:
-    """Return the joints that were built last, of the robots on the line or of all, if their names are components'."""
+    """Return the joints of the last build, of the robots on the line or of all, if their names are component names."""
     folder = os.path.join(os.path.dirname(uptodate.find_config(words) or ""), _STATE)
     try:
         states = sorted(os.listdir(folder))

@@ -1,8 +1,8 @@
-"""The list of all that is read: files and folders, each with what was seen there, so that it is known what has changed.
+"""Lists all files and folders that are read, with facts about each, to find changes later.
 
-A saved answer holds while all of its list is as it was, the daemon watches that of each robot, and the hook wants it
-staged. Code that decides whether there is anything to do reads through these functions alone. What is read by other
-means is named by `depend_on`, or makes the list incomplete (`mark_incomplete`).
+A saved answer holds while its list is unchanged. The daemon watches the list of each robot, and the hook requires it
+staged. Code that decides about work reads only through these functions. Other reads call `depend_on`, or
+`mark_incomplete`.
 """
 
 from __future__ import annotations
@@ -37,9 +37,9 @@ from urdfsync.facts import (
 
 
 class Dependencies:
-    """All that this thread reads through this module inside a `with` block. A block around it has that, too.
+    """All that this thread reads through this module inside a `with` block, and inside nested blocks.
 
-    With `is_program`, what is read is part of the program, and the block around counts it as such.
+    With `is_program`, the files are part of the program, also for the block around.
     """
 
     def __init__(self, *, is_program: bool = False) -> None:
@@ -49,11 +49,11 @@ class Dependencies:
         """The facts about each path: a `Stat`, a tuple of the file type, a checksum of names, `NOTHING`, or a negative
         error number."""
         self.hashes: dict[Entry, str] = {}
-        """Hash of the content of each file that was young when it was read; empty where that is not known."""
+        """Hash of the content of each file that was young when it was read; empty if unknown."""
         self.modules: dict[Entry, tuple[int, ...]] = {}
         """The facts about files of the program itself, which are no inputs of a robot."""
         self.complete = True
-        """Whether the answer depends on nothing else, and no path changed or failed while it was read."""
+        """Whether the list is complete, and no path changed or failed during the reading."""
 
     def __enter__(self) -> Dependencies:
         self._token = _current.set(self)
@@ -82,9 +82,9 @@ class Dependencies:
         self.hashes[entry] = self.hashes.get(entry) or sha256
 
     def renew(self, written: Mapping[str, bytes | None]) -> None:
-        """Record the files that a build has written in the place of what it read there; None for a deleted one.
+        """Replace the entries of files that a build has written; None for a deleted one.
 
-        The folders around them are looked at again.
+        The folders around them are read again.
         """
         changed = set(written)
         for path in written:
@@ -97,7 +97,7 @@ class Dependencies:
                 self.hashes[entry] = hash_content(content)
 
     def add_modules(self) -> None:
-        """Record the program itself, which a developer may change; Python goes by its version."""
+        """Record the program's own files, which a developer may change, and Python's version."""
         for name, module in list(sys.modules.items()):
             file = getattr(module, "__file__", None)
             if file and name.partition(".")[0] not in sys.stdlib_module_names and os.path.isfile(file):
@@ -111,7 +111,7 @@ _current: ContextVar[Dependencies | None] = ContextVar("dependencies", default=N
 
 
 def mark_incomplete() -> None:
-    """Mark the list as incomplete: the answer depends on more, and can't be saved."""
+    """Mark the list as incomplete: then the answer can't be saved."""
     if (dependencies := _current.get()) is not None:
         dependencies.complete = False
 
@@ -174,7 +174,7 @@ def read_file(path: str | os.PathLike[str]) -> bytes:
 
 
 def note_content(check: str, path: str | os.PathLike[str], content: bytes) -> None:
-    """Record what was read of a file, if it is so young that its stat values may not tell the next change."""
+    """Record the hash of a young file: its stat values may not show the next change."""
     dependencies, entry = _current.get(), (check, os.fspath(path))
     if dependencies is not None and entry in dependencies.hashes:
         dependencies.add_hash(entry, hash_content(content))

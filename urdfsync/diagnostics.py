@@ -21,7 +21,7 @@ IGNORABLE = frozenset(
 
 
 _LONGEST = 1000
-"""Characters of a message, a hint or a detail: names in them may be a stranger's, and of any length."""
+"""The most characters of a message, a hint or a detail: names in them may have any length."""
 
 
 def cut(text: str, longest: int) -> str:
@@ -56,7 +56,7 @@ class Diagnostic(msgspec.Struct, frozen=True):
     column: int = 0
     hint: str = ""
     details: tuple[str, ...] = ()
-    """Lines that people see with `--verbose` only."""
+    """Lines that only `--verbose` shows."""
 
     def __post_init__(self) -> None:
         """Cut texts that are too long for a line."""
@@ -74,12 +74,12 @@ class Diagnostic(msgspec.Struct, frozen=True):
 
     @property
     def sentence(self) -> str:
-        """The message, and what to do."""
+        """The message with its hint."""
         return "; ".join(filter(None, (self.message, self.hint)))
 
 
 def internal_error(error: Exception, what: str = "") -> Diagnostic:
-    """Return the finding for a mistake in urdfsync: where it was raised, and the file that has its traceback."""
+    """Return the finding for a mistake in urdfsync: its place, and the file with its traceback."""
     import traceback  # 4 ms, and hardly ever needed
 
     frame = traceback.extract_tb(error.__traceback__)[-1]
@@ -94,7 +94,7 @@ def internal_error(error: Exception, what: str = "") -> Diagnostic:
 
 @functools.lru_cache(maxsize=16)  # the daemon may meet the same mistake at each build
 def _save_traceback(text: str) -> str:
-    """Write a traceback to a temporary file, and return its path; empty if that can't be."""
+    """Write a traceback to a temporary file, and return its path; empty if that fails."""
     import tempfile
 
     try:
@@ -110,7 +110,7 @@ class UrdfsyncError(Exception):
     """Base of all errors that a user can cause; carries the diagnostics that explain it."""
 
     is_locked = False
-    """Whether another process is at work on the same; the exit code is 4 then, not 2."""
+    """Whether another process works on the same robots; then the exit code is 4, not 2."""
 
     def __init__(self, *diagnostics: Diagnostic) -> None:
         super().__init__(*diagnostics)  # by which it is pickled, when a worker of a pool raises it
@@ -139,13 +139,13 @@ class StateError(UrdfsyncError):
 
 
 class OutputError(UrdfsyncError):
-    """The outputs can't be written where the configuration wants them."""
+    """The outputs can't be written to their configured place."""
 
 
 def findings_of(error: Exception) -> tuple[Diagnostic, ...]:
-    """Return the findings of whatever stopped the work on one robot, or a command: also of a mistake in urdfsync.
+    """Return the findings of an exception: for a mistake in urdfsync the internal error.
 
-    So one robot never ends the others: those who work on several catch every exception, and ask this.
+    Loops over robots catch every exception and call this, so one robot never stops the others.
     """
     if isinstance(error, UrdfsyncError):
         return error.diagnostics

@@ -1,4 +1,4 @@
-"""Facts about paths, by which a change shows: stat values, file types, names in a folder, an environment variable.
+"""Facts that show a change of a path: stat values, file types, names in a folder, an environment variable.
 
 The up-to-date check looks at each path of its list through this module, so it imports nothing.
 """
@@ -14,14 +14,14 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
 Stat = tuple[int, int, int, int, int, int]
-"""Mode, inode, device, size in bytes, and the times of change of content and of status in ns. Only ever compared."""
+"""Mode, inode, device, size in bytes, and the times of change of content and of status in ns. It is only compared."""
 
 YOUNG = 2_000_000_000
-"""Nanoseconds after a change in which a file is read again, whatever its stat values are."""
+"""For so many nanoseconds after a change, a file is read again, even with equal stat values."""
 MAX_FILE = 100_000_000
-"""Bytes of a file that is read. More is no source, mesh or output, but may be a stranger's, to fill the memory."""
+"""The most bytes of a readable file. A larger one is no source, mesh or output, but may be an attack on the memory."""
 _ABSENT = (errno.ENOENT, errno.ENOTDIR, errno.ELOOP, errno.EBADF)
-"""Errors that say that nothing is at a path; the same as for pathlib."""
+"""Errors for a path without a file; the same as in pathlib."""
 _NONBLOCK = getattr(os, "O_NONBLOCK", 0)
 
 LSTAT, STAT = "lstat", "stat"
@@ -34,9 +34,9 @@ NAMES, MODELICA = "names", "modelica"
 """How a folder is checked: by all names in it, or by those that matter to Modelica."""
 LISTINGS = (NAMES, MODELICA)
 VARIABLE = "variable"
-"""How an environment variable is checked, whose name stands in the place of a path: by its value."""
+"""How an environment variable is checked: by its value. Its name stands in place of a path."""
 Entry = tuple[str, str]
-"""A check, and the path or variable that it is of."""
+"""A check, and its path or variable."""
 NOTHING = (0,)
 """The facts about a path without a file."""
 
@@ -50,12 +50,12 @@ def is_young(facts: tuple[int, ...], now: int) -> bool:
 
 
 def failed(error: OSError) -> tuple[int, ...]:
-    """Return the facts about a path that the system does not tell of."""
+    """Return the facts about a path that the system can't read."""
     return (-(error.errno or 1),)
 
 
 def stat_of(status: os.stat_result) -> Stat:
-    """Return the values that differ once a file has changed."""
+    """Return the stat values that differ after a change."""
     return status.st_mode, status.st_ino, status.st_dev, status.st_size, status.st_mtime_ns, status.st_ctime_ns
 
 
@@ -85,7 +85,7 @@ def facts_of(check: str, path: str | os.PathLike[str]) -> tuple[int, ...]:
 
 
 def names_in(check: str, entries: Iterable[os.DirEntry[str]]) -> tuple[int, ...]:
-    """Return number and checksum of the names that count: to Modelica, those of its files and of visible folders."""
+    """Return number and checksum of the names that count: for Modelica, those of its files and of visible folders."""
     return checksum(
         entry.name
         for entry in entries
@@ -114,7 +114,7 @@ def hash_content(content: bytes) -> str:
 
 
 def read_unrecorded(path: str | os.PathLike[str]) -> bytes:
-    """Read a file as `read_file` does, without recording it: where `read_stat` has, or no answer depends on it."""
+    """Read a file as `read_file` does, without recording it: `read_stat` did, or no answer depends on it."""
     # a pipe would wait for somebody who writes to it
     with open(path, "rb", buffering=0, opener=lambda path, flags: os.open(path, flags | _NONBLOCK)) as file:
         status = os.fstat(file.fileno())

@@ -1,4 +1,4 @@
-"""Kinds of files that users take for a robot, such as an archive of one, or a launch file that loads one."""
+"""Recognises files that users take for a robot, such as an archive, or a launch file."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import NamedTuple
 from urdfsync.markers import find_markers
 
 _BEGINNING = 20_000
-"""So many bytes tell what a file is that has a robot inside."""
+"""So many bytes show the kind of a file with a robot inside."""
 _TAR = slice(257, 262)
 _PACKED = (
     (b"\x1f\x8b", "packed by gzip", "gunzip < FILE > ROBOT.urdf"),
@@ -18,7 +18,7 @@ _PACKED = (
     (b"PK\x03\x04", "a zip archive", "unzip FILE"),
     (b"7z\xbc\xaf\x27\x1c", "a 7z archive", "7z x FILE"),
 )
-"""How a packed file begins, what it is, and the command that unpacks it."""
+"""The beginning of a packed file, its kind, and the command that unpacks it."""
 _OTHERS = (
     ("lfs-pointer", rb"version https://git-lfs", "the file is a Git LFS pointer, not the robot"),
     ("robot-description", rb"[^<]*\brobot_description[\"']?[ \t]*:", "this is a parameter file of ROS: YAML, not URDF"),
@@ -48,7 +48,7 @@ class FileKind(NamedTuple):
 
 
 def find_kind(content: bytes) -> FileKind | None:
-    """Return the kind of a file that holds no robot as XML; None for other files, and if the kind is unknown."""
+    """Return the kind of a file that holds no robot as XML; None for other files, and for an unknown kind."""
     packed = next((kind for kind in _PACKED if content.startswith(kind[0])), None)
     if content[_TAR] == b"ustar" and b"\0" in content[: _TAR.start]:
         packed = b"", "a tar archive", "tar xf FILE"
@@ -61,7 +61,7 @@ def find_kind(content: bytes) -> FileKind | None:
 
 
 def find_conflict(text: str) -> FileKind | None:
-    """Return where the first marker of a merge conflict is, if there is one; line ends are unified."""
+    """Return the place of the first marker of a merge conflict, if there is one; line ends are unified."""
     for _, line in find_markers(text):
         return FileKind("merge-conflict", "the file has merge conflict markers", HINTS["merge-conflict"], line)
     return None

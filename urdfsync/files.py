@@ -1,4 +1,4 @@
-"""Reading files: hashes, refusal of links and of whatever is no file, and errors in words."""
+"""Reads files: computes hashes, refuses links and irregular files, and words errors."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from urdfsync.diagnostics import OutputError
 from urdfsync.facts import LSTAT, read_unrecorded
 
 TEMPORARY = ".urdfsync-tmp"
-"""Suffix of the files that are written before they replace their targets."""
+"""Suffix of new files before they replace their targets."""
 
 _HINTS = {
     **dict.fromkeys((errno.EACCES, errno.EPERM), "check the permissions of the file and of its folder"),
@@ -28,7 +28,7 @@ _HINTS = {
 
 
 def shown(path: Path) -> str:
-    """Return a path as people see it: relative to the working folder if it is inside it."""
+    """Return a path for messages: relative to the working folder if it is inside."""
     text = str(path)
     try:
         current = os.getcwd()  # noqa: PTH109 - every message asks, and a Path takes five times as long
@@ -56,7 +56,7 @@ def normalised(content: bytes) -> bytes:
 
 
 def put(file: Path, content: bytes) -> None:
-    """Write a file that is in no package and no state, as a whole or not at all. Raises OSError."""
+    """Write a file outside of packages and state, as a whole or not at all. Raises OSError."""
     temporary = file.with_name(f".{file.name}-{os.urandom(8).hex()}{TEMPORARY}")
     try:
         with temporary.open("xb") as new:  # follows no link that somebody left there
@@ -109,16 +109,16 @@ def kind_of(mode: int) -> str:
 def placed(prefix: str, key: str) -> str:
     """Return the path of a file by its POSIX path from a folder; `prefix` is the folder with a separator at its end.
 
-    There are thousands of files, and hardly any has a detour in its path.
+    A short way for thousands of paths: hardly any has a detour.
     """
     path = prefix + key
     return os.path.normpath(path) if ".." in key or os.sep != "/" else path
 
 
 class Tree:
-    """The files below `root`, which no path may leave, not even through a symbolic link.
+    """The files below `root`; no path may leave it, not even through a symbolic link.
 
-    Each folder is looked at once: only another tree finds a folder that was made since.
+    Each folder is read once: only another tree finds a later one.
     """
 
     def __init__(self, root: Path) -> None:

@@ -1,4 +1,4 @@
-"""git around the working folder. Its index is only read, not even refreshed. Each commit imports this."""
+"""Runs git around the working folder. Its index is only read, not even refreshed. Each commit imports this."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from collections.abc import Collection
 from functools import cached_property
 
 _SETTINGS = ("-c", "safe.bareRepository=explicit", "-c", "core.fsmonitor=false", "-c", "diff.relative=false")
-"""The settings of a repository name programs for git to run, so does fsmonitor."""
+"""Settings of a repository may name programs that git runs, such as fsmonitor."""
 _PATHSPECS = {f"GIT_{kind}_PATHSPECS" for kind in ("LITERAL", "GLOB", "NOGLOB", "ICASE")}
 
 
@@ -19,7 +19,7 @@ class GitError(Exception):
 class Index:
     """The index of the repository around the working folder.
 
-    Files are named by their path from the top, with forward slashes. A submodule is one path, without what is in it.
+    Files are named by their path from the top, with forward slashes. A submodule is one path, without its files.
     """
 
     def __init__(self) -> None:
@@ -30,12 +30,15 @@ class Index:
         unusual = [(entry[0], entry[2:]) for entry in entries if not entry.startswith("H ")]
         self.unmerged = {path for tag, path in unusual if tag == "M"}
         self.unstaged = {path for tag, path in unusual if tag == "C"}
-        """Tracked files that the working tree does not have as they are staged, deleted ones included."""
+        """Tracked files that differ in the working tree from the index, deleted ones included."""
         self.hidden = {path for tag, path in unusual if tag not in "MC"}
-        """Tracked files that git was told not to look at, so that nobody knows whether they differ."""
+        """Tracked files that git ignores by a flag, so their differences are unknown."""
 
     def has_staged(self, paths: Collection[str]) -> bool:
-        """Return whether all paths are tracked, and staged as they are; one that ends with `/` is all that is below."""
+        """Return whether all paths are tracked, and staged as they are.
+
+        A path that ends with `/` means all files below it.
+        """
         folders, differing = tuple(set(paths) - self.tracked), self.unstaged | self.hidden
         if not all(path.endswith("/") for path in folders):
             return False  # one is not tracked
@@ -50,12 +53,12 @@ class Index:
 
     @cached_property
     def untracked(self) -> set[str]:
-        """The files that git neither tracks nor is told to ignore."""
+        """The files that git neither tracks nor ignores."""
         return set(_list("ls-files", "--others", "--exclude-standard", "--full-name", "--", ":/"))
 
     @cached_property
     def submodules(self) -> set[str]:
-        """The submodules among what is tracked."""
+        """The tracked submodules."""
         entries = _list("ls-files", "--stage", "--full-name", "--", ":/")
         return {entry.partition("\t")[2] for entry in entries if entry.startswith("160000 ")}
 
@@ -63,8 +66,8 @@ class Index:
 def find_top(folder: str | os.PathLike[str]) -> str | None:
     """Return the nearest folder around another, itself included, that has a `.git`; None if there is none.
 
-    A folder that is a repository without a `.git` is passed over. It may be made of files that a stranger committed,
-    whereas git commits and checks out no `.git`, in whatever case.
+    A repository without a `.git` is skipped: it may consist of committed files of a stranger. Git never commits or
+    checks out a `.git`.
     """
     ceilings = os.environ.get("GIT_CEILING_DIRECTORIES", "").split(os.pathsep)
     limits = {os.path.realpath(ceiling) for ceiling in ceilings if ceiling}
@@ -85,7 +88,7 @@ def _list(command: str, *arguments: str) -> list[str]:
 def run(*arguments: str) -> str:
     """Run git at the top of the repository around the working folder; return its output. Raises GitError.
 
-    The variables of git's own caller count: GIT_DIR and GIT_INDEX_FILE name what is being committed.
+    Git's variables are passed on: GIT_DIR and GIT_INDEX_FILE name the commit under way.
     """
     # git before 2.38 ignores safe.bareRepository, and later ones end instead of passing over such a folder
     top = None

@@ -1,4 +1,4 @@
-"""Whether a commit passes by saved answers: all that `urdfsync hook` imports if there is nothing to do."""
+"""Decides by saved answers whether a commit passes: `urdfsync hook` imports only this if there is nothing to do."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from urdfsync import git, uptodate
 
 
 def is_answered(arguments: list[str]) -> bool:
-    """Return whether a command is that of a hook, and saved answers say that the commit passes."""
+    """Return whether a command is a hook, and saved answers let the commit pass."""
     if arguments not in (["hook", "build"], ["hook", "check"]):
         return False
     index = git.Index()
@@ -16,9 +16,10 @@ def is_answered(arguments: list[str]) -> bool:
 
 
 def passes(index: git.Index, configuration: str) -> bool:
-    """Return whether a saved answer says that a configuration, named from the top, is in step and all of it staged.
+    """Return whether, by a saved answer, a configuration (named from the top) is in step and completely staged.
 
-    An answer lists what has to be staged, and holds as long as nothing has changed that a build of the robots reads.
+    An answer lists the files that have to be staged. It holds while no file has changed that a build of the robots
+    reads.
     """
     file, key = answer_place(index, configuration)
     answer = uptodate.find_answer(file, "hook", key)
@@ -26,7 +27,7 @@ def passes(index: git.Index, configuration: str) -> bool:
 
 
 def answer_place(index: git.Index, configuration: str) -> tuple[str, str]:
-    """Return the file of a configuration, and the key of its answer: all that this depends on beside files."""
+    """Return the file of a configuration, and the key of its answer: all its inputs other than files."""
     file = f"{index.top}/{configuration}"
     variables = map(os.environ.get, ("ROS_PACKAGE_PATH", "AMENT_PREFIX_PATH", "MODELICAPATH", "PYTHONPATH"))
     return file, repr(("hook", file, os.getcwd(), *variables))  # noqa: PTH109 - no pathlib here

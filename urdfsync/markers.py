@@ -1,4 +1,4 @@
-"""Merge markers, which version control leaves in a text: git's have seven signs, nested ones more."""
+"""Merge markers of version control: git's have seven signs, nested ones more."""
 
 from __future__ import annotations
 
@@ -25,12 +25,12 @@ def join_sides(text: str) -> str:
 
 
 def without_labels(text: str) -> str:
-    """Return the text with what stands behind the outermost markers left out; lines end with line feeds."""
+    """Return the text without the labels behind the outermost markers; lines end with line feeds."""
     return re.sub(rf"(?m)^([<>]{{{_size(text)}}}) .*$", r"\1", text)
 
 
 def signs(text: str) -> tuple[str, str, str]:
-    """Return the three markers that a driver of git has put around the sides of a conflict."""
+    """Return the three markers that a merge driver puts around the sides of a conflict."""
     size = _size(text)
     return "<" * size, "=" * size, ">" * size
 

@@ -1,4 +1,4 @@
-"""Start this Python as a helper process, and be one."""
+"""Starts this Python as a helper process, and serves in one."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ if sys.platform != "win32":
 
 
 def python_module(module: str, *arguments: str) -> list[str]:
-    """Return the command that runs a module with this Python; the working folder has no say in what it imports."""
+    """Return the command that runs a module with this Python, without imports from the working folder."""
     return [sys.executable, "-P", "-m", module, *arguments]
 
 
 def importable() -> dict[str, str]:
-    """Return what the environment of such a command needs so that it finds this package, if that is not installed."""
+    """Return the environment variables with which such a command finds this package if it is not installed."""
     home = Path(__file__).parents[1]
     if home.name in ("site-packages", "dist-packages"):
         return {}
@@ -30,7 +30,7 @@ def importable() -> dict[str, str]:
 
 
 def reserve_stdout() -> IO[bytes]:
-    """Return the stdout of this process; what native code prints goes to stderr from now on."""
+    """Return the stdout of this process; from now on, output of native code goes to stderr."""
     answers = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)
     return answers
@@ -64,9 +64,9 @@ def exit_cause(code: int) -> str:
 
 @contextlib.contextmanager
 def limits(seconds: float, memory: int) -> Iterator[None]:
-    """Limit CPU time (s) and memory (bytes, on Linux) of this process, and let no file be written.
+    """Limit CPU time (s) and memory (bytes, on Linux) of this process, and forbid writing files.
 
-    More time ends the process by SIGPROF. Libraries are best loaded before. Windows has no such limits.
+    SIGPROF ends the process after its time. Libraries are best loaded before. Windows has no such limits.
     """
     if sys.platform == "win32":
         yield

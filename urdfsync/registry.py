@@ -1,4 +1,4 @@
-"""The domains that are installed, by name."""
+"""Finds the installed domains by name."""
 
 from __future__ import annotations
 
@@ -15,16 +15,16 @@ from urdfsync.domain import Domain
 from urdfsync.spelling import nearest
 
 _OWN = {"urdf": "urdfsync.urdf.domain:DOMAIN"}
-"""Ours, also an entry point: looking entry points up would cost every build 20 ms of imports."""
+"""Our own domain, also an entry point: the search for entry points would cost every build 20 ms of imports."""
 _places: dict[tuple[str, ...], tuple[str, Dependencies]] = {}
-"""Domains that were found, by name and Python's path, with what was looked at: a process goes on with loaded code.
+"""Found domains by name and Python's path, with the files that were read: a process goes on with loaded code.
 
-A build asks three times, and each look takes 5 of its 50 ms.
+A build asks three times, and each search takes 5 of its 50 ms.
 """
 
 
 def domain(name: str) -> Domain:
-    """Load the domain of this name. Raises ConfigError, without file and line, for one that is missing or broken."""
+    """Load the domain of this name. Raises ConfigError, without file and line, for a missing or broken one."""
     place = _place(name)
     if not place:
         near = nearest(name, names())
@@ -39,7 +39,7 @@ def domain(name: str) -> Domain:
 
 
 def top_level(name: str) -> str:
-    """Return the top-level package or module that has the code of a domain; empty if there is no such domain."""
+    """Return the top-level package or module of a domain's code; empty if there is no such domain."""
     return _place(name).partition(":")[0].partition(".")[0]
 
 

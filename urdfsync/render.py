@@ -1,4 +1,4 @@
-"""Templates to text: the Jinja environment, with the literals of Modelica as filters.
+"""Renders templates: the Jinja environment, with the literals of Modelica as filters.
 
 Modelica uses braces for arrays, so the delimiters are `<< >>`, `<% %>` and `<# #>`. Every string
 that comes from a source reaches Modelica through `string` or `html`, every number through `real`,
@@ -36,11 +36,14 @@ if sys.platform == "linux":
     import resource
 
     _ADDRESS_SPACE = resource.getrlimit(resource.RLIMIT_AS)
-    """The limit of this process that holds while nothing is rendered."""
+    """The memory limit of this process outside of rendering."""
 
 
 def once(pieces: Iterable[Any], macro: Callable[[Any], str]) -> str:
-    """Join what a macro makes of some values. Raises TypeError for all but macros: the call bypasses the sandbox."""
+    """Join the results of a macro for some values.
+
+    Raises TypeError for anything but a macro: the call bypasses the sandbox.
+    """
     if not isinstance(macro, Macro):
         raise TypeError("`once` takes a macro")
     return "".join(map(macro, pieces))
@@ -59,16 +62,19 @@ MAX_SECONDS = 60.0
 MAX_OUTPUT = 200_000_000
 """Characters of one text."""
 _MARK = re.compile(r"\0([^\0]*)\0([0-9]*)\0")
-"""A template's file and line, in front of the text that comes from there; no text of a model has NUL in it."""
+"""A template's file and line, in front of their text; no text of a model contains NUL."""
 _BLANK = re.compile(r"\A(?:\0[^\0]*\0[0-9]*\0|\s)*")
 """The marks and blanks at the beginning of a line."""
 GRACE = 30.0
-"""Seconds of CPU time beyond that, after which the system ends the process: Python interrupts no single step of its
-own, such as a power of large numbers, or the comparison of lists that hold each other many times."""
+"""Further seconds of CPU time, after which the system ends the process.
+
+Python interrupts no single step of its own, such as a power of large numbers, or the comparison of lists that hold each
+other many times.
+"""
 
 
 class _CodeGenerator(CodeGenerator):
-    """Compiles loops such that each pass looks at the clock."""
+    """Compiles loops so that each pass checks the clock."""
 
     def visit_For(self, node: nodes.For, frame: Frame) -> None:  # noqa: N802 - Jinja's name
         """See Jinja."""
@@ -101,9 +107,9 @@ class _Environment(jinja2.Environment):
 class _CodeCache(jinja2.BytecodeCache):
     """Compiled templates of installed packages, beside urdfsync's own compiled modules and trusted like these.
 
-    Serves the rows "first build" of docs/speed.md: compiling takes a third of the time with 11 links. Code counts while
-    the template, Python, and the modules that decide on the code are as they were; filters of constants are worked out
-    when it is compiled.
+    Serves the rows "first build" of docs/speed.md: compiling takes a third of the time with 11 links. Code holds while
+    the template, Python, and the modules that make the code are unchanged; filters of constants are computed at compile
+    time.
     """
 
     def __init__(self) -> None:
@@ -122,7 +128,7 @@ class _CodeCache(jinja2.BytecodeCache):
             bucket.load_bytecode(file)
 
     def dump_bytecode(self, bucket: Bucket) -> None:
-        """See Jinja; where nothing can be written, each process compiles the template."""
+        """See Jinja; if nothing can be written, each process compiles the template."""
         if not sys.dont_write_bytecode:
             with contextlib.suppress(OSError):
                 put(Path(f"{self._stem}.{bucket.key}"), bucket.bytecode_to_string())
@@ -140,7 +146,7 @@ class _Sandbox(ImmutableSandboxedEnvironment):
         super().__init__(**settings)
         self.deadline = math.inf
         self.pieces: dict[str, set[str]] = {}
-        """The templates that each template includes or imports, as far as it was rendered."""
+        """The templates that each rendered template includes or imports."""
         for name in ("lipsum", "random"):  # their text is another one each time
             self.globals.pop(name, None)
             self.filters.pop(name, None)
@@ -156,14 +162,14 @@ class _Sandbox(ImmutableSandboxedEnvironment):
             raise SecurityError(f"it takes more than {MAX_SECONDS:g} s")
 
     def call(self, context: Context, function: Any, /, *arguments: Any, **named: Any) -> Any:
-        """See Jinja; recursion without a loop looks at the clock here."""
+        """See Jinja; recursion without a loop checks the clock here."""
         self.check_time()
         return super().call(context, function, *arguments, **named)
 
     def getattr(self, obj: Any, attribute: str) -> Any:
         """See Jinja. Items of a dict go before its methods, as in an element that is called `items`.
 
-        They and the fields of structs are data, which the sandbox has no objection to.
+        They and the fields of structs are data, which the sandbox allows.
         """
         if type(obj) is dict and attribute in obj:
             return obj[attribute]
@@ -177,8 +183,8 @@ def _limited_process() -> Iterator[None]:
     """Limit the memory (on Linux) and the CPU time (not on Windows) of this process.
 
     At `MAX_MEMORY` more than it has, Python raises MemoryError. `GRACE` after the time that a text may take, the system
-    ends the process with SIGVTALRM. Loops and calls look at the clock themselves. A filter that works through a long
-    text does not, and Python raises nothing within a single step of its own.
+    ends the process with SIGVTALRM. Loops and calls check the clock. A filter over a long text does not, and Python
+    raises nothing within a single step of its own.
     """
     if sys.platform == "linux":
         with open("/proc/self/statm", "rb", buffering=0) as file:  # noqa: PTH123 - once for each text
@@ -198,13 +204,13 @@ def _limited_process() -> Iterator[None]:
 
 
 class Renderer:
-    """Renders templates from `folders`; a template in an earlier folder hides one of its name in a later.
+    """Renders templates from `folders`; a template in an earlier folder hides one of the same name in a later folder.
 
-    Whoever changes a template needs another renderer.
+    A changed template needs a new renderer.
     """
 
     def __init__(self, folders: Sequence[Path], *, is_trusted: bool = False) -> None:
-        """Templates that are not trusted run in a sandbox, with limits."""
+        """Untrusted templates run in a sandbox, with limits."""
         self.folders = tuple(folders)
         own = [(folder, path) for folder in folders[:-1] for path in folder.rglob("*")]
         self._users_names = {path.relative_to(folder).as_posix() for folder, path in own}
@@ -228,14 +234,15 @@ class Renderer:
         self._environment.filters.update({function.__name__: function for function in _FILTERS})
 
     def render(self, template: str, data: Mapping[str, Any]) -> str:
-        """Render a template with `data`. Raises jinja2.TemplateError for a template that can't be used.
+        """Render a template with `data`.
 
-        Raises SecurityError or MemoryError for a template that does what is not allowed, or takes too much.
+        Raises jinja2.TemplateError for a faulty template, SecurityError or MemoryError for one that does forbidden
+        things or exceeds a limit.
         """
         return _render(self._environment, template, data)
 
     def comes_from_user(self, template: str) -> bool:
-        """Whether a template that was rendered includes a file of the user's."""
+        """Whether a rendered template includes a user's file."""
         names = [template]
         if isinstance(self._environment, _Sandbox):
             for name in names:
@@ -243,7 +250,7 @@ class Renderer:
         return not self._users_names.isdisjoint(names)
 
     def find_origin(self, template: str, data: Mapping[str, Any], text: str, line: int) -> tuple[str, int]:
-        """Return the user's file, and the line there, that a line of a rendered text or the text before it comes from.
+        """Return the user's file and line from which a line of a rendered text, or the text before it, comes.
 
         Returns an empty name and 0 if that is unknown. Raises the errors of `render`.
         """

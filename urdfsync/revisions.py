@@ -1,4 +1,4 @@
-"""Sources in git revisions, with the files that they refer to.
+"""Reads sources in git revisions, with the files that they refer to.
 
 libgit2 reads the object database: no program is run, nothing is fetched, and nothing in the repository changes.
 """
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 _HINT = "name an existing file, or a branch, tag or commit such as HEAD~1"
 _LFS_POINTER = re.compile(rb"version https://git-lfs.*^oid sha256:([0-9a-f]{64})$", re.DOTALL | re.MULTILINE)
-"""Content that git holds in the place of a file that is in Git LFS."""
+"""Content in git that stands for a file in Git LFS."""
 
 
 def open_repository(folder: Path) -> pygit2.Repository | None:
@@ -74,7 +74,7 @@ class Revision:
         return f"{self.name}:{shown(file)}"
 
     def read(self, file: Path) -> bytes:
-        """Return the content of a file in this revision. Raises SourceError if it has none of this path."""
+        """Return the content of a file in this revision. Raises SourceError if there is none."""
         content = self.contents([file]).get(file)
         if content is None:
             message = f"{shown(file)} does not exist in revision {self.name!r}"
@@ -83,7 +83,7 @@ class Revision:
         return content
 
     def holds(self, file: Path) -> bool:
-        """Return whether this repository keeps a file of this path, in whatever revision; a submodule keeps its own."""
+        """Return whether this repository can have a file of this path, in any revision; a submodule has its own."""
         place = Path(os.path.realpath(file))
         if self._top not in place.parents:
             return False
@@ -91,7 +91,7 @@ class Revision:
         return not any((folder / ".git").exists() for folder in inside)
 
     def contents(self, files: Sequence[Path]) -> Mapping[Path, bytes]:
-        """Return the content of each of the files that this revision has. Raises SourceError if a clone lacks it."""
+        """Return the content of those files that this revision has. Raises SourceError if a clone lacks one."""
         import pygit2
 
         contents = {}
@@ -110,9 +110,9 @@ class Revision:
         return contents
 
     def locate(self, dependencies: Sequence[Dependency], scratch: Path) -> Sequence[Dependency]:
-        """Replace the candidates that this revision has by its own; files that no revision can have stay.
+        """Replace candidates by this revision's files; files that no revision can have stay.
 
-        Those that are on disk no more, or otherwise, are written to `scratch`.
+        Files that are missing or different on disk are written to `scratch`.
         """
         held = {path for dependency in dependencies for path in dependency.candidates if self.holds(path)}
         places = {}
@@ -131,7 +131,7 @@ class Revision:
 
 
 def _is_on_disk(path: Path, content: bytes) -> bool:
-    """Return whether the file has this content, or the one that a pointer of Git LFS stands for."""
+    """Return whether the file has this content, or the content for a pointer of Git LFS."""
     try:
         now, pointer = read_unrecorded(path), _LFS_POINTER.match(content)
     except OSError:

@@ -1,4 +1,4 @@
-"""Texts: names that the user may have meant, how far two texts are the same, and how they show as they are."""
+"""Compares texts: similar names, common beginnings; and escapes texts for terminals."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ def nearest(name: str, candidates: Iterable[str], likeness: float = 0.6) -> str:
 
 
 def same_count(old: Sequence[str], new: Sequence[str]) -> int:
-    """Return how many characters, or lines, at the beginning are the same."""
+    """Return the number of equal characters, or lines, at the beginning."""
     return next((index for index, pair in enumerate(zip_longest(old, new)) if pair[0] != pair[1]), len(old))
 
 
@@ -24,7 +24,7 @@ def counted(count: int, noun: str) -> str:
 
 
 def visible(text: str) -> str:
-    """Return the text with everything escaped that a terminal would obey instead of showing it."""
+    """Return the text with control characters of terminals escaped."""
     if text.isprintable():
         return text
     return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)

@@ -1,7 +1,7 @@
-"""Standard streams that neither end a command's work nor make it fail halfway.
+"""Standard streams whose faults do not stop a command.
 
-A reader may go away (`| head`), a disk be full, a stream be closed from the start, an encoding lack a character. The
-work goes on, and the command reports at its end what it could not write.
+A reader may go away (`| head`), a disk may be full, a stream closed, an encoding may lack a character. The work goes
+on, and the command reports the fault at its end.
 """
 
 from __future__ import annotations
@@ -24,14 +24,14 @@ class Stream:
     """A text stream that drops what it can't write; `error` is the first reason, None while all is well."""
 
     def __init__(self, inner: TextIO, name: str = OUTPUT, transcript: Transcript | None = None) -> None:
-        """`transcript` gets all that is written, whether it arrives or not."""
+        """`transcript` gets all written texts, even if they do not arrive."""
         self._inner, self._name, self._transcript = inner, name, transcript
         self.error: OSError | None = None
         if hasattr(inner, "reconfigure"):
             inner.reconfigure(errors="backslashreplace")
 
     def write(self, text: str) -> int:
-        """Write `text` unless nobody reads it any more. Returns its length in any case."""
+        """Write `text`, if somebody still reads it. Returns its length in any case."""
         if self._transcript is not None:
             self._transcript.append((self._name, text))
         self._try(self._inner.write, text)
@@ -53,14 +53,14 @@ class Stream:
 
     @property
     def trouble(self) -> str:
-        """Why the output is incomplete; empty if it is complete, or if its reader has seen enough."""
+        """Why the output is incomplete; empty if it is complete, or if its reader has gone."""
         self.flush()
         if self.error is None or self.error.errno in (errno.EPIPE, errno.EINVAL):  # EINVAL: the same on Windows
             return ""
         return self.error.strerror or str(self.error)
 
     def without_transcript(self) -> Stream:
-        """Return the same stream for text that does not stay, such as a progress bar."""
+        """Return the same stream for temporary text, such as a progress bar."""
         return Stream(self._inner, self._name)
 
     def close_broken(self) -> None:

@@ -1,4 +1,4 @@
-"""TOML text to plain data, with errors that name file and line, and the line of every key."""
+"""Reads TOML: plain data, the line of every key, and errors with file and line."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.markers import find_markers
 
 DEEPEST = 50
-"""Tables and lists within each other; nothing that urdfsync reads needs more than a few."""
+"""Deepest nesting of tables and lists; real files need a few levels."""
 
 _PLACE = r"\s*\(at (?:line (\d+), column (\d+)|end of document)\)$"
 _KEY = r"""(?:"(?:[^"\\]|\\.)*"|'[^']*'|[A-Za-z0-9_-]+)"""
@@ -23,7 +23,7 @@ _QUOTED = r"'([^']*)'"
 
 
 def parse(text: str, file: str, error: type[UrdfsyncError]) -> dict[str, Any]:
-    """Parse a document to nested dictionaries, no deeper than `DEEPEST`.
+    """Parse a document to nested dictionaries, not deeper than `DEEPEST`.
 
     Raises `error` with file, line and column if it is not TOML.
     """
@@ -101,7 +101,7 @@ def _paths(text: str) -> Iterator[tuple[bool, tuple[str, ...]]]:
 def without_table(text: str, *table: str) -> str:
     """Return the text without a table and those inside of it.
 
-    Comments that touch a table go along. Those behind a blank line at its end stay: they belong to what follows.
+    Comments that touch a table go with it. Comments behind a blank line at its end stay: they belong to the next table.
     """
     lines, paths = re.findall(r"[^\n]*\n|[^\n]+", text), list(_paths(text))
     starts = [number for number, (opens, _) in enumerate(paths) if opens]
@@ -131,6 +131,6 @@ def _is_comment(line: str) -> bool:
 
 
 def nearest(lines: dict[tuple[str, ...], int], *path: str) -> int:
-    """Return the line of the key at `path`, or else of the nearest table above it; 0 if there is none."""
+    """Return the line of the key at `path`, else of the nearest table above it; 0 if there is none."""
     paths = (path[:length] for length in range(len(path), 0, -1))
     return next((lines[prefix] for prefix in paths if prefix in lines), 0)

@@ -1,11 +1,10 @@
-"""The up-to-date check: repeat the answer of a command, while nothing has changed that it depends on.
+"""The up-to-date check: repeats the answer of a command while its dependencies are unchanged.
 
-`.urdfsync/stamp-build` holds the last answer of `build`, the list of all that it read, and a hash of the facts about
-that; so do `stamp-status` and `stamp-hook`. If the file is in any other state, the command runs. The program's own
-modules are in the list, for those who work on it.
-Files that were young when they were read are compared by their contents, as git does with racy entries of its index;
-once all of them are old, the answer is written again, and from then on stat values tell.
-The check comes before all else that a command does, so this module imports only what loads in a fraction of a ms:
+`.urdfsync/stamp-build` holds the last answer of `build`, the list of all files that it read, and a hash of the facts
+about them. So do `stamp-status` and `stamp-hook`. In any other case the command runs. The list contains the program's
+own modules, for its developers. Files that were young when they were read are compared by their contents, as git does
+with racy entries of its index; once all of them are old, the answer is written again, and from then on stat values
+tell. The check comes first in a command, so this module imports only modules that load in a fraction of a ms:
 contextlib would take 1 of 12.
 """
 
@@ -39,14 +38,17 @@ CONFIGURATION = "urdfsync.toml"
 
 _FORMAT = "urdfsync answer 5"
 _OLD = "-"
-"""In the place of a content's hash: stat values tell whether the file has changed."""
+"""In place of a content's hash: stat values show whether the file has changed."""
 _VARIABLES = (
     *("ROS_PACKAGE_PATH", "AMENT_PREFIX_PATH", "MODELICAPATH", "PYTHONPATH", "NO_COLOR", "FORCE_COLOR", "TERM"),
     *("COLORTERM", "COLUMNS", "LINES", "TTY_COMPATIBLE", "TTY_INTERACTIVE", "UNICODE_VERSION"),
 )
-"""Environment variables that decide which files a command finds, and how its output looks."""
+"""Environment variables that change the files that a command finds, or the look of its output."""
 _MAX_CHARACTERS = 2_000_000
-"""Longer answers are not saved. That of the hook names all that has to be tracked: 300,000 for 8,000 outputs."""
+"""Longer answers are not saved.
+
+The hook's answer names all files that have to be tracked: 300,000 characters for 8,000 outputs.
+"""
 
 
 def _stamp(config_file: str, command: str) -> str:
@@ -55,13 +57,13 @@ def _stamp(config_file: str, command: str) -> str:
 
 
 def _program() -> str:
-    """Return who saves an answer: another version or another user may come to another one."""
+    """Return the identity of the program: another version or another user may give another answer."""
     user = (os.geteuid(), os.getegid(), *sorted(os.getgroups())) if hasattr(os, "geteuid") else 0
     return repr((__version__, sys.version, sys.prefix, sys.byteorder, user, __file__))
 
 
 def find_config(arguments: list[str]) -> str | None:
-    """Return the absolute path of the configuration that a command is about; None if there is none."""
+    """Return the absolute path of a command's configuration; None if there is none."""
     try:
         folder = os.getcwd()
     except FileNotFoundError:
@@ -78,16 +80,16 @@ def find_config(arguments: list[str]) -> str | None:
 
 
 def answer_key(arguments: list[str], config_file: str) -> str:
-    """Return a command with all that its answer depends on beside files."""
+    """Return a command with all inputs of its answer other than files."""
     terminals = ((stream.isatty(), stream.encoding) for stream in (sys.stdout, sys.stderr))
     variables = map(os.environ.get, _VARIABLES)
     return repr((arguments, config_file, os.getcwd(), *terminals, *variables))
 
 
 def find_answer(config_file: str, command: str, key: str) -> list[str] | None:
-    """Return the saved answer of a command, if its dependencies have not changed; None if there is none.
+    """Return the saved answer of a command, if its dependencies are unchanged; None otherwise.
 
-    It counts only if this program wrote it in this very file: a copy, such as a committed one, is somebody else's.
+    It counts only if this program wrote this very file: a copy, such as a committed one, is somebody else's.
     """
     try:
         return _find_answer(_stamp(config_file, command), key)
@@ -118,14 +120,14 @@ def _find_answer(stamp: str, key: str) -> list[str] | None:
 
 
 def _bound(status: os.stat_result) -> str:
-    """Return the beginning of a file's text that shows that this program wrote this very file."""
+    """Return the mark at the beginning of a file: this program wrote this very file."""
     return "\0".join([_FORMAT, str(status.st_ino), str(status.st_mtime_ns), _program()])
 
 
 def print_answer(arguments: list[str]) -> str | None:
-    """Print the saved answer of a command; None if there is none, so that the command runs.
+    """Print the saved answer of a command; None if there is none: then the command runs.
 
-    Returns why not all of it could be written; an empty string if it could.
+    Returns why the output is incomplete; an empty string if it is complete.
     """
     if not arguments or arguments[0] not in COMMANDS or sys.stdout is None or sys.stderr is None:
         return None
@@ -142,7 +144,7 @@ def print_answer(arguments: list[str]) -> str | None:
 def save_answer(config_file: str, command: str, key: str, answer: list[str], dependencies: Dependencies) -> None:
     """Save the answer of a command that exited with 0, in the place of the command's last one.
 
-    Nothing is saved if it is not certain that `dependencies` are all that it was made of, and as they were.
+    Nothing is saved if `dependencies` may be incomplete, or have changed.
     """
     from pathlib import PurePath  # 10 ms, which the check does without
 
@@ -162,7 +164,7 @@ def save_answer(config_file: str, command: str, key: str, answer: list[str], dep
 
 
 def _without_implied(entries: dict[Entry, tuple[int, ...]]) -> dict[Entry, tuple[int, ...]]:
-    """Return the entries without file types that the stat values of another entry show as well."""
+    """Return the entries without file types that another entry's stat values show as well."""
     implied = {
         (kind, path, stat.S_IFMT(facts[0]))
         for (check, path), facts in entries.items()
@@ -174,7 +176,7 @@ def _without_implied(entries: dict[Entry, tuple[int, ...]]) -> dict[Entry, tuple
 
 
 def _write(stamp: str, facts_hash: str, read: list[str], answer: list[str]) -> None:
-    """Write an answer with its key, and what it rests on: a check, a path and a hash or `_OLD` for each entry."""
+    """Write an answer with its key and its dependencies: a check, a path and a hash or `_OLD` for each entry."""
     folder = os.path.dirname(stamp)
     temporary = os.path.join(folder, ".stamp.urdfsync-tmp")
     if os.path.islink(folder):  # a repository may have committed one that leads elsewhere

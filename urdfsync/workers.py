@@ -28,7 +28,7 @@ PATIENCE = 10
 """Seconds to wait for a Dask scheduler to answer."""
 
 _steps: SimpleQueue[str] | None = None
-"""Where jobs in this process say what they do; None in the process of the command, and on a cluster."""
+"""Channel for the steps of jobs in this process; None in the process of the command, and on a cluster."""
 
 
 class Workers:
@@ -38,13 +38,13 @@ class Workers:
         self._executor, self._queue = executor, steps
 
     def submit(self, job: Callable[..., T], *arguments: Any) -> Future[T]:
-        """Have a job done, in the folder that is the working folder now."""
+        """Submit a job, to run in the present working folder."""
         folder = os.getcwd()  # noqa: PTH109 - as a text
         with _safe_path():
             return self._executor.submit(_run, folder, job, *arguments)
 
     def steps(self) -> Iterator[str]:
-        """Yield what jobs have told since the last call; nothing on a cluster."""
+        """Yield the steps that jobs have reported since the last call; nothing on a cluster."""
         while self._queue is not None and not self._queue.empty():
             yield self._queue.get()
 
@@ -53,8 +53,7 @@ class Workers:
 def workers(count: int, address: str = "") -> Iterator[Workers]:
     """Start `count` processes, or use the Dask scheduler at an address. Raises ConfigError if none answers.
 
-    All that was started ends with the context; if that ends by an exception, at once, and a cluster drops what it has
-    not begun.
+    All processes end with the context; after an exception at once, and a cluster drops waiting jobs.
     """
     if address:
         with contextlib.closing(_connect(address)) as client:
@@ -84,7 +83,7 @@ def workers(count: int, address: str = "") -> Iterator[Workers]:
 
 
 def tell(step: str) -> None:
-    """Tell the process of the command what this job does now."""
+    """Report this job's present step to the process of the command."""
     if _steps is not None:
         _steps.put(step)
 
@@ -111,9 +110,9 @@ def _connect(address: str) -> Any:
 def _safe_path() -> Iterator[None]:
     """Start Python processes that import nothing from the working folder, which may be a stranger's repository.
 
-    They do not import the main module either: it may be a script that calls the API, and would do so again. An executor
-    starts some when it is made, for its locks, and others when work is submitted. The variable is removed afterwards: a
-    command of the user's that runs later may want its own folder on the path.
+    They do not import the main module either: it may be a script that calls the API, and would call it again. An
+    executor starts some at once, for its locks, and others when work is submitted. The variable is removed afterwards:
+    a later command of the user's may need its own folder on the path.
     """
     before, main = os.environ.get("PYTHONSAFEPATH"), sys.modules["__main__"]
     os.environ["PYTHONSAFEPATH"], sys.modules["__main__"] = "1", ModuleType("__main__")
@@ -128,7 +127,7 @@ def _safe_path() -> Iterator[None]:
 
 
 def _begin(end: Connection, steps: SimpleQueue[str]) -> None:
-    """Prepare a process: it ends when the command closes the other end of a pipe, or ends itself; not with Ctrl-C."""
+    """Prepare a process: it ends when the command closes its end of a pipe, or ends; Ctrl-C does not end it."""
     global _steps
     _steps = steps
     signal(SIGINT, SIG_IGN)  # the command gets it, too, and ends the workers
@@ -136,6 +135,6 @@ def _begin(end: Connection, steps: SimpleQueue[str]) -> None:
 
 
 def _run(folder: str, job: Callable[..., T], *arguments: Any) -> T:
-    """Do a job in the folder that diagnostics name files from."""
+    """Run a job in the folder to which files in diagnostics are relative."""
     os.chdir(folder)
     return job(*arguments)

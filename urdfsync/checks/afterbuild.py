@@ -1,4 +1,4 @@
-"""The check after a build: syntax, layout, compiling and balance of the package that is on disk.
+"""The check after a build: syntax, layout, compiling and balance of the package on disk.
 
 A right package is not checked again until an input of the check changes: a check takes 10 s for an arm. A wrong package
 is checked again after each build: a second build must not look right.
@@ -42,7 +42,7 @@ class BuildChecker:
         )
 
     def key(self, robot: RobotConfig) -> str | None:
-        """Return the fingerprint of all that a check of a robot rests on; None if some of that can't be read."""
+        """Return the fingerprint of all inputs of a robot's check; None if one can't be read."""
         return fingerprint(self._config, robot, self._options)
 
     def find_earlier(self, key: str | None) -> BuildCheck | None:
@@ -54,7 +54,7 @@ class BuildChecker:
         return BuildCheck(check.checked, tuple(filter(is_general, check.diagnostics)))
 
     def check(self, robots: Sequence[RobotConfig], tell: Progress) -> Iterator[BuildCheck]:
-        """Check packages, in their order, as far as no earlier check is known.
+        """Check packages, in their order, unless an earlier check is known.
 
         Faults of a package, or of its check, come back as diagnostics.
         """
@@ -73,7 +73,7 @@ class BuildChecker:
 def with_checks(config: Config, request: BuildOptions, results: Iterable[Result]) -> Iterator[Result]:
     """Yield the results of builds, in their order, each with the check of its package.
 
-    The checks come after all builds, since others wait for the lock as long as these are not done.
+    All builds come first: they hold the lock, and others wait for it.
     """
     robots = {robot.name: robot for robot in config.robots}
     told: set[Diagnostic] = set()

@@ -28,7 +28,7 @@ LIMIT = 2**30
 """The most bytes on disk that the cache takes: 1 GiB."""
 _FULL, _AFTER = 0.75, 0.5  # parts of the limit: from the first on something is deleted, until the second is left
 _IN_USE = 3600.0
-"""Seconds since its last use in which a check may work with a copy of a library."""
+"""A check may still use a copy of a library that was used within so many seconds."""
 
 _ACCESS = ".rumoca-access"  # suffix of the file beside another by which the compiler notes its last use
 
@@ -38,7 +38,7 @@ class CacheError(UrdfsyncError):
 
 
 def digest(*facts: object) -> str:
-    """Return the SHA-256 (hex) of facts, by their `repr`, which has to tell all of them."""
+    """Return the SHA-256 (hex) of the `repr` of facts."""
     return hashlib.sha256(repr(facts).encode(errors="surrogateescape")).hexdigest()
 
 
@@ -80,7 +80,7 @@ class UserCache:
     def trim(self, limit: int = LIMIT) -> int:
         """Delete entries that were used longest ago, if the cache comes near the limit. Returns the freed bytes.
 
-        Copies of libraries that a check may work with stay, and entries that can't be deleted now.
+        Copies of libraries that a check may use stay. So do entries that can't be deleted now.
         """
         entries = sorted(self._entries())
         total, freed, now = sum(size for _, _, size in entries), 0, time.time()
@@ -135,7 +135,7 @@ def cache_errors(folder: Path) -> Iterator[None]:
 
 
 def _bytes_on_disk(path: str, status: os.stat_result) -> int:
-    """Return what a file or a folder with all below it takes on disk. Raises OSError for what was deleted."""
+    """Return the bytes on disk of a file, or of a folder with all below it. Raises OSError if it was deleted."""
     inside = [status]
     if stat.S_ISDIR(status.st_mode):
         inside += [below.lstat() for below in Path(path).rglob("*")]

@@ -53,7 +53,7 @@ _SAME_TIME = 1e-7  # s
 _BALANCE = re.compile(r"([\d,]+) equations?(?:\(s\))?(?:,| and| for) ([\d,]+) (?:unknown|variable)")
 
 _Job: TypeAlias = tuple[Mapping[str, bytes], Sequence[CompileTask]]
-"""The texts of a version of the package, and what is done with it."""
+"""The texts of a version of the package, and its tasks."""
 
 
 class Compilation:
@@ -72,7 +72,7 @@ class Compilation:
     ) -> None:
         """So many `processes` may compile at a time; copies of the package go below `folder`.
 
-        The models of the user, `users`, need more libraries than the package.
+        The user's models, `users`, may need more libraries than the package.
         """
         self._package, self._users, self._processes = package, users, processes
         self._jobs = Jobs(package.robot, tool, needed, package.around, limits, folder)
@@ -83,7 +83,7 @@ class Compilation:
         self.diagnostics: list[Diagnostic] = []
         self.gaps: list[str] = []
         self.generated: Mapping[str, Series] = {}
-        """The simulations of the package as it is generated, completed for the comparison, by the names of trials."""
+        """The simulations of the generated package by the names of trials, completed for the comparison."""
         self.edited: Mapping[str, Series] = {}
         """Those of the package on disk, if it is edited."""
 
@@ -115,7 +115,7 @@ class Compilation:
         return jobs
 
     def _compare(self, experiment: Experiment, done: Mapping[str, Sequence[CompileResult]]) -> None:
-        """Hold the generated package against the reference, and the edited one against the generated."""
+        """Compare the generated package with the reference, and the edited one with the generated one."""
         package, trials = self._package, experiment.trials
         self.generated, faults = self._motions(done["completed"], trials)
         times = zip(trials, done["completed"], strict=False)
@@ -167,7 +167,7 @@ class Compilation:
         return jobs
 
     def _note_models(self, jobs: Mapping[str, _Job], done: Mapping[str, Sequence[CompileResult]]) -> None:
-        """Take note of the models that were compiled by themselves."""
+        """Record the models that were compiled by themselves."""
         compiled, files, users = list[CompiledModel](), self._package.files, self._users
         failing: dict[str, list[Diagnostic]] = {}  # of the user's models
         for label, (_, tasks) in jobs.items():
@@ -200,7 +200,7 @@ class Compilation:
             self.result.tool = f"{self._compiler.TITLE} {answer.version}"
 
     def _run_all(self, jobs: Mapping[str, _Job]) -> dict[str, list[CompileResult]]:
-        """Do jobs, some at the same time. Of one in which the compiler breaks down there are no results."""
+        """Run jobs, some at the same time. A job in which the compiler breaks down has no results."""
         done: dict[str, list[CompileResult]] = {}
         with ThreadPoolExecutor(self._processes) as pool:
             futures = {label: pool.submit(self._run, label, *job) for label, job in jobs.items()}
@@ -222,9 +222,9 @@ class Compilation:
     def _motions(
         self, results: Sequence[CompileResult], trials: Sequence[Trial]
     ) -> tuple[dict[str, Series], list[Diagnostic]]:
-        """Return the simulation of each trial of a job by its name, and why there is none of the first one.
+        """Return the simulation of each trial of a job by its name, and the problem of the first one.
 
-        What the compiler can't do of the others is a gap.
+        A problem of another trial is a gap.
         """
         motions = dict[str, Series]()
         for trial, result in zip(trials, results, strict=False):
@@ -251,7 +251,7 @@ def _task(trial: Trial) -> CompileTask:
 
 
 def _as_part(finding: Diagnostic) -> Diagnostic:
-    """Make a warning of what keeps a model of the user's from being compiled, since it may be a part of others."""
+    """Turn an error of a user's model into a warning: the model may be a part of others."""
     hint = "; ".join(filter(None, (finding.hint, "a part of other models need not compile by itself")))
     return msgspec.structs.replace(finding, severity=Severity.WARNING, hint=hint)
 
@@ -259,7 +259,7 @@ def _as_part(finding: Diagnostic) -> Diagnostic:
 def compare_all(
     trials: Iterable[Trial], motions: Mapping[str, Series], others: Mapping[str, Series] | None = None
 ) -> tuple[Deviation, ...]:
-    """Return the differences of simulations from what is expected of them, or from others."""
+    """Return the differences of simulations from expected values, or from other simulations."""
     deviations = list[Deviation]()
     for trial in trials:
         expected = trial.expected if others is None else others.get(trial.name)
@@ -294,7 +294,7 @@ def compare(compared: Iterable[Compared], series: Series, expected: Series) -> t
 
 
 def curves(trial: Trial, series: Series) -> Iterator[Curve]:
-    """Yield what is drawn over time, beside what is expected of it."""
+    """Yield the curves to draw, each beside the expected one."""
     for each in trial.over_time:
         values, expected = (
             tuple(tuple(_number(numbers, name, time) for time in each.instants) for name in each.values)
@@ -337,7 +337,7 @@ def edit_effects(
 
 
 def explain(problem: str, compiler: Compiler, package: PackageTexts, file: Path | None = None) -> list[Diagnostic]:
-    """Return findings for a compiler's text about a model, with the files that people know.
+    """Return findings for a compiler's text about a model, with the user's files in place of the copies.
 
     `file` is that of a model of the user's.
     """
@@ -366,7 +366,7 @@ def explain_warnings(text: str, compiler: Compiler, package: PackageTexts) -> li
 
 
 def _diagnostic(complaint: Complaint, package: PackageTexts, code: str) -> Diagnostic:
-    """Return the finding of a complaint; if the compiler gives no place, perhaps it is in the edited file."""
+    """Return the finding of a complaint. If the compiler gives no place, the edited file is the likely one."""
     file, message = Path(complaint.file), complaint.message.removesuffix(".")
     message = message if len(message) <= _LONGEST_MESSAGE else f"{message[: _LONGEST_MESSAGE - 1]}…"
     edited = [shown(package.folder / path) for path in sorted(package.edited)]

@@ -1,6 +1,6 @@
 """The contents of packages, libraries and programs: read, copied for compilers, hashed for the keys of results.
 
-A library may be a stranger's. So nothing follows a link out of it or to a folder, and a copy has a limit.
+A library may be a stranger's. So links out of it or to folders are refused, and a copy has a limit.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from urdfsync.files import shown
 MOST_BYTES = 2**29
 """The most bytes of one copy on disk; the Modelica Standard Library without its resources has 15 MB."""
 RESOURCES = "Resources"
-"""The folder of a library with all that is no Modelica."""
+"""The folder of a library that holds no Modelica."""
 _BLOCK = 4096
 """Bytes that a file takes on disk at least."""
 

@@ -1,4 +1,4 @@
-"""One hash of all that a result rests on: `check`, the check after a build and `simulate` remember results by it."""
+"""One hash of all inputs of a result: `check`, the check after a build and `simulate` remember results by it."""
 
 from __future__ import annotations
 
@@ -26,14 +26,16 @@ from urdfsync.modelica.names import LIBRARY
 from urdfsync.state.store import Store
 
 PHYSICS = "-physics"
-"""The end of the key of a check with physics; without it, the key is that of a check without."""
+"""Ends the key of a check with physics."""
 
 
 def result_key(robot: RobotConfig, tools: Sequence[Tool], needed: libraries.Libraries, *facts: object) -> str | None:
-    """Return the key of a result: a hash of `facts`, and of the contents of all else that any result rests on.
+    """Return the key of a result: a hash of `facts` and of all other inputs.
 
-    That is urdfsync with its library, the code of the domain, Python with all that is installed, the compilers and the
-    Modelica libraries. None if some of it can't be known: then the result must not be remembered.
+    These are urdfsync with its library, the domain's code, Python with its packages, the compilers and the Modelica
+    libraries.
+
+    None if one of them can't be read: then the result must not be remembered.
     """
     own = find_own_library(LIBRARY, robot.target.package)
     places = {**needed.others, **({LIBRARY: own} if own else {})}
@@ -54,7 +56,7 @@ def result_key(robot: RobotConfig, tools: Sequence[Tool], needed: libraries.Libr
 
 
 def fingerprint(config: Config, robot: RobotConfig, options: CheckOptions) -> str | None:
-    """Return the key of the check of a package in step; None if some of what it rests on can't be read."""
+    """Return the key of the check of a package in step; None if an input can't be read."""
     domain = registry.domain(robot.domain)
     try:
         texts = package_texts(robot.folder)
@@ -80,21 +82,18 @@ def fingerprint(config: Config, robot: RobotConfig, options: CheckOptions) -> st
 
 
 def program(domain: str) -> tuple[object, ...]:
-    """Return what stands for urdfsync's code and that of a domain, Python, and all that is installed."""
+    """Return hashes and versions of urdfsync's code, a domain's code, Python, and its packages."""
     return sys.version, sys.platform, installed(), _code(urdfsync.__file__), _domain_code(domain)
 
 
 @functools.cache
 def _code(file: str) -> str:
-    """Hash the code of the package that a module is in, as it is when it is first asked for.
-
-    A process goes on with the code that it has loaded, whatever is installed meanwhile.
-    """
+    """Hash the code of a module's package, once: a process goes on with the code that it has loaded."""
     return content_hash(Path(file).parent if Path(file).name == "__init__.py" else Path(file))
 
 
 def _domain_code(name: str) -> list[str]:
-    """Hash the code of a domain, which is loaded: of the top-level package or module that it comes from."""
+    """Hash the code of a loaded domain: of its top-level package or module."""
     module = sys.modules[registry.top_level(name)]
     files = [module.__file__] if module.__file__ else [f"{path}/__init__.py" for path in module.__path__]
     return [_code(file) for file in files]

@@ -1,6 +1,6 @@
-"""Packages in which warnings are variables, so that one simulation tells when each would come.
+"""Turns warnings of packages into variables, so that one simulation tells the time of each.
 
-A compiler may print no warnings, or look at them at the beginning only.
+A compiler may print no warnings, or check them only at the beginning.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ def with_flags(texts: Mapping[str, bytes]) -> dict[str, bytes]:
 def flagged(text: str) -> str:
     """Return the text of a class with variables in the place of warnings: 1 where the warning comes, else 0.
 
-    The name of each is `warning_` and the words of its message. A class with algorithms stays as it is.
+    Its name is `warning_` and the words of its message. A class with algorithms stays as it is.
     """
     names = dict[str, None]()
 

@@ -1,4 +1,4 @@
-"""Does tasks of a compiler with versions of one robot's package, each a copy in a folder that the compiler reads."""
+"""Runs a compiler on versions of one robot's package, each a copy in a folder of its own."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from urdfsync.modelica.names import LIBRARY
 
 
 class Jobs(msgspec.Struct, frozen=True):
-    """Where the tasks of one compiler are done with the package of one robot."""
+    """Runs the tasks of one compiler on the package of one robot."""
 
     robot: RobotConfig
     tool: Tool
@@ -38,9 +38,9 @@ class Jobs(msgspec.Struct, frozen=True):
         tasks: Sequence[CompileTask],
         changed: Mapping[Path, bytes] | None = None,
     ) -> list[CompileResult]:
-        """Do tasks with a version of the package in a process. Problems name the files that people know.
+        """Run tasks on a version of the package in a process. Problems name the user's files.
 
-        `label` names the copy; `changed` are files, by their absolute paths, that have another content in it. Raises
+        `label` names the copy; `changed` has the files with another content in it, by absolute path. Raises
         CompilerError, LimitError and CacheError, and as `copy_library`.
         """
         cache, folder, changed = UserCache.default(), self.folder / label.replace("/", "-"), changed or {}
@@ -50,7 +50,7 @@ class Jobs(msgspec.Struct, frozen=True):
         needed = {**({LIBRARY: own} if own else {}), **self.needed.others}
         copies: dict[str, Path] = {}
         originals: dict[str, Path] = {}
-        """The folders and files that people know, by those that the compiler reads."""
+        """The user's folders and files, by their copies."""
         roots: list[str] = []
         if not compilers.COMPILERS[self.tool.name].HAS_STANDARD_LIBRARY:
             others = (text for path in self.needed.others.values() for text in libraries.library_texts(path).values())
@@ -75,14 +75,14 @@ class Jobs(msgspec.Struct, frozen=True):
 
 
 def _with_imports(task: CompileTask, names: Iterable[str]) -> CompileTask:
-    """Import libraries behind the first line of a task's text: rumoca loads no others."""
+    """Import libraries below the first line of a task's text: rumoca loads only imported ones."""
     first, _, rest = task.source.partition("\n")
     imports = "".join(f"  import {name};\n" for name in names if f"import {name};" not in rest)
     return msgspec.structs.replace(task, source=f"{first}\n{imports}{rest}")
 
 
 def _with_originals(result: CompileResult, originals: Mapping[str, Path]) -> CompileResult:
-    """Replace the paths of copies in what a compiler says."""
+    """Replace the paths of copies in a compiler's text by those of the originals."""
 
     def named(text: str) -> str:
         for copy, original in originals.items():
@@ -94,7 +94,7 @@ def _with_originals(result: CompileResult, originals: Mapping[str, Path]) -> Com
 
 
 def _readable(path: Path, folder: Path, changed: Mapping[Path, bytes]) -> str:
-    """Return where the compiler can read a library: a copy if its path is not UTF-8, or if a file of it changed."""
+    """Return the readable path of a library for the compiler: a copy if it is not UTF-8, or if a file has changed."""
     inside = {file: content for file, content in changed.items() if file == path or path in file.parents}
     try:
         str(path).encode()

@@ -1,4 +1,4 @@
-"""The Modelica libraries that a package needs: where they are, and a copy of the part that robots need of the MSL."""
+"""Finds the Modelica libraries that a package needs, and copies the part of the MSL that robots need."""
 
 from __future__ import annotations
 
@@ -142,8 +142,8 @@ def needed_libraries(
 ) -> dict[str, Path]:
     """Find the libraries in `places` that texts of the top-level package `top` name, `wanted` ones, and what they name.
 
-    A library is named in an import, or where its name and a dot begin a name; components of something else do not
-    count. The Modelica Standard Library and UrdfSync are left out. Raises OutputError for an unreadable library.
+    A text names a library in an import, or by a name that begins with the library's name and a dot. The Modelica
+    Standard Library and UrdfSync are left out. Raises OutputError for an unreadable library.
     """
     available = {path.name.removesuffix(".mo").partition(" ")[0] for place in places for path in _entries(place)}
     available -= {top, LIBRARY, *STANDARD_LIBRARIES}
@@ -165,10 +165,10 @@ def library_texts(path: Path) -> Mapping[str, bytes]:
 
 
 def standard_library_copy(parts: Mapping[str, Path], texts: Iterable[bytes], cache: UserCache) -> Path:
-    """Return a copy of the part of the library that robots need, or of the whole if `texts` name anything else of it.
+    """Return a copy of the part of the library that robots need, or of the whole if `texts` name another part.
 
-    It is made once for each content of the library. The whole is copied as well, without its resources: the compiler
-    wants all parts in one folder, and would read all that is in this one. Raises CacheError, and as `copy_library`.
+    It is made once for each content of the library. The whole is copied without its resources: the compiler needs all
+    parts in one folder, and reads everything in it. Raises CacheError, and as `copy_library`.
     """
     whole = not all(map(_is_in_copy, texts))
     key = digest(_COPY_REVISION, [content_hash(path, [RESOURCES]) for _, path in sorted(parts.items())])[:16]
@@ -223,7 +223,7 @@ def _copy(
 
 
 def _is_in_copy(text: bytes) -> bool:
-    """Whether the part of the Modelica Standard Library that is copied has all that a text names of it."""
+    """Whether the copied part of the Modelica Standard Library has all names of a text."""
     code = _NOISE.sub(b"", text)
     names = [tuple(re.sub(r"\s", "", name.decode()).strip(".").split(".")) for name in _STANDARD_NAME.findall(code)]
     covered = (any(name[: len(part)] == part for part in _COPIED) and "Examples" not in name for name in names)

@@ -1,4 +1,4 @@
-"""Names that mean nothing, in the robot's package and in the files of the user that use it. No compiler is asked."""
+"""Finds unresolved names in the robot's package and in the user's files that use it, without a compiler."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class NameCheck(NamedTuple):
     users_files: Mapping[Path, bytes]
     """The files of the user that use the package: by names that mean a class of it, or of another such file."""
     uses: Mapping[Path, Set[Path]]
-    """For each file of the user, those of the classes that its names mean."""
+    """For each file of the user, the files whose classes it names."""
 
 
 def check_names(package: RobotPackage, standard: Mapping[str, Path]) -> NameCheck:
@@ -74,7 +74,7 @@ def check_names(package: RobotPackage, standard: Mapping[str, Path]) -> NameChec
 
 
 def _check_place(path: Path, files: Mapping[Path, bytes]) -> Iterator[Diagnostic]:
-    """Yield why nothing is known of the names in a file of the user."""
+    """Yield why the names in a user's file can't be checked."""
     name = ".".join((*place_of(path, files)[1], class_of_file(path)))
     for finding in check_class_file(text_of(files[path]), PurePosixPath(path.name), name)[1]:
         if finding.severity is Severity.ERROR:
@@ -86,7 +86,7 @@ def _unresolved(nodes: Iterable[Node], scopes: Scopes) -> list[tuple[Path, Unres
 
 
 def _findings(package: RobotPackage, places: Iterable[tuple[Path, Unresolved]]) -> list[Diagnostic]:
-    """Return one finding for all places in a file that have the same fault."""
+    """Return one finding for all places of a fault in a file."""
     alike: dict[tuple[Path, UnresolvedKind, str, str], list[Unresolved]] = {}
     for file, fault in places:
         alike.setdefault((file, fault.kind, fault.owner, fault.part), []).append(fault)

@@ -1,7 +1,7 @@
-"""The package of one robot: as it is on disk, as it is generated, and where these differ.
+"""The package of one robot: on disk, generated, and the differences.
 
-A compiler reads all files below a folder, and one that does not parse spoils them all. So packages of other robots
-are left out, unless they are mentioned.
+A compiler reads all files below a folder, and one unparsable file stops it. So packages of other robots are left out,
+unless they are mentioned.
 """
 
 from __future__ import annotations
@@ -37,13 +37,13 @@ class PackageTexts(msgspec.Struct, frozen=True):
     name: str
     """Its full name, as in `Plant.Robots.Arm`."""
     folder: Path
-    """Where people find it, whether or not it has been written yet."""
+    """The folder for messages; it may not exist yet."""
     texts: Mapping[str, bytes]
     """Its `.mo` and `package.order` files by path."""
     owners: Mapping[str, str] = msgspec.field(default_factory=dict)
     """The element that a file belongs to, in the domain's words: `joint elbow`."""
     edited: Collection[str] = ()
-    """The files that differ from what is generated."""
+    """The files that differ from the generated ones."""
 
     def text(self, path: str) -> str:
         """Return the text of a file; bytes that are not UTF-8 are replaced."""
@@ -68,18 +68,18 @@ class RobotPackage(msgspec.Struct):
     robot: RobotConfig
     generation: Generation
     errors: tuple[Diagnostic, ...]
-    """Errors that a build would report, but for those in files of Modelica."""
+    """Errors that a build would report, except those in Modelica files."""
     on_disk: Mapping[str, bytes]
     """The Modelica files of the package on disk, by their path below it; none if there is no package."""
     in_step: bool
     conflicting: bool
-    """Whether it is out of step because edits and new texts contradict each other."""
+    """Whether the package is out of step because of conflicts."""
     generated: Mapping[str, bytes]
-    """The files of the package as it is generated, by their path below it."""
+    """The generated files of the package, by their path below it."""
     own_files: Mapping[Path, bytes]
     """The user's own files of Modelica in it."""
     files: PackageTexts
-    """The texts that count: the package on disk, or what a build would write."""
+    """The checked texts: the package on disk, or the generated one if there is none."""
     around: Mapping[str, bytes]
     """See `files_around`."""
     users_files: Mapping[Path, bytes]
@@ -87,11 +87,11 @@ class RobotPackage(msgspec.Struct):
     models: tuple[str, ...]
     """The classes that have to compile by themselves, by their names below the package, the main one first."""
     edits: tuple[str, ...]
-    """The edited files that have a part in the main model, and in which more than comments and blanks differ."""
+    """The edited files that belong to the main model, without those that differ in comments and blanks only."""
 
 
 def read_package(config: Config, robot: RobotConfig, options: BuildOptions) -> RobotPackage:
-    """Read and generate the package of a robot. Writes nothing.
+    """Read and generate the package of a robot, without writing.
 
     Raises UrdfsyncError for whatever is wrong with source, state or templates, OSError for what can't be read.
     """
@@ -142,8 +142,8 @@ def _words(text: bytes) -> list[str]:
 def files_around(config: Config, robot: RobotConfig, texts: Mapping[str, bytes]) -> dict[str, bytes]:
     """Return the files of the top-level package around a robot's package, by their paths below the output folder.
 
-    Packages of other robots are among them if `texts` (the robot's own), or anything else around, mention them.
-    Packages around the robot's that do not exist yet are made up. Raises OutputError for a file that can't be read.
+    Packages of other robots are among them if `texts` (the robot's own), or anything else around, mention them. Missing
+    packages around the robot's are made up. Raises OutputError for a file that can't be read.
     """
     output, parts = robot.output, robot.target.package.split(".")
     top = output / parts[0]
@@ -166,17 +166,17 @@ def files_around(config: Config, robot: RobotConfig, texts: Mapping[str, bytes])
 
 
 def users_files(config: Config, robot: RobotConfig) -> Mapping[Path, bytes]:
-    """Return the user's models in no robot's package that may have to do with this robot's package."""
+    """Return the user's models outside of robots' packages that may use this robot's package."""
     return find_users_files(config, robot, [robot.folder.name]).mentioning
 
 
 class UsersModels(msgspec.Struct, frozen=True):
-    """The user's models, in the package and outside of it, as far as they can be compiled."""
+    """The user's models that can be compiled, in the package and outside of it."""
 
     files: Mapping[str, Path]
     """The file of each model, by its full name: of each model or block that is not partial."""
     libraries: Mapping[str, Path]
-    """The top-level classes that they are in, but for the one around the package: folders or files."""
+    """Their top-level classes without the one around the package: folders or files."""
     left_out: tuple[Path, ...]
     """Files that no compiler would find, or that are no Modelica."""
     uses: Mapping[Path, Collection[Path]]
@@ -186,7 +186,7 @@ class UsersModels(msgspec.Struct, frozen=True):
 def users_models(
     robot: RobotConfig, files: Mapping[Path, bytes], uses: Mapping[Path, Collection[Path]] | None = None
 ) -> UsersModels:
-    """Return what can be compiled of the user's files."""
+    """Return the models in the user's files that can be compiled."""
     models, libraries, left_out = dict[str, Path](), dict[str, Path](), list[Path]()
     top = robot.target.package.partition(".")[0]
     for path, content in files.items():

@@ -25,7 +25,7 @@ from urdfsync.diagnostics import UrdfsyncError
 T = TypeVar("T")
 
 _INTERVAL = 0.25
-"""Seconds between two looks at memory and clock; a look reads a file of each process of the system."""
+"""Seconds between two checks of memory and clock; a check reads a file of each process of the system."""
 
 
 class Limits(msgspec.Struct):
@@ -39,19 +39,19 @@ class Limits(msgspec.Struct):
     deadline: float = 0.0
     """By the monotonic clock of this process."""
     peak: float = 0.0
-    """The most memory that was seen, in bytes."""
+    """The peak memory so far, in bytes."""
 
     def __post_init__(self) -> None:
         self.deadline = time.monotonic() + self.seconds
 
 
 def limits_of(owner: str, seconds: float, gigabytes: float | None) -> Limits:
-    """Return limits that begin now; None for all memory that is free."""
+    """Return limits that begin now. Memory None means all free memory."""
     return Limits(owner, seconds, gigabytes * 1e9 if gigabytes else psutil.virtual_memory().available)
 
 
 class LimitError(UrdfsyncError):
-    """A process took more time or memory than it may; the code of the one diagnostic says which."""
+    """A process exceeded its time or memory; the code of the one diagnostic says which."""
 
 
 class BrokenProcessError(Exception):
@@ -69,7 +69,7 @@ def run(
     environment: Mapping[str, str] | None = None,
     progress: Callable[[], None] | None = None,
 ) -> list[T]:
-    """Return all that a function yields in a process of its own, of which nothing is left in the end.
+    """Return all that a function yields in a process of its own, and end the process.
 
     `progress` is called again and again until then.
     Raises LimitError, BrokenProcessError, and the function's own UrdfsyncError or ImportError.
@@ -143,7 +143,7 @@ def _loaded(answers: Any) -> Iterator[Any]:
 
 
 def main() -> None:
-    """Do what is asked on stdin, and write each result, then None or an error, to stdout."""
+    """Call the function from stdin. Write each result, then None or an error, to stdout."""
     with processes.reserve_stdout() as answers:
         seconds, function, arguments = pickle.load(sys.stdin.buffer)  # noqa: S301 - from a process of ours
         # If nobody is left to end this one: native code may keep all threads of Python from running.

@@ -1,4 +1,4 @@
-"""Results of checks in words, a line for each robot and what belongs to it indented below."""
+"""Results of checks in words: a line for each robot, its details indented below."""
 
 from __future__ import annotations
 
@@ -112,7 +112,7 @@ def _details(result: CheckResult) -> Iterator[str]:
 
 
 def _two_tools(result: CheckResult) -> Iterator[tuple[str, str]]:
-    """Yield how far two compilers agree, who stands alone where they or the reference differ, and what they took."""
+    """Yield how far two compilers agree, the one that differs from the two others, and their time and memory."""
     first, second = result.tools
     if result.between is not None:
         outliers: dict[str, list[Deviation]] = {}
@@ -145,7 +145,7 @@ def _two_tools(result: CheckResult) -> Iterator[tuple[str, str]]:
 
 
 def _outlier(first: str, second: str, reference: str, *deviations: Deviation) -> str:
-    """Return which of three stands alone; empty if no two agree.
+    """Return the one of three that differs from the two others; empty if no two agree.
 
     The deviations are those of the first and of the second from the reference, then of the second from the first.
     """
@@ -173,7 +173,7 @@ def closing_lines(results: Sequence[CheckResult]) -> Iterator[StyledLine]:
 
 
 def to_section(result: CheckResult) -> Section:
-    """Return a result for a comment: its sentences, and how far each part agrees with the reference."""
+    """Return a result for a comment: its sentences, and the greatest deviation of each part."""
     status, sentences = result.status, [sentence.strip() for sentence, _ in _sentences(result)]
     rows = [
         (part, f"{part_word(each)}, to {each.relative:.1e}", f"{each.element}, {each.quantity}")
@@ -197,7 +197,7 @@ def _by_kind(deviations: Sequence[Deviation], owners: Collection[str] = ()) -> I
     """Yield one deviation of each kind, and which other elements differ; `owners` are the elements that were edited.
 
     The element nearest to the cause comes first: an edited one. Else it is the first from the root, since a displaced
-    link takes along all that hangs on it; of efforts it is the last joint, since each joint carries all behind it.
+    link moves all links behind it. Of efforts it is the last joint, since each joint carries all links behind it.
     """
     for is_free, quantities in itertools.product((False, True), KINDS):
         own = (each for each in deviations if (each.part is Part.FREE_MOTION) == is_free)

@@ -24,11 +24,11 @@ KINDS = (
     (Quantity.MASS, Quantity.CENTRE),
     *((quantity,) for quantity in list(Quantity)[6:]),
 )
-"""Quantities that are told together."""
+"""Quantities that are reported together."""
 
 
 class RunOptions(msgspec.Struct, frozen=True, kw_only=True):
-    """What compilers may take for one robot, and what they wait for."""
+    """Limits of compilers for one robot."""
 
     timeout: float = 600.0
     """Seconds."""
@@ -44,21 +44,21 @@ class CheckOptions(RunOptions, frozen=True):
     """How to check."""
 
     physics: bool = False
-    """Whether poses, efforts and masses are compared with the domain's reference."""
+    """Compare poses, efforts and masses with the domain's reference."""
     strict: bool = False
-    """Whether a difference that comes from an edit counts as one."""
+    """Count the effects of edits as differences."""
     tools: tuple[Tool, ...] = (Tool(),)
     """The compilers, one or both."""
     jobs: int | None = None
-    """How many robots may be checked at the same time; None for what cores and memory allow."""
+    """The most robots checked at the same time; None: as many as cores and memory allow."""
     compilers: int = 1
-    """How many compilers may run at the same time for one robot."""
+    """The most compilers that run at the same time for one robot."""
     executor: str = ""
     """Address of a Dask scheduler whose workers check robots; empty for processes of this machine."""
     fresh: bool = False
-    """Whether what was right before is checked again."""
+    """Check remembered packages again."""
     curves: bool = False
-    """Whether the comparison is kept over time, for a page."""
+    """Keep the curves over time, for a page."""
 
 
 class CheckStatus(enum.StrEnum):
@@ -66,7 +66,7 @@ class CheckStatus(enum.StrEnum):
 
     RIGHT = "right"
     INCOMPLETE = "incomplete"
-    """Nothing is wrong as far as it was checked, but something could not be that should have been."""
+    """Nothing is wrong, but something could not be checked."""
     OUT_OF_STEP = "out of step"
     NOT_BUILT = "not built"
     DIFFERS = "differs"
@@ -85,12 +85,12 @@ class CompiledModel(msgspec.Struct, frozen=True):
 
 
 class EditEffect(msgspec.Struct, frozen=True):
-    """The effect of edits of the user on the robot, compared with what is generated."""
+    """The effect of the user's edits on the robot, compared with the generated package."""
 
     files: tuple[str, ...]
-    """The edited files that it comes from, below the package's folder; several if they work together."""
+    """The edited files that cause it, below the package's folder; several if they work together."""
     deviations: tuple[Deviation, ...]
-    """Those beyond the tolerance, from the root outwards; none if the edits change nothing that is compared."""
+    """The deviations beyond the tolerance, from the root outwards; none if the edits change no compared quantity."""
     owners: tuple[str, ...] = ()
     """The elements that the files belong to, in the domain's words."""
 
@@ -125,20 +125,20 @@ class ToolResult(msgspec.Struct):
     failing: tuple[str, ...] = ()
     """Full names of the user's models that do not compile by themselves."""
     deviations: tuple[Deviation, ...] | None = None
-    """Of the package as it is generated, without edits, from the reference; None if that was not compared."""
+    """Deviations of the generated package from the reference; None without a comparison."""
     effects: tuple[EditEffect, ...] = ()
-    """The effects of the user's edits, each apart where that can be told."""
+    """The effects of the user's edits, each apart if possible."""
     seconds: float = 0.0
     megabytes: float = 0.0
     """The most memory that its processes took together, looked at four times a second."""
     times: tuple[TrialTime, ...] = ()
-    """Those of the comparison, if the compiler tells them."""
+    """Times of the comparison, if the compiler tells them."""
     curves: tuple[Curve, ...] = ()
-    """Poses and efforts of the package as it is generated, in the first simulation, if a page was asked for."""
+    """Poses and efforts of the generated package in the first simulation, for a page."""
 
 
 class CheckResult(msgspec.Struct):
-    """The result for one robot. The check alone fills it."""
+    """The result for one robot. Only the check changes it."""
 
     KEYS = (
         *("robot", "package", "folder", "failed", "built", "in_step", "conflicting", "strict", "status", "summary"),
@@ -149,40 +149,40 @@ class CheckResult(msgspec.Struct):
     robot: str
     package: str
     built: bool = True
-    """False if there is no package on disk yet: what would be generated was checked."""
+    """False if there is no package on disk yet: then the generated package was checked."""
     in_step: bool = True
-    """Whether the package on disk is what a build would leave."""
+    """Whether the package on disk is in step."""
     conflicting: bool = False
     """Whether it is out of step because edits and new texts contradict each other."""
     freedoms: int | None = None
-    """Degrees of freedom; None if the domain does not say."""
+    """Degrees of freedom; None if the domain has none."""
     tools: tuple[ToolResult, ...] = ()
-    """One for each compiler, in the order in which they were asked; none if nothing was compiled."""
+    """One for each compiler, in the order of their runs; none if nothing was compiled."""
     between: tuple[Deviation, ...] | None = None
-    """Of the second compiler from the first, for the package as it is generated; None if one could not move it."""
+    """Deviations of the second compiler from the first, for the generated package; None if one could not move it."""
     between_edited: tuple[Deviation, ...] = ()
-    """The same for the package with the edits of the user; none if there are none."""
+    """The same for the package with the user's edits; none without edits."""
     notes: tuple[str, ...] = ()
-    """Made up or completed for the comparison, and why: one sentence each, without a full stop."""
+    """Assumptions of the comparison, with reasons: one sentence each, without a full stop."""
     unchecked: tuple[str, ...] = ()
-    """Not covered by a check like this, and why: one sentence each, without a full stop."""
+    """Parts that this kind of check does not cover, with reasons: one sentence each, without a full stop."""
     gaps: tuple[str, ...] = ()
-    """Should have been covered and could not be, and why: one sentence each, without a full stop."""
+    """Parts that could not be checked, with reasons: one sentence each, without a full stop."""
     diagnostics: tuple[Diagnostic, ...] = ()
     seconds: float = 0.0
     """From beginning to end."""
     megabytes: float = 0.0
     """The most memory that its processes took together, looked at four times a second."""
     folder: str = ""
-    """The package's folder, as people see it; empty if the check did not come that far."""
+    """The package's folder for messages; empty if the check ended before."""
     reference: str = ""
     """The reference of `deviations`, for example `Pinocchio 3.4`; empty if nothing was compared."""
     strict: bool = False
-    """Whether a difference that comes from an edit counts as one, and a check that is incomplete."""
+    """Whether effects of edits count as differences, and an incomplete check as a failure."""
 
     @property
     def failed(self) -> bool:
-        """Whether something could not be checked, or does not compile."""
+        """Whether the check failed, or something does not compile."""
         return any(finding.severity is Severity.ERROR for finding in self.diagnostics)
 
     @property
@@ -202,17 +202,17 @@ class CheckResult(msgspec.Struct):
 
     @property
     def differs(self) -> bool:
-        """Whether the generated package is not as the reference says, whoever edited it, or two compilers disagree."""
+        """Whether the generated package differs from the reference, or two compilers disagree."""
         return not all(each.agrees for each in (*self.deviations, *(self.between or ()), *self.between_edited))
 
     @property
     def is_changed_by_edits(self) -> bool:
-        """Whether edits of the user change what is compared."""
+        """Whether the user's edits change a compared quantity."""
         return any(effect.deviations for effect in self.effects)
 
     @property
     def status(self) -> CheckStatus:
-        """The verdict; if `strict`, a difference that comes from an edit counts as well."""
+        """The verdict; if `strict`, effects of edits count as differences."""
         if self.failed:
             return CheckStatus.FAILED
         if self.differs or (self.strict and self.is_changed_by_edits):
@@ -223,7 +223,7 @@ class CheckResult(msgspec.Struct):
 
     @property
     def summary(self) -> str:
-        """The verdict, what compiles, and how far it agrees with the reference, in one line."""
+        """One line: the verdict, the compiled models, and the agreement with the reference."""
         errors = sum(finding.severity is Severity.ERROR for finding in self.diagnostics)
         facts = [counted(errors, "error")] if errors else []
         if self.compiled:
@@ -242,12 +242,12 @@ class CheckResult(msgspec.Struct):
 
     @property
     def worst(self) -> Mapping[Part, Deviation]:
-        """The deviation of each part from the reference that is greatest against its tolerance."""
+        """The greatest deviation of each part from the reference, relative to its tolerance."""
         return worst(self.deviations)
 
     @property
     def agrees(self) -> bool | None:
-        """Whether the package without edits agrees with the reference; None if that was not compared."""
+        """Whether the package without edits agrees with the reference; None without a comparison."""
         return None if all(tool.deviations is None for tool in self.tools) else not self.differs
 
     def add(self, diagnostics: Iterable[Diagnostic]) -> None:
@@ -256,7 +256,7 @@ class CheckResult(msgspec.Struct):
 
 
 def worst(deviations: Iterable[Deviation]) -> dict[Part, Deviation]:
-    """Return the deviation of each part that is greatest against its tolerance, in the order of the parts."""
+    """Return the greatest deviation of each part, relative to its tolerance, in the order of the parts."""
     greatest = dict[Part, Deviation]()
     for part in Part:
         own = [deviation for deviation in deviations if deviation.part is part]

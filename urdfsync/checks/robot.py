@@ -31,9 +31,9 @@ _STEP = 0.04
 
 
 def known_check(config: Config, robot: RobotConfig) -> CheckResult | None:
-    """Return what an earlier check found of the package as it is, best with physics; None if that is not known.
+    """Return an earlier check of the present package, preferably with physics; None if there is none.
 
-    Only checks by the embedded compiler count, and only those that found nothing wrong are remembered.
+    Only right results of the embedded compiler are remembered.
     """
     if config.check.tool != "rumoca":  # the key has the version of OpenModelica, which nobody wants to start here
         return None
@@ -44,9 +44,9 @@ def known_check(config: Config, robot: RobotConfig) -> CheckResult | None:
 
 
 def check_robot(config: Config, robot: RobotConfig, options: CheckOptions, folder: Path | None = None) -> CheckResult:
-    """Check one robot; copies of its package are made in `folder`, or where there is place if that is None.
+    """Check one robot; copies of its package go to `folder`, or to a temporary folder for None.
 
-    A package in step that was right is not checked again until its fingerprint is another one.
+    A right package in step is not checked again until its fingerprint changes.
     """
     begin, cache = time.monotonic(), UserCache.default()
     result = CheckResult(robot.name, robot.target.package, strict=options.strict)
@@ -79,7 +79,7 @@ def check_robot(config: Config, robot: RobotConfig, options: CheckOptions, folde
 def _check(
     config: Config, package: RobotPackage, options: CheckOptions, result: CheckResult, limits: Limits, folder: Path
 ) -> None:
-    """Check a package as far as this machine can; all that is found goes into the result."""
+    """Check a package as far as this machine can; add all findings to the result."""
     robot, inputs = package.robot, package.generation.inputs
     result.built, result.in_step, result.conflicting = bool(package.on_disk), package.in_step, package.conflicting
     checks: Checks | None = inputs.domain.checks
@@ -120,7 +120,7 @@ def _check(
 
 
 def _find_missing(config: Config, options: CheckOptions, needed: Libraries, result: CheckResult) -> Diagnostic | None:
-    """Return why nothing can be compiled; it is an error, too, if the user asked for more than the default."""
+    """Return why nothing can be compiled. It is also an error if the user chose a compiler."""
     missing = next(filter(None, map(compilers.find_missing, options.tools)), None)
     lacks_library = any(not compilers.COMPILERS[tool.name].HAS_STANDARD_LIBRARY for tool in options.tools)
     problem = missing or (needed.problem if lacks_library else None)
@@ -131,7 +131,7 @@ def _find_missing(config: Config, options: CheckOptions, needed: Libraries, resu
 
 
 def _experiment(package: RobotPackage, options: CheckOptions, result: CheckResult, limits: Limits) -> Experiment | None:
-    """Return the experiment for the package; None if there is none, and the result says why."""
+    """Return the experiment for the package; None if there is none: then the result has the reason."""
     robot = package.robot
     if not options.physics:
         result.unchecked += ("poses and efforts were not compared; `--physics` compares them",)
@@ -171,7 +171,7 @@ def _experiments(domain: str, sample: Sample, step: float | None) -> Iterator[Ex
 def run_compilations(
     compilations: Sequence[Compilation], experiment: Experiment | None, result: CheckResult, limits: Limits
 ) -> None:
-    """Compile a package with one compiler after the other; the answers go into the result."""
+    """Compile a package with one compiler after the other; add the answers to the result."""
     for compilation in compilations:
         begin, peak, limits.peak = time.monotonic(), limits.peak, 0.0
         compilation.run(experiment)
@@ -193,7 +193,7 @@ def run_compilations(
 
 
 def _findings(compilations: Sequence[Compilation]) -> list[Diagnostic]:
-    """Return the findings: what all compilers have at the same place once, what one has alone under its name."""
+    """Return the findings: common ones of all compilers once, those of one compiler with its name."""
 
     def place(finding: Diagnostic) -> tuple[object, ...]:
         return finding.severity, finding.file, finding.line, finding.code, "" if finding.line else finding.message

@@ -29,8 +29,8 @@ def check_robots(
 ) -> Iterator[CheckResult]:
     """Check robots; the results come in their order, each as soon as it and those before it are known.
 
-    `progress` is told what is being done, and how many robots are done. Raises CacheError if there is no place for the
-    cache, ConfigError if no cluster answers.
+    `progress` gets the step of the work, and the number of finished robots. Raises CacheError if there is no place for
+    the cache, ConfigError if no cluster answers.
     """
     if not robots:
         return
@@ -66,7 +66,7 @@ def check_robots(
 def _result(
     robot: RobotConfig, futures: dict[str, Future[CheckResult]], pool: Workers, progress: Progress
 ) -> CheckResult:
-    """Wait for the check of one robot, and tell how far all are."""
+    """Wait for the check of one robot, and report the progress of all."""
     future, what = futures[robot.name], "checking"
     while wait([future], _PAUSE).not_done:
         *_, what = [what, *pool.steps()]

@@ -1,7 +1,7 @@
-"""Faults in the texts of a package: syntax, layout, files that it refers to. No compiler is asked.
+"""Finds faults in the texts of a package, without a compiler: syntax, layout, missing files.
 
 The rules of the layout are those of the language specification 3.6, section 13.4. All faults are found, not only the
-first. A compiler gives up the whole package for one file that does not parse, often without naming it.
+first. One unparsable file makes a compiler refuse the whole package, often without naming the file.
 """
 
 from __future__ import annotations
@@ -80,7 +80,7 @@ def _check_folder(package: PackageTexts, folder: PurePosixPath, stored: Collecti
 def check_around(output: Path, files: Mapping[str, bytes]) -> list[Diagnostic]:
     """Return the faults that keep compilers from reading the files around a package: syntax, `within`, package names.
 
-    `files` are by their path below the output folder. Their other faults concern their authors alone.
+    `files` are by their path below the output folder. Other faults in these files are not reported.
     """
     findings, package = list[Diagnostic](), PackageTexts("", output, files)
     for path in sorted(PurePosixPath(name) for name in files if name.endswith(".mo")):
@@ -117,7 +117,7 @@ def _placed(package: PackageTexts, path: str, finding: Diagnostic) -> Diagnostic
 
 
 def _misnamed_part(path: PurePosixPath) -> PurePosixPath | None:
-    """Return the outermost folder around a file, or the file itself, whose name no class can have."""
+    """Return the outermost folder around a file, or the file itself, with a name that no class can have."""
     for part in [*reversed(path.parents[:-1]), *([] if path.name == PACKAGE_FILE else [path])]:
         name = part.stem if part is path else part.name
         if not (is_identifier(name) or _QUOTED_NAME.fullmatch(name)):
@@ -135,7 +135,7 @@ def _decoded(package: PackageTexts, path: str) -> str | Diagnostic:
 
 
 def missing_resources(package: RobotPackage) -> Iterator[Diagnostic]:
-    """Yield a finding for each file below the package's own folders that a text refers to and that does not exist."""
+    """Yield a finding for each missing file below the package's own folders to which a text refers."""
     own, output = package.robot.target.package, package.robot.output
     hint = "build to bring back an imported file, or put the file there"
     for path in sorted(package.on_disk):

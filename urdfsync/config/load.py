@@ -1,4 +1,4 @@
-"""`urdfsync.toml` to a frozen `Config`; every fault is told with its line, all of them at once.
+"""Reads `urdfsync.toml` into a frozen `Config`; reports all faults at once, each with its line.
 
 All paths in the file count from its own folder. A robot's table may hold the keys of `Keys` and the options of its
 domain; `[defaults]` the same without source, package and class; `[check]` the keys of `CheckConfig`.
@@ -47,7 +47,7 @@ _WORDS = {
 }
 
 _fields = functools.cache(msgspec.structs.fields)
-"""The fields of a kind of struct, which take the daemon a tenth of a small build to find out."""
+"""The fields of each struct type. Finding them takes the daemon a tenth of a small build."""
 
 
 def find(start: Path) -> Path:
@@ -62,7 +62,7 @@ def find(start: Path) -> Path:
 
 
 def load(file: Path) -> Config:
-    """Read a configuration file. Raises ConfigError with everything that is wrong in it."""
+    """Read a configuration file. Raises ConfigError with all its faults."""
     code, line = "unreadable-config", 0
     try:
         text = dependencies.read_file(file).decode("utf-8-sig").replace("\r\n", "\n").replace("\r", "\n")
@@ -79,7 +79,7 @@ def load(file: Path) -> Config:
 
 
 def parse(text: str, file: Path, name: str) -> Config:
-    """Read the configuration in `text`, which is (or would be) at the absolute path `file`; errors call it `name`.
+    """Read the configuration in `text` of the file at the absolute path `file`; errors call it `name`.
 
     Raises ConfigError with one diagnostic for each fault.
     """
@@ -122,14 +122,14 @@ def _is_struct(kind: Any) -> bool:
 
 
 def _is_finite(value: Any) -> bool:
-    """Whether there is no nan and no inf in a value of TOML: JSON has neither, nor has a model a use for one."""
+    """Whether a value of TOML has no nan and no inf: JSON and models allow neither."""
     if isinstance(value, dict | list):
         return all(map(_is_finite, value.values() if isinstance(value, dict) else value))
     return not isinstance(value, float) or math.isfinite(value)
 
 
 class _Table(NamedTuple):
-    """A table to be read: how messages call it, its values, and the line of each key; that of the table for `""`."""
+    """A table: its name in messages, its values, and the line of each key; the table's own line for `""`."""
 
     name: str
     values: Mapping[str, Any]
@@ -146,14 +146,14 @@ class _Reader:
         self._file, self._root = file, root
 
     def check_characters(self) -> None:
-        """Report control characters: no name, path or option has a use for one, and some systems stop at one."""
+        """Report control characters: no name, path or option needs one, and some systems stop at one."""
         for path, text in tomlfile.strings(self._document):
             if any(ord(char) < 32 or ord(char) == 127 for char in text):
                 message = f"there is a control character in {text!r}"
                 self._report("control-character", self._line(*path), message, "write it without")
 
     def robots(self) -> Iterator[RobotConfig]:
-        """Yield every robot whose table is right."""
+        """Yield every robot with a faultless table."""
         self._refuse_unknown(self._table("the configuration", self._document), {"check", "defaults", "robots"})
         defaults, robots = self._subtable("defaults"), self._subtable("robots")
         allowed = set(_KEY_NAMES)
@@ -194,7 +194,7 @@ class _Reader:
         return keys, table.lines
 
     def find_clashes(self, robots: Sequence[RobotConfig]) -> None:
-        """Report robots that share a name or a package's folder, or of which one stands in the other's."""
+        """Report robots that share a name or a package's folder, or with one package inside of the other."""
         names: dict[str, str] = {}
         folders = {_folded(robot.folder): robot.name for robot in reversed(robots)}
         for robot in robots:
@@ -209,7 +209,7 @@ class _Reader:
                 self._report("clash", robot.lines["package"], message)
 
     def check_ignored(self, robots: Sequence[RobotConfig]) -> None:
-        """Report ignored codes that no warning has, in any format of the robots."""
+        """Report ignored codes that no warning of the robots' formats has."""
         if not any(robot.ignore for robot in robots):
             return  # a domain that is not ours is looked for on Python's path, which takes 3 ms
         domains = {robot.domain for robot in robots}
@@ -223,7 +223,7 @@ class _Reader:
             self._report("unknown-code", line, f"no warning or note has the code `{code}`", hint)
 
     def _robot(self, name: str, own: dict[str, Any], defaults: dict[str, Any], domain: Domain) -> RobotConfig | None:
-        """Read a robot by its own table and the defaults; None if anything in it is wrong."""
+        """Read a robot from its own table and the defaults; None for a faulty table."""
         before, allowed = len(self.problems), _KEY_NAMES | _names_of(domain.options)
         inheritable = allowed.difference(OWN_KEYS, own)
         inherited = {key: value for key, value in defaults.items() if key in inheritable}
@@ -277,7 +277,7 @@ class _Reader:
         )
 
     def _read(self, table: _Table, struct: type[msgspec.Struct]) -> Any:
-        """Read the keys of `table` that `struct` has, as its instance; None if any of them is wrong or missing."""
+        """Read the keys of `struct` in `table` as its instance; None if one of them is wrong or missing."""
         values: dict[str, Any] = {}
         before = len(self.problems)
         for field in _fields(struct):
@@ -303,7 +303,7 @@ class _Reader:
             return None
 
     def _find_wrong_items(self, table: _Table, key: str, kind: Any) -> bool:
-        """Report what is wrong inside of the tables of a list; False if nothing is, or `key` is something else."""
+        """Report faults inside of the tables of a list; False if there is none, or `key` is no list of tables."""
         item_kind, items = next(iter(get_args(kind)), None), table.values[key]
         struct = next(filter(_is_struct, (item_kind, *get_args(item_kind))), None)
         if struct is None or not isinstance(items, list):
@@ -320,13 +320,13 @@ class _Reader:
         return len(self.problems) > before
 
     def _path(self, kind: type, value: Any) -> Path:
-        """Return a path in the file as an absolute one; msgspec asks for each, and reports the TypeError."""
+        """Return a path in the file as an absolute one; msgspec calls this, and reports the TypeError."""
         if kind is not Path or not isinstance(value, str) or not value:  # "." is the folder of the configuration
             raise TypeError
         return self._absolute(Path(value))
 
     def _absolute(self, path: Path) -> Path:
-        """Return a path without `..` and `.`, symbolic links kept: what the user wrote is what messages show."""
+        """Return a path without `..` and `.`, with symbolic links: messages show the user's path."""
         return Path(os.path.normpath(self._root / path))
 
     def _refuse_unknown(self, table: _Table, allowed: Collection[str]) -> None:

@@ -20,10 +20,10 @@ ROBOT_PATTERN = rf"^(?!(?:{any_case(DEVICES)})(?:\.|$))(?=.{{1,100}}$)[A-Za-z0-9
 _RESERVED = any_case(RESERVED_CLASSES | DEVICES)
 _PART = rf"(?!(?:{'|'.join(sorted(KEYWORDS | FUNCTIONS))}|{_RESERVED})(?:\.|$))[A-Za-z_][A-Za-z0-9_]*"
 PACKAGE_PATTERN = rf"^(?:{LIBRARY}\.)?{_PART}(?:\.{_PART})*$"
-"""Matches what `package` may be."""
+"""Matches valid values of `package`."""
 _NO_CLASS = rf"(?!(?:{'|'.join(sorted(KEYWORDS))}|{_RESERVED}|{any_case(GENERATED_CLASSES)})$)"
 CLASS_PATTERN = rf"^{_NO_CLASS}[A-Z][A-Za-z0-9_]*$"
-"""Matches what `class` may be."""
+"""Matches valid values of `class`."""
 LAST_PATTERN = rf"(?:^|\.){_NO_CLASS}[A-Za-z][A-Za-z0-9_]*$"
 """Matches a package whose last part names the class."""
 
@@ -40,7 +40,7 @@ def model_class(package: str, chosen: str) -> str:
 
 
 def is_package(name: str) -> bool:
-    """Whether a full name can be that of a package: it hides nothing that generated models refer to."""
+    """Whether a package may have a full name: it must not hide names that generated models use."""
     # what `PACKAGE_PATTERN` says, which takes 4 ms to compile
     reserved = {word.lower() for word in RESERVED_CLASSES | DEVICES}
     return all(

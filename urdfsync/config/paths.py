@@ -1,4 +1,4 @@
-"""Folders: where the user works, where ROS packages are, where the files are that urdfsync brings along."""
+"""Finds folders: the working folder, ROS packages, and urdfsync's own files."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def library_folder() -> Path:
 
 
 def find_own_library(name: str, package: str) -> Path | None:
-    """Return the library UrdfSync, if that is `name` and `package` is not in that library; else None."""
+    """Return the library UrdfSync if `name` means it and `package` is not in it; else None."""
     return library_folder() / LIBRARY if name == LIBRARY != package.partition(".")[0] else None
 
 
@@ -49,9 +49,9 @@ def templates_folder(domain: Domain) -> Path:
 
 
 def explained(page: str) -> Iterator[tuple[str, list[str]]]:
-    """Yield the names that the tables of a page of the documentation explain, each with the cells beside it.
+    """Yield the names in the first column of a page's tables, each with the cells beside it.
 
-    SARIF and the schema say what they mean in the words of that page.
+    SARIF and the schema take their explanations from there.
     """
     text = _LINK.sub(r"\1", (_data_folder("docs") / page).read_text(encoding="utf-8"))
     for row in _ROW.findall(text):

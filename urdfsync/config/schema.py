@@ -1,7 +1,7 @@
-"""`urdfsync.toml` as a JSON schema, for editors: from the types and the names by which it is read.
+"""Makes the JSON schema of `urdfsync.toml`, for editors, from the types that read it.
 
-No schema can compare tables, or paths with the folder that they are in: packages of two robots that clash, two elements
-that get one name, an output in `.urdfsync`. `load` reports these.
+A schema can't compare tables or paths: clashing packages, two elements with one name, an output in `.urdfsync`. `load`
+reports these.
 """
 
 from __future__ import annotations
@@ -93,7 +93,7 @@ def _robot(properties: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _refuse_control_characters(schema: Any) -> None:
-    """Let no string and no key in a schema have control characters."""
+    """Forbid control characters in all strings and keys of a schema."""
     for part in schema.values() if isinstance(schema, dict) else schema if isinstance(schema, list) else ():
         _refuse_control_characters(part)
     if isinstance(schema, dict) and schema.get("type") == "string":

@@ -1,4 +1,4 @@
-"""The values of a configuration: the keys of its tables, and the robots that follow from them."""
+"""The values of a configuration: keys of its tables, and robots."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ Compiler: TypeAlias = Literal["rumoca", "omc"]
 
 
 class SharedKeys(msgspec.Struct, frozen=True, kw_only=True):
-    """The keys of a robot's table that mean what they say; paths in them are absolute."""
+    """The keys of a robot's table that are taken as they are; paths are absolute."""
 
     source: Path
     output: Path = msgspec.field(default_factory=lambda: Path(DEFAULT_OUTPUT))
@@ -35,20 +35,20 @@ class SharedKeys(msgspec.Struct, frozen=True, kw_only=True):
     command: tuple[str, ...] = ()
     """The command that writes the source; empty for none."""
     command_inputs: tuple[Path, ...] = ()
-    """The files that this depends on."""
+    """The files that the command depends on."""
     templates: Path | None = None
     package_paths: tuple[Path, ...] = ()
     users: tuple[Path, ...] = ()
     """Files and folders that hold models of the user's, beside the configuration's folder and `output`."""
     create_parents: bool = False
     on_conflict: Literal["keep", "merge"] = "keep"
-    """Whether a file that both sides changed gets their merge, if that is without doubt."""
+    """Merge a file that both sides changed, if the changes fit together."""
     on_build: Literal["nothing", "check"] = "nothing"
-    """Whether the package is checked after each build."""
+    """Check the package after each build."""
     ignore: frozenset[str] = frozenset()
     """Codes of warnings and notes that are not shown."""
     renamed: Mapping[str, str] = {}
-    """Old → new name of elements, as far as the user declares it."""
+    """Old → new name of elements, declared by the user."""
 
 
 class Keys(SharedKeys, frozen=True, kw_only=True):
@@ -67,10 +67,10 @@ class CheckConfig(msgspec.Struct, frozen=True):
     tool: Literal[Compiler, "both"] = "rumoca"
     """See `checks.compilers.choose`."""
     omc: str = ""
-    """The program that is OpenModelica's compiler, as an absolute path or a name on the PATH; empty to look for it."""
+    """OpenModelica's compiler, as an absolute path or a name on the PATH; empty to look for it."""
 
     def program(self, compiler: str) -> str:
-        """Return the program that the key of a compiler's name names; empty if there is none."""
+        """Return the program in the key with a compiler's name; empty without one."""
         named: str = getattr(self, compiler, "")
         return named
 
@@ -80,14 +80,16 @@ class RobotConfig(SharedKeys, frozen=True, kw_only=True):
 
     name: str
     source_text: str
-    """The source's path as the state records it: relative to the configuration, POSIX; of absolute ones the name."""
+    """The source's path in the state: relative to the configuration, POSIX; only the name of an absolute path."""
     target: Target
     options: Any
     """An instance of `Domain.options`."""
     arguments: Mapping[str, str] | None = None
-    """Arguments of xacro; None for a source whose name or content may give it to xacro."""
+    """Arguments of xacro; None if only the name or content of the source decides about xacro."""
     lines: Mapping[str, int] = {}
-    """Line of every key in the configuration; of the robot's table for `""`, of an entry of a table for `KEY.NAME`."""
+    """Line of every key in the configuration; the table's own line for `""`, the line of a table's entry for
+    `KEY.NAME`.
+    """
 
     @property
     def folder(self) -> Path:
@@ -95,7 +97,7 @@ class RobotConfig(SharedKeys, frozen=True, kw_only=True):
         return self.output.joinpath(*self.target.package.split("."))
 
     def without_ignored(self, diagnostics: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
-        """Leave out the warnings and notes that are ignored; errors never are."""
+        """Leave out ignored warnings and notes; errors stay."""
         return tuple(
             finding for finding in diagnostics if finding.severity is Severity.ERROR or finding.code not in self.ignore
         )
@@ -121,7 +123,7 @@ class Config(msgspec.Struct, frozen=True):
         return tuple(finding for finding in diagnostics if finding in shown_findings)
 
     def select(self, names: Sequence[str]) -> tuple[RobotConfig, ...]:
-        """Return the robots that names, sources, or places around their packages mean; all robots without `names`.
+        """Return the robots for names, sources, or places around their packages; all robots without `names`.
 
         Raises ConfigError for a name that means no robot, and for a configuration without robots.
         """
@@ -149,7 +151,7 @@ class Config(msgspec.Struct, frozen=True):
         return tuple(robot for robot in self.robots if not names or robot.name in chosen)
 
     def select_one(self, robots: Sequence[str], command: str) -> RobotConfig:
-        """Return the robot that names mean, or the only one. Raises ConfigError for several: `command` takes one."""
+        """Return the named robot, or the only one. Raises ConfigError for several: `command` takes one."""
         chosen = self.select(robots)
         if len(chosen) > 1:
             names = ", ".join(robot.name for robot in chosen)

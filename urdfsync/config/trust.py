@@ -1,4 +1,4 @@
-"""Whether the user trusts a configuration that leads out of its own folder."""
+"""Decides whether the user trusts a configuration that leads out of its own folder."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ class _Trusted(msgspec.Struct, forbid_unknown_fields=True):
 
 
 def find_untrusted_output(config: Config, robot: RobotConfig) -> Diagnostic | None:
-    """Return an error if a robot's output is outside of the configuration's folder, and the user has not named that.
+    """Return an error if a robot's output is outside of the configuration's folder and not trusted.
 
     Raises ConfigError if the user's file of trusted folders can't be read. That file is no part of a repository.
     """
@@ -31,7 +31,7 @@ def find_untrusted_output(config: Config, robot: RobotConfig) -> Diagnostic | No
 
 
 def find_untrusted_command(config: Config, robot: RobotConfig) -> Diagnostic | None:
-    """Return an error if a robot has a command, and the user has not named the folder. Raises ConfigError."""
+    """Return an error if a robot has a command in an untrusted folder. Raises ConfigError."""
     import shlex  # 2 ms, and few robots have a command
 
     message = f"robot `{robot.name}`: its `command` was not run: {shlex.join(robot.command)}"
@@ -39,11 +39,9 @@ def find_untrusted_command(config: Config, robot: RobotConfig) -> Diagnostic | N
 
 
 def find_untrusted_compiler(config: Config, compiler: str, title: str) -> Diagnostic | None:
-    """Return an error if the user has not named the folder, whose configuration chooses a compiler, or its program.
+    """Return an error if the configuration of an untrusted folder chooses a compiler, or its program.
 
-    Raises ConfigError.
-
-    A compiler may run what external functions of models and libraries name, whoever has written these.
+    Raises ConfigError. A compiler may run programs that external functions of models and libraries name.
     """
     key, reason = "tool", "models can start programs by it"
     if program := config.check.program(compiler):
@@ -53,7 +51,7 @@ def find_untrusted_compiler(config: Config, compiler: str, title: str) -> Diagno
 
 
 def _find_untrusted(config: Config, message: str, line: int, code: str = "untrusted-output") -> Diagnostic | None:
-    """Return an error with this message if the user has not named the configuration's folder. Raises ConfigError."""
+    """Return an error with this message if the configuration's folder is not trusted. Raises ConfigError."""
     import platformdirs  # 6 ms, and few configurations lead out of their folder
 
     file = platformdirs.user_config_path("urdfsync", appauthor=False) / "trusted.toml"

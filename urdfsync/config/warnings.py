@@ -1,4 +1,4 @@
-"""Keys of a configuration without effect: warnings before the work, each once for all robots."""
+"""Warns of keys without effect before the work, once for all robots."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _SUFFIX = ".jinja"
 
 
 def find_warnings(config: Config, robots: Sequence[RobotConfig]) -> tuple[Diagnostic, ...]:
-    """Find search paths that do not exist, and files in template folders that replace and serve no template."""
+    """Find missing search paths, and files in template folders that no template uses or replaces."""
     warnings = (warning for robot in robots for warning in robot.without_ignored(_find_warnings(config, robot)))
     return tuple(dict.fromkeys(warnings))
 

@@ -16,7 +16,7 @@ class Choice(enum.StrEnum):
     """The user's decision about a file."""
 
     KEEP = "keep"
-    """The file stays as the user has it, until something new would be written."""
+    """The user's file stays until the generated text changes."""
     TAKE = "take"
     """The generated text replaces the user's file."""
     MERGE = "merge"
@@ -26,58 +26,58 @@ class Choice(enum.StrEnum):
     MERGE_GENERATED = "merge-generated"
     """Both sides' changes; where they contradict each other, the generated ones."""
     EDIT = "edit"
-    """The text that the user makes of both sides in an editor."""
+    """The user's text from both sides, made in an editor."""
     MOVED = "moved"
     """The edit belongs to the element of another name."""
     UNDO = "undo"
-    """The text and the base before the last choice, or before a build replaced them."""
+    """The text and the base before the last choice, or before a build."""
 
 
 class UsersChoice(msgspec.Struct, frozen=True):
-    """The user's decision about one file. It holds for the two texts that he saw: one that was saved since stays."""
+    """The user's decision about one file. It holds for the two texts that he saw; a file that was saved since stays."""
 
     choice: Choice
     sides: str
     """`sides_hash` of them."""
     text: str | None = None
-    """The text that the user made of both sides, for `Choice.EDIT`; the new name, for `Choice.MOVED`."""
+    """The user's text for `Choice.EDIT`; the new name for `Choice.MOVED`."""
 
 
 def sides_hash(mine: str | None, generated: str | None) -> str:
-    """Return one hash for the texts of both sides, from theirs."""
+    """Return one hash for both sides, from the hashes of their texts."""
     return hashlib.sha256(f"{mine} {generated}".encode()).hexdigest()
 
 
 class Kind(enum.StrEnum):
-    """An effect on a file. What follows from it stands in the properties of an action."""
+    """An effect on a file. Properties of an action tell its consequences."""
 
     WRITE = "write"
     DELETE = "delete"
     LEAVE = "leave"
     CONFLICT = "conflict"
-    """It stays although other content is wanted."""
+    """The file stays, although the generated text differs."""
 
 
 class FileStatus(enum.StrEnum):
-    """How a file stands before the build, what asks for most attention first."""
+    """The state of a file before the build, the most urgent first."""
 
     CONFLICT = "conflict"
-    """The user and urdfsync want different things of it."""
+    """The user and the source changed it."""
     MISSING = "missing"
-    """It was written and somebody deleted it."""
+    """It was written, and the user deleted it."""
     STALE = "stale"
     """The next build writes or deletes it."""
     EDITED = "edited"
-    """The user changed it, and there is nothing new for it."""
+    """The user changed it, and its generated text did not change."""
     ORPHAN = "orphan"
-    """Nothing generates it any longer, and it stays because it is the user's or something of the user's needs it."""
+    """Nothing generates it any longer. It stays because the user edited it, or the user's files need it."""
     UNKNOWN = "unknown"
-    """No build is known to have written it, and nothing generates it."""
+    """No known build wrote it, and nothing generates it."""
     IN_STEP = "in step"
 
 
 class Reason(enum.StrEnum):
-    """Why something happens to a file. What happens, and all words about it, follow."""
+    """The reason of an action. Its effect and all words about it follow."""
 
     # Word, kind, status (None where there is no file any more), text: the end of a sentence about the path.
     # Then what a dry run says of n such files, and a build if it says something else: in this order.
@@ -127,18 +127,18 @@ class Reason(enum.StrEnum):
 
 
 ORPHANS = frozenset(reason for reason in Reason if reason.status is FileStatus.ORPHAN)
-"""Actions that leave a file although nothing generates it any longer."""
+"""Actions that keep a file that is no longer generated."""
 CONFLICTS = frozenset(reason for reason in Reason if reason.kind is Kind.CONFLICT)
 DISPUTED = CONFLICTS | {Reason.MOVE}
-"""Actions that the texts, or the user, decide on."""
+"""Actions that the texts, or the user, decide."""
 USERS = frozenset({Reason.KEEP, Reason.INCLUDED, Reason.MERGE, Reason.UNDO, Reason.ORPHAN}) | DISPUTED
-"""Actions after which the file still has text of the user's."""
+"""Actions after which the file still has the user's text."""
 
 
 class Action(msgspec.Struct, frozen=True):
     """The decision about one file, and the hashes that it rests on; `path` is the file's key.
 
-    Whoever acts on it takes `path` for all that it changes: a file that moves has two actions, MOVE and MOVED_AWAY.
+    An action changes only `path`: a file that moves has two actions, MOVE and MOVED_AWAY.
     """
 
     KEYS = ("path", "origin", "status", "kind", "reason", "is_waiting", "owner", "role", "text")
@@ -156,28 +156,28 @@ class Action(msgspec.Struct, frozen=True):
     mine: str | None = None
     """Hash of the file on disk; None if there is none."""
     is_waiting: bool = False
-    """Waits until the robot's other conflicts are resolved."""
+    """Whether it waits for the robot's other conflicts."""
     is_left_by_git: bool = False
-    """Whether git left another text in the file, such as one with markers: `mine` is what it stands for."""
+    """Whether git left another text in the file, such as one with markers; `mine` is its meaning (see `united`)."""
 
     @property
     def kind(self) -> Kind:
-        """The effect on the file, once it waits for nothing."""
+        """The effect on the file, after the wait."""
         return Kind.WRITE if self.is_left_by_git and self.reason.kind is Kind.LEAVE else self.reason.kind
 
     @property
     def status(self) -> FileStatus | None:
-        """How the file stands before the build; None where there is no file any more."""
+        """The file's state before the build; None if there is no file any more."""
         return self.reason.status
 
     @property
     def replaces(self) -> str:
-        """Say that it takes the place of what git has made of two versions, as a clause; empty if it does not."""
+        """Say, as a clause, that it replaces git's text of two versions; empty if it does not."""
         return "in the place of what git left there" if self.is_left_by_git and self.kind is not Kind.CONFLICT else ""
 
     @property
     def text(self) -> str:
-        """Why it happens, and what it waits for, as the end of a sentence that begins with the path; for scripts.
+        """The reason, and why it waits, as the end of a sentence that begins with the path; for scripts.
 
         People read `output.phrases.reason`.
         """
@@ -185,33 +185,33 @@ class Action(msgspec.Struct, frozen=True):
 
     @property
     def writes(self) -> bool:
-        """Whether a file changes now."""
+        """Whether it changes a file now."""
         return self.kind in (Kind.WRITE, Kind.DELETE) and not self.is_waiting
 
     @property
     def is_deletion(self) -> bool:
-        """Whether there is no file any more, once the action waits for nothing."""
+        """Whether the file is deleted, after the wait."""
         return self.kind is Kind.DELETE
 
     @property
     def is_conflict(self) -> bool:
-        """Whether a file stays although other content is wanted."""
+        """Whether the file stays, although the generated text differs."""
         return self.kind is Kind.CONFLICT
 
     @property
     def keeps_text(self) -> bool:
-        """Whether the text on disk stays, and need not be the generated one."""
+        """Whether the text on disk stays, even if it is not the generated one."""
         stays = self.kind in (Kind.LEAVE, Kind.CONFLICT) and self.status is not FileStatus.IN_STEP
         return self.is_waiting or stays
 
     @property
     def sides(self) -> str:
-        """One hash for the texts of both sides: a choice holds as long as it is the same."""
+        """One hash for the texts of both sides: a choice holds while it is the same."""
         return sides_hash(self.mine, self.generated)
 
     @property
     def waits_for(self) -> str:
-        """The reason why it waits, as a clause; empty if it does not."""
+        """Why it waits, as a clause; empty if it does not."""
         return "waits until the conflicts are resolved" if self.is_waiting else ""
 
     @property
@@ -231,5 +231,5 @@ class Actions(tuple[Action, ...]):
 
     @property
     def decided(self) -> tuple[Action, ...]:
-        """All actions but on files that are as they should be: for most builds a few of thousands."""
+        """All actions except those on unchanged files: in most builds a few of thousands."""
         return tuple(action for action in self if action.reason not in (Reason.UNCHANGED, Reason.UNKNOWN))

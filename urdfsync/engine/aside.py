@@ -1,7 +1,7 @@
-"""Texts that builds and choices replace: each is a plain file below `.urdfsync/aside/`, and can be given back.
+"""Saves the texts that builds and choices replace: each is a plain file below `.urdfsync/aside/`, for `--undo`.
 
-Put aside is what a person wrote, and what this machine did not generate: that it is recorded is no proof. The list of
-what can be given back forgets a text once its file is saved again and another build writes. The text itself stays.
+Saved are a person's texts, and all others that this machine did not generate, even if they are recorded. The list for
+`--undo` drops a text once its file is saved again and another build writes. The text itself stays.
 """
 
 from __future__ import annotations
@@ -25,9 +25,9 @@ from urdfsync.state.store import Aside
 def put_aside(
     generation: Generation, decision: Decision, contents: Mapping[str, bytes | None], settled: Settled
 ) -> tuple[dict[str, Aside], dict[str, bytes]]:
-    """Return all that can be given back after a build, by path below the package, and the new texts by file.
+    """Return the saved texts after a build, by path below the package, and the new texts by file.
 
-    `contents` are those that the build writes, by key; None for a deletion.
+    `contents` are the texts that the build writes, by key; None for a deletion.
     """
     inputs, folder = generation.inputs, generation.inputs.folder
     moved = {action.origin: action.path for action in decision.actions if action.origin and action.writes}
@@ -58,7 +58,7 @@ def put_aside(
 
 
 def _is_as_written(files: PackageFiles, key: str, aside: Aside) -> bool:
-    """Return whether nobody has saved a file since its text was put aside."""
+    """Return whether a file is unchanged since its text was put aside."""
     try:
         state = files.state_on_disk(key)
     except OutputError:  # the user has put a link or a folder in its place
@@ -67,7 +67,7 @@ def _is_as_written(files: PackageFiles, key: str, aside: Aside) -> bool:
 
 
 def _follow(generation: Generation, former: Former, key: str, names: Mapping[str, str]) -> Former:
-    """Return a text with its base as they are at the new path of their file: with new names."""
+    """Return a text and its base with the new names of the file's new path."""
     from urdfsync.merge.renames import rename, without_clashes  # imports the parser
     from urdfsync.modelica.layout import with_within
 
@@ -79,7 +79,7 @@ def _follow(generation: Generation, former: Former, key: str, names: Mapping[str
 
 
 def _deleted(generation: Generation, decision: Decision) -> Iterator[tuple[str, str]]:
-    """Yield the path and text of each model that goes with a choice, since nothing needs it any more."""
+    """Yield the path and text of each model that a choice deletes, since nothing needs it any more."""
     files, folder = generation.inputs.files, generation.inputs.folder
     for action in decision.actions:
         is_model = action.path.startswith(folder.key("")) and action.path.endswith(".mo")
@@ -90,7 +90,7 @@ def _deleted(generation: Generation, decision: Decision) -> Iterator[tuple[str, 
 def _replaced(
     generation: Generation, decision: Decision, contents: Mapping[str, bytes | None], names: Mapping[str, str]
 ) -> Iterator[tuple[str, Former]]:
-    """Yield the key and text of each file that the build writes over or deletes, but for what this machine made."""
+    """Yield the key and text of each replaced or deleted file, without texts that this machine generated."""
     files, last = generation.inputs.files, generation.inputs.last
     origins = {action.origin for action in decision.actions if action.origin and action.writes}
     for action in decision.actions:
@@ -108,7 +108,7 @@ def _replaced(
 
 
 def _bases_given_back(generation: Generation, action: Action, text: bytes) -> tuple[FileRecord, Mapping[str, str]]:
-    """Return what a text is an edit of, once it is given back."""
+    """Return the bases of a text after `--undo`."""
     inputs = generation.inputs
     record = inputs.last.files.get(
         action.path if action.reason is not Reason.MOVE else action.origin or "", FileRecord()

@@ -1,7 +1,7 @@
-"""Builds robots: plans each, and writes what the plan says.
+"""Builds robots: plans each, and carries out the plan.
 
-Planning locks nothing. A build that has something to write takes the build lock, makes sure that the plan still
-holds, and keeps the lock until all robots are built.
+Planning locks nothing. A build with something to write takes the build lock, and verifies the plan. It keeps the lock
+until all robots are built.
 """
 
 from __future__ import annotations
@@ -41,11 +41,11 @@ if TYPE_CHECKING:
     from urdfsync.engine.pool import Pool
 
 WAITING = "waiting for"
-"""Words of progress while another process builds, before the name of that one."""
+"""Words of progress while another process builds; its name follows."""
 _LEAST_ROBOTS = 6
 """With fewer robots, importing urdfsync in each worker takes longer than it saves."""
 _ATTEMPTS = 5
-"""Plans of one robot, if each is overtaken by another build or by somebody who saves a file."""
+"""The most plans of one robot, if other builds or saves overtake each."""
 
 
 def build(config: Config, robots: Sequence[RobotConfig], options: BuildOptions) -> Iterator[Result]:
@@ -78,7 +78,7 @@ class _Builder:
         """Findings that belong to no robot of this command."""
 
     def build(self, robot: RobotConfig) -> Result:
-        """Build one robot. Whatever is wrong comes back as diagnostics."""
+        """Build one robot. Faults come back as diagnostics."""
         self._reads = Dependencies()
         try:
             untrusted = None if self._options.trusted else find_untrusted_output(self._config, robot)
@@ -103,7 +103,7 @@ class _Builder:
         return msgspec.structs.replace(result, diagnostics=(*warnings, *result.diagnostics), reads=self._reads)
 
     def _plan_and_write(self, robot: RobotConfig) -> Result:
-        """Plan, and write unless the run is dry; again if another build or a save overtook the plan."""
+        """Plan, and write unless the run is dry. Repeat if another build or a save overtook the plan."""
         saved = robot.folder
         for _ in range(_ATTEMPTS):
             with Dependencies() as self._reads:
@@ -143,7 +143,7 @@ class _Builder:
         return not self._transactions.is_pending() and Store(self._config.root).is_unchanged(plan.state)
 
     def _recover(self) -> None:
-        """Wait for a build that is writing; finish what a killed build left."""
+        """Wait for a build that is writing; finish a killed one."""
         if not self._transactions.is_pending():
             return
         if not self._options.dry:

@@ -1,4 +1,4 @@
-"""The files of a package that the user has edited, with what urdfsync wrote last."""
+"""The user's edited files of a package, with their bases."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from urdfsync.merge import edits as merge_edits
 
 
 class EditedFile(msgspec.Struct, frozen=True):
-    """A text file that is not as it was written."""
+    """An edited text file."""
 
     KEYS = ("path", "owner", "edits")
 
@@ -29,12 +29,12 @@ class EditedFile(msgspec.Struct, frozen=True):
     owner: str
     """Element that it belongs to, in the domain's words."""
     base: str | None
-    """The generated text that it last took into account; None if that is lost, or if urdfsync never wrote it."""
+    """The base; None if it is lost, or if urdfsync never wrote the file."""
     mine: str
 
     @property
     def edits(self) -> Sequence[merge_edits.Edit] | None:
-        """The edits by the elements of its class; None if they can't be told so."""
+        """The edits by the elements of its class; None if base or file is no single class."""
         return None if self.base is None else merge_edits.find_edits(self.base, self.mine)
 
 
@@ -48,14 +48,14 @@ class RobotEdits(msgspec.Struct, frozen=True):
     """The paths of `files` count from it."""
     files: tuple[EditedFile, ...] = ()
     diagnostics: tuple[Diagnostic, ...] = ()
-    """Why that can't be told, if it `failed`."""
+    """Why the edits are unknown, if it `failed`."""
     failed: bool = False
 
 
 def find_edited(generation: Generation, actions: Iterable[Action] | None = None) -> Iterator[EditedFile]:
-    """Yield the edited files of a robot, in the order of their paths. Raises UrdfsyncError.
+    """Yield the edited files of a robot, in the order of their paths.
 
-    `actions` are those of its package; None to decide them.
+    Raises UrdfsyncError. `actions` are the package's actions; None to decide them.
     """
     files = generation.inputs.files
     for action in decide_package(generation).actions if actions is None else actions:

@@ -1,7 +1,6 @@
 """Sources that are made before they are read: by xacro, or by a command of the user's.
 
-What a source was made of is recorded with hashes (see `state.expansion`), and it is made again only if that
-has changed.
+The inputs of a source are recorded with hashes (see `state.expansion`). It is made again only if one has changed.
 """
 
 from __future__ import annotations
@@ -44,7 +43,7 @@ _HINTS = {
 
 
 class Inputs:
-    """The files that one source is made of: their places, and their names in the state."""
+    """The input files of one source: their places, and their names in the state."""
 
     def __init__(self, root: Path, source: Path, package_paths: Sequence[Path]) -> None:
         self.root, self.source, self.package_paths = root, source, tuple(package_paths)
@@ -59,7 +58,7 @@ class Inputs:
         return folder / rest if folder else None
 
     def name(self, path: str | Path, packages: Mapping[str, str]) -> str:
-        """Return how the state calls a file: the same on every machine, if that can be."""
+        """Return a file's name in the state: the same on every machine, if possible."""
         file = Path(path)
         if not file.is_relative_to(self.root):
             for package, folder in packages.items():
@@ -69,9 +68,9 @@ class Inputs:
         return Path(os.path.relpath(file, self.root) if file.parts[:2] == self.root.parts[:2] else file).as_posix()
 
     def look(self, robot: RobotConfig, names: Expansion) -> Expansion:
-        """Return what a source would be made of now, by the names in an expansion; without what would be made.
+        """Return the present inputs of a source, by the names in an expansion, without the text.
 
-        Files of packages that are not on this machine are as they were. A command names its files itself.
+        Files of packages that are missing on this machine count as unchanged. A command names its files itself.
         """
         files, patterns = dict(names.files), dict(names.patterns)
         if robot.command:
@@ -92,7 +91,7 @@ class Inputs:
         )
 
     def find_changes(self, robot: RobotConfig, made: Expansion) -> tuple[str, ...]:
-        """Return what is other than when a source was made."""
+        """Return the inputs that changed since a source was made."""
         now, changed = self.look(robot, made), []
         changed += [key for key in ("source", "arguments", "command") if getattr(now, key) != getattr(made, key)]
         changed += [name for name in {**made.files, **now.files} if made.files.get(name) != now.files.get(name)]
@@ -100,14 +99,14 @@ class Inputs:
         return (*changed, *(f"${name}" for name in made.variables if made.variables[name] != now.variables[name]))
 
     def why_not_expandable(self, made: Expansion, error: SourceError) -> str:
-        """Return what this machine lacks to expand a source again, as a clause; empty if the source is wrong."""
+        """Return what this machine lacks to expand a source again, as a clause; empty for a faulty source."""
         if error.diagnostics[0].code == "no-xacro":
             return "xacro is not installed"
         missing = [name for name, sha256 in made.files.items() if sha256 and not _is_there(self.path(name))]
         return f"{missing[0]} is not on this machine" if missing else ""
 
     def places(self, made: Expansion) -> list[tuple[int, str, int]]:
-        """Return the line of each element in an expansion, with the file as people see it and the line it is from."""
+        """Return the line of each element in an expansion, with its original file and line."""
         try:
             files = [shown(self.path(name) or Path(name)) for name in made.files]
             entries = (map(int, re.split("[=:]", entry)) for entry in made.places.split())

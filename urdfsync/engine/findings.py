@@ -1,4 +1,4 @@
-"""What a build says beside its actions: of names and connectors that go, of packages that moved or are outdated."""
+"""Findings of a build: removed names and connectors, moved or outdated packages."""
 
 from __future__ import annotations
 
@@ -26,13 +26,13 @@ if TYPE_CHECKING:
     from urdfsync.modelica.unresolved import Unresolved
 
 CONNECTORS = "connector-changed"
-"""Code of the notes on what users may connect to."""
+"""Code of the notes on changed connectors."""
 _FEW = 3
-"""So many files are named; of more, only their number."""
+"""The most files that are named; of more, only the number."""
 _LINES = 20
-"""So many lines with the same fault are named; of more, only their number."""
+"""The most lines that are named for one fault; of more, only the number."""
 _NEW = 6
-"""So many new connectors are named; of more, only their number."""
+"""The most new connectors that are named; of more, only the number."""
 
 
 def find_all(generation: Generation, decision: Decision) -> tuple[Diagnostic, ...]:
@@ -87,7 +87,7 @@ def _diagnose(generation: Generation, misfits: Sequence[Misfit]) -> Iterator[Dia
 
 
 def _hint(generation: Generation, renamed: Mapping[str, str], use: Unresolved) -> str:
-    """Return what to do about a name that means nothing."""
+    """Return a hint for an unresolved name."""
     inputs, target, options = generation.inputs, generation.inputs.robot.target, generation.inputs.robot.options
     if use.part == inputs.last.target.package != target.package and target.name not in use.candidates:
         return f"use `{target.package}` instead"
@@ -105,7 +105,7 @@ def _hint(generation: Generation, renamed: Mapping[str, str], use: Unresolved) -
 
 
 def _left_behind(inputs: Inputs, actions: Actions) -> Iterator[Diagnostic]:
-    """A warning if something stays in the folder that a package had in the last build."""
+    """Return a warning if files stay in the package's former folder."""
     files, old, new = inputs.files, inputs.files.path(inputs.last.folder), inputs.files.path(inputs.folder)
     if not inputs.has_moved or any(action.is_waiting for action in actions):
         return
@@ -127,13 +127,13 @@ def _left_behind(inputs: Inputs, actions: Actions) -> Iterator[Diagnostic]:
 
 
 def _first(names: Sequence[str], most: int) -> str:
-    """The names in a row; of more than `most` the first ones, and the number of the others."""
+    """Return the names in a row; of more than `most` the first ones, and the number of the others."""
     more = [f"{len(names) - most} more"] if len(names) > most else []
     return ", ".join([*names[:most], *more])
 
 
 def _changed_connectors(generation: Generation) -> Iterator[Diagnostic]:
-    """Notes on what users may have connected to, and what has another name now, or none; one note on what is new."""
+    """Yield notes on renamed and removed connectors, and one note on new ones."""
     inputs, changes = generation.inputs, generation.changes
     complete, robot = inputs.last.version, inputs.robot
     effects: Effects | None = inputs.domain.effects
@@ -158,7 +158,7 @@ def _changed_connectors(generation: Generation) -> Iterator[Diagnostic]:
 
 
 def orphaned_state(config: Config) -> list[Diagnostic]:
-    """A note if there is state of robots that are in the configuration no more."""
+    """Return a note if there is state of robots that the configuration lacks."""
     store = Store(config.root)
     built = set(store.names())
     heirs = {key_of(robot.folder, config.root) for robot in config.robots if robot.name not in built}

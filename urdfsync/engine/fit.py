@@ -1,11 +1,9 @@
-"""Whether what the user wrote fits the package: each name in it is resolved, against what is there after the build.
+"""Finds unresolved names in the user's texts, as the package will be after the build.
 
-Looked at are the files of the package that the user edited, his own classes in it, and his models outside. The finding
-rests on what travels with the project: the package, UrdfSync, and the user's files. Nothing is said of what is in
-libraries that are not read.
-
-Generated texts fit each other. So of an edited one only those statements are looked at that are not as generated, and
-those that mention a name which an edit adds, changes or takes away; of generated ones the latter.
+These texts are edited files of the package, the user's own classes in it, and the user's models outside. Findings
+depend only on the project: the package, UrdfSync, and the user's files. Names that an unread library may have are no
+faults. Generated texts fit each other. So only statements that differ from the generated ones are read, and statements
+that mention a name which an edit adds, changes or removes.
 """
 
 from __future__ import annotations
@@ -59,31 +57,31 @@ _TOO_LONG = Diagnostic(
 
 
 class Misfit(msgspec.Struct, frozen=True):
-    """Something in a file of the user's that is no Modelica, or means nothing."""
+    """A syntax error or an unresolved name in a user's file."""
 
     file: Path
     finding: Diagnostic
-    """Without the file, and without a hint for a name that means nothing."""
+    """Without the file, and without a hint for an unresolved name."""
     key: str = ""
     """Of a file in the package."""
     is_broken: bool = False
-    """Whether it keeps the package from being compiled: the file is one of those that are generated."""
+    """Whether it breaks the package: then the file is a generated one."""
     use: Unresolved | None = None
-    """The name that means nothing."""
+    """The unresolved name."""
     lacking: str = ""
     """A name that a generated text mentions, and that this file does not declare."""
 
     @property
     def fault(self) -> str:
-        """The name that means nothing, or the code of another finding: as long as it is the same, so is the fault.
+        """The unresolved name, or the code of another finding: it identifies the fault.
 
-        The class that lacks the name is no part of it: that gets another name when its element does.
+        It leaves out the class that lacks the name, since that may be renamed with its element.
         """
         return self.use.part if self.use else self.finding.code
 
 
 class Package(PackageAfter):
-    """The package after a build, with the meaning of all names in it."""
+    """The package after a build; resolves the names in it."""
 
     @cached_property
     def _readings(self) -> dict[bytes, Reading]:
@@ -120,7 +118,7 @@ class Package(PackageAfter):
         return self._inputs.users_files.tops.get(name)
 
     def _reading(self, content: bytes) -> Reading:
-        """Parse a file; of generated ones only what others see."""
+        """Parse a file; of a generated one only the statements that matter to other files."""
         if content not in self._readings:
             text = text_of(content)
             passed = plain_statements(text) if content in self._generated else frozenset[str]()
@@ -130,10 +128,9 @@ class Package(PackageAfter):
     # --- findings -------------------------------------------------------------------------------------------------
 
     def misfits(self, only: Collection[str] | None = None) -> list[Misfit]:
-        """Return all findings; `only` those in the files of the package with these keys, which are about to be merged.
+        """Return all findings, or `only` those in the files with these keys, which are merged now.
 
-        Of a merge it is also told if it uses what this build takes away, and what a class may inherit from a library
-        that is not read.
+        In a merge, removed names count as faults even if a class may inherit them from an unread library.
         """
         if not self.users:
             return [*self._look_at_orders()] if only is None else []
@@ -150,7 +147,7 @@ class Package(PackageAfter):
         return misfits
 
     def _passed_statements(self) -> dict[str, frozenset[str]]:
-        """Return the files to look at, with their statements that mean what they mean in generated texts."""
+        """Return the files to check, with those statements that equal generated ones."""
         artifacts, statements = self._generation.package.artifacts, dict[str, frozenset[str]]()
         # first the names of classes that generated texts mention, and that are not there
         before = self._inputs.last.files
@@ -174,11 +171,11 @@ class Package(PackageAfter):
 
     @cached_property
     def _is_waiting(self) -> bool:
-        """Whether files stay as they are in the package of the last complete build."""
+        """Whether files stay as in the package of the last complete build."""
         return any(action.is_waiting for action in self._actions)
 
     def _generated_text(self, path: str) -> str:
-        """Return the text in the place of an edited one that all other generated texts fit; empty if there is none."""
+        """Return the generated text of an edited file; empty if there is none."""
         inputs, artifacts = self._inputs, self._generation.package.artifacts
         place = path if path in artifacts else as_file(path)
         if not self._is_waiting:
@@ -189,7 +186,7 @@ class Package(PackageAfter):
         return (inputs.last.base(record.hashes[0]) or "") if record and len(record.hashes) == 1 else ""
 
     def _is_lost(self, name: str) -> bool:
-        """Whether a text that is replaced or deleted declares a name, and the one in its place does not."""
+        """Whether a replaced or deleted text declares a name that the new text lacks."""
         files, folder = self._inputs.files, self._inputs.folder
         replaced = list[tuple[str, str]]()
         if not all(action.is_waiting for action in self._actions):  # else the package is as it was before the choices
@@ -206,7 +203,7 @@ class Package(PackageAfter):
         return False
 
     def _look_at_places(self) -> Iterator[Misfit]:
-        """Look for classes that have two places."""
+        """Find classes that are stored in two places."""
         packages = [path for path, file in self._files.items() if file.is_edited and f"/{path}".endswith("/package.mo")]
         for path, finding in check_places(self, {package: self._declared(package) or {} for package in packages}):
             file, other = self._files[path], self._files.get(f"{path.removesuffix('.mo')}/{PACKAGE_FILE}")
@@ -221,7 +218,7 @@ class Package(PackageAfter):
         return {inside.path[1]: inside.line for inside in declared(stored.classes) if len(inside.path) == 2}
 
     def _look_at_orders(self) -> Iterator[Misfit]:
-        """Look for lines of the user's in a `package.order` that name nothing."""
+        """Find the user's lines in a `package.order` that name no class."""
         inputs, files, orders = self._inputs, self._inputs.files, self._generation.package.orders
         for path, (text, lines) in self.extended_orders.items():
             names, folder = orders.get(path, ()), path.removesuffix("package.order")
@@ -250,7 +247,7 @@ class Package(PackageAfter):
         return ""
 
     def _look_at_head(self, path: str, node: Node, scopes: Scopes, paths: Iterable[str]) -> Iterator[Diagnostic]:
-        """Look at the kind of a class that the user edited, and whether it is partial."""
+        """Check the kind of an edited class, and whether it is partial."""
         generated = self._differences[path].generated if path in self._differences else None
         if generated is None:
             return
@@ -267,7 +264,10 @@ class Package(PackageAfter):
     def _look(
         self, path: str, scopes: Scopes, lost: Callable[[str], bool] | None, paths: Iterable[str]
     ) -> Iterator[Misfit]:
-        """Look at a file of the package; at a generated one for what others lack. `paths` are all of these files."""
+        """Check a file of the package; a generated one only for names that other files lack.
+
+        `paths` are all of these files.
+        """
         file, name, reading = self._files[path], self.class_name(path), self._readings[self[path]]
         place = self._inputs.files.path(file.key)
         findings = check_class_file(reading.text, PurePosixPath(path), ".".join(name), reading.stored)[1]
@@ -284,7 +284,7 @@ class Package(PackageAfter):
                 yield Misfit(Path(owner.file), finding, key, is_broken=True, lacking=use.part)
 
     def _look_around(self, file: Path, scopes: Scopes) -> Iterator[Misfit]:
-        """Look at a file of the user's outside of the package; it may hold several classes, if it is in no package."""
+        """Check a user's file outside of the package; it may hold several classes if it is in no package."""
         reading, package = self._reading(self.around[file]), place_of(file, self.around)[1]
         findings = list[Diagnostic]()
         if reading.stored.is_broken or (package and reading.stored.within != ".".join(package)):
@@ -302,7 +302,7 @@ def _faults(
     scopes: Scopes,
     lost: Callable[[str], bool] | None = None,
 ) -> Iterator[tuple[Unresolved | None, Diagnostic]]:
-    """Yield what is wrong with a file: what was found already, else each name that means nothing."""
+    """Yield the faults of a file: those of its syntax, else each unresolved name."""
     errors = [finding for finding in findings if finding.severity is Severity.ERROR]
     if reading.stored is TOO_LONG:
         errors = [_TOO_LONG]

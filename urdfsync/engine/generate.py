@@ -1,4 +1,4 @@
-"""A model to the files of its package. A text is rendered when it is asked for."""
+"""Makes the files of a package from a model. A text is rendered when it is read."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ class Package:
     def skip(self, noted: Mapping[str, tuple[str, str]], stored: Callable[[str], str | None]) -> None:
         """Take the hashes of texts that this program has rendered on this machine, as `notes` returned them.
 
-        `stored` returns a text that has a hash, whoever stored it; None if there is none.
+        `stored` returns the text with a hash, from any machine; None if there is none.
         """
         self._stored = stored
         for path, artifact in self.artifacts.items():
@@ -62,11 +62,11 @@ class Package:
                 self._hashes[path] = text_hash
 
     def notes(self) -> dict[str, tuple[str, str]]:
-        """Return the hashes of template with data, and of text, of all files whose text is known."""
+        """Return two hashes for each file with known text: of its template with data, and of the text."""
         return {path: (_data_hash(self.artifacts[path]), sha256) for path, sha256 in self._hashes.items()}
 
     def changed_since(self, last: Package) -> frozenset[str]:
-        """Return the paths whose text can differ from that of another package of the same templates."""
+        """Return the paths whose text may differ from another package of the same templates."""
         encode, changed = msgspec.json.encode, set()  # in JSON 0.0 and -0.0 differ, as in the text
         for path, new in self.artifacts.items():
             old = last.artifacts.get(path)
@@ -104,7 +104,7 @@ def generate(
 
 _MOST = 4
 _recent: dict[tuple[Any, bytes], tuple[Artifact | Order, ...]] = {}
-"""Artifacts that were made last, which is what a daemon compares with: saves 9 of 90 ms with 133 links (docs/speed.md).
+"""The last artifacts, for the comparison in the daemon: saves 9 of 90 ms with 133 links (docs/speed.md).
 
 Dropping it changes no byte: artifacts follow from the key.
 """
@@ -120,9 +120,9 @@ def _renderer(templates: Templates) -> Renderer:
 
 
 def check_paths(paths: Sequence[str]) -> None:
-    """Refuse paths that leave the package, and pairs that are one file or one class where case is folded.
+    """Refuse paths that leave the package, and pairs that differ only in case.
 
-    Raises OutputError with everything that is wrong.
+    Raises OutputError with all faults.
     """
     outside: list[str] = []
     clashes: list[tuple[str, str]] = []
@@ -158,7 +158,7 @@ def _is_inside(path: str) -> bool:
 
 
 def _render(renderer: Renderer, artifact: Artifact, package: str) -> bytes:
-    """One rendered file; whatever a template of the user's can do wrong is a ConfigError at its line."""
+    """Render one file; a fault of a user's template is a ConfigError at its line."""
     import jinja2
 
     try:
@@ -199,7 +199,7 @@ def _render(renderer: Renderer, artifact: Artifact, package: str) -> bytes:
 
 
 def _check_text(renderer: Renderer, artifact: Artifact, package: str, text: str) -> None:
-    """Raise ConfigError for a text from a template of the user's that is not the class that its file is for."""
+    """Raise ConfigError if a text from a user's template is not the class of its file."""
     from urdfsync.modelica.layout import check_class_file  # imports the parser: 8 of 220 ms of a build
 
     path = PurePosixPath(artifact.path)
@@ -212,7 +212,7 @@ def _check_text(renderer: Renderer, artifact: Artifact, package: str, text: str)
 
 
 def _template_error(folders: Sequence[Path], template: str, file: str, line: int, message: str) -> ConfigError:
-    """The error at a line of a file in a template folder; without a file, of the template itself."""
+    """Return the error at a line of a file in a template folder; without a file, of the template itself."""
     file = file or next((str(folder / template) for folder in folders if (folder / template).is_file()), template)
     is_own = any(folder in Path(file).parents for folder in folders[:-1])
     hint = "correct the template, or delete it to use that of urdfsync" if is_own else "install urdfsync again"

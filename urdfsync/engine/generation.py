@@ -23,7 +23,7 @@ from urdfsync.matching import Matching, without_exchanges
 from urdfsync.state.record import FileRecord
 
 GONE = "_gone"
-"""Ends names of elements that are gone, in the place of which others have their names."""
+"""Ends the names of removed elements whose names other elements have now."""
 
 
 class Generation(msgspec.Struct, frozen=True, dict=True):
@@ -41,9 +41,9 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
 
     @cached_property
     def matching(self) -> Matching:
-        """Which element of the last complete build is which one now.
+        """The elements of the last complete build and the same elements now.
 
-        The recorded model may be a stranger's: names count as exchanged only if the package on disk agrees with it.
+        The recorded model may be a stranger's: names count as exchanged only if the package on disk agrees.
         """
         declared, last = pending(self.inputs), self.inputs.last
         matching = self._match(declared)
@@ -57,7 +57,7 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
         return matching if self._agrees(exchanged) else without_exchanges(matching, old)
 
     def _agrees(self, owners: Collection[str]) -> bool:
-        """Whether the records of these elements that nobody edited are as the recorded model gives them."""
+        """Whether the unedited records of these elements equal those of the recorded model."""
         last, files, package = self.inputs.last, self.inputs.files, self.inputs.last.package
         if package is None or not owners:
             return not owners
@@ -73,12 +73,12 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
 
     @property
     def renames(self) -> Mapping[ElementKey, str]:
-        """Elements that have another name since the last complete build: old element → new name."""
+        """Renamed elements since the last complete build: old element → new name."""
         return self.matching.renames
 
     @cached_property
     def other_elements(self) -> Mapping[str, str]:
-        """Names that other elements have now than in the last complete build, and the new names of the former ones."""
+        """Names that now belong to other elements, with the new names of their former elements."""
         last = self.inputs.last
         if not (self.renames and last.version):
             return {}
@@ -103,7 +103,7 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
 
     @cached_property
     def changes(self) -> Changes | None:
-        """Changes since the last complete build; None if that is not known, and for a robot that is removed."""
+        """Changes since the last complete build; None if unknown, and for a removed robot."""
         last, robot = self.inputs.last, self.inputs.robot
         if last.version is None or self.inputs.options.removes:
             return None
@@ -124,26 +124,26 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
 
     @cached_property
     def paths_by_hash(self) -> Mapping[str, str]:
-        """The path of a generated text by its hash, whatever its element is called."""
+        """The path of each generated text, by its hash."""
         return {self.package.hash(path): path for path in self.package.artifacts}
 
     @property
     def is_structural(self) -> bool:
-        """Whether files or names may come or go: not if only numbers changed since the last complete build."""
+        """Whether files or names may come or go. False if only numbers changed since the last complete build."""
         if self.changes is None or self.changes.change_class.rank >= ChangeClass.STRUCTURAL.rank:
             return True
         return bool(self.respelled)
 
     @cached_property
     def respelled(self) -> Mapping[str, tuple[str, str]]:
-        """Recorded classes to which this program gives another name, see `LastBuild.respelled`."""
+        """Recorded classes that this program names otherwise, see `LastBuild.respelled`."""
         last = self.inputs.last
         classes = (last.folder.path(key) for key in last.files if key.endswith(".mo"))
         return {} if all(path in self.package.artifacts for path in classes) else last.respelled
 
     @cached_property
     def moves(self) -> dict[str, str]:
-        """New and old key of text files whose element was renamed, or whose package moved."""
+        """New and old keys of text files with a renamed element or a moved package."""
         inputs, last = self.inputs, self.inputs.last
         texts = set(map(last.folder.path, last.files))
         if not (self.is_structural or inputs.has_moved):
@@ -164,7 +164,7 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
 def generate_robot(inputs: Inputs) -> Generation:
     """Parse the source, import the files that it refers to, and generate the package; no text is rendered yet.
 
-    Raises SourceError, ConfigError or OutputError for whatever is wrong.
+    Raises SourceError, ConfigError or OutputError.
     """
     if inputs.options.removes:
         nothing = Package((), inputs.templates, inputs.robot.target.package)

@@ -1,4 +1,4 @@
-"""Files that a source refers to: found, converted if need be, and kept where they can't be found."""
+"""Imports the files of a source: finds and converts them; missing ones keep their recorded copy."""
 
 from __future__ import annotations
 
@@ -24,11 +24,11 @@ from urdfsync.facts import MAX_FILE
 from urdfsync.files import digest
 
 _POINTER = b"version https://git-lfs"
-"""How a file begins that Git LFS has not replaced by its content yet."""
+"""The beginning of a pointer of Git LFS."""
 _MOST_OTHERS = 100
-"""Files that a conversion may need besides."""
+"""The most further files of a conversion."""
 MOST_PARTS = 100
-"""Files that a dependency becomes at the most."""
+"""The most files of one dependency."""
 _IN_LIBRARY = r"\s*modelica:/*([^/.]+)"
 _HINTS = {
     r"(?:https?|ftp):": "urdfsync does not look on the network: download it, and let the source refer to it",
@@ -38,7 +38,7 @@ _HINTS = {
     "[a-z]+://([^/]+)/": "put it into the package `{}`, or add the folder that holds that to `package_paths`",
     "": "add the folder that holds it to `package_paths`",
 }
-"""Advice about a file that is not found, by how its URI begins; the first one counts."""
+"""Hints for a missing file by the beginning of its URI; the first one counts."""
 
 
 class RecordedFile(msgspec.Struct, frozen=True, dict=True):
@@ -48,9 +48,9 @@ class RecordedFile(msgspec.Struct, frozen=True, dict=True):
     copy: bytes | None
     """Its content in the package."""
     written: tuple[str, ...] = ()
-    """The hashes that builds have recorded of it, be it not the last one."""
+    """The hashes that builds have recorded of it."""
     is_noted: bool = False
-    """Whether this program has converted it on this machine, so that it need not be converted again."""
+    """Whether this program has converted it on this machine."""
 
     @cached_property
     def hash(self) -> str:
@@ -59,12 +59,12 @@ class RecordedFile(msgspec.Struct, frozen=True, dict=True):
 
     @property
     def is_intact(self) -> bool:
-        """Whether the copy is what was imported."""
+        """Whether the copy is unchanged since the import."""
         return self.hash == self.entry.target_hash
 
 
 class Imported(msgspec.Struct):
-    """The imports of the package now, the bytes of those that are at hand (by target), and findings."""
+    """The imports of the package, the available bytes (by target), and findings."""
 
     imports: dict[str, Import] = msgspec.field(default_factory=dict)
     contents: dict[str, bytes] = msgspec.field(default_factory=dict)
@@ -72,10 +72,10 @@ class Imported(msgspec.Struct):
     converted: set[str] = msgspec.field(default_factory=set)
     """Keys of the files that were converted now."""
     refused: list[tuple[Dependency, Path]] = msgspec.field(default_factory=list)
-    """Files that were found, and could not be converted."""
+    """Found files that could not be converted."""
 
     def add(self, key: str, entry: Import, content: bytes | None) -> None:
-        """Add an import; `content` is None if it is not at hand."""
+        """Add an import; `content` is None if it is unavailable."""
         self.imports[key] = entry
         if content is not None:
             self.contents[entry.target] = content
@@ -90,7 +90,7 @@ def places_of(dependency: Dependency) -> Iterator[tuple[str, str]]:
 
 
 def _find_recorded(dependency: Dependency, recorded: Mapping[str, RecordedFile]) -> list[tuple[str, str, RecordedFile]]:
-    """Return the files that a dependency became, its own first, with their keys and targets now; none if it did not."""
+    """Return the recorded files of a dependency, its own first, with their present keys and targets."""
     places = itertools.takewhile(lambda place: place[0] in recorded, places_of(dependency))
     return [(key, target, recorded[key]) for key, target in places]
 
@@ -108,8 +108,8 @@ def import_files(
     """Import every dependency; `source` is how diagnostics name the file that refers to them.
 
     A conversion that this machine has noted serves again if it has the same input, unless the build is a full one or
-    the package `has_moved`. What can't be found or read is left out, or its recorded copy serves.
-    Raises StateError if a copy must serve of which the recorded facts are lost.
+    the package `has_moved`. A missing or unreadable file is left out, or its recorded copy serves. Raises StateError if
+    the facts of that copy are lost.
     """
     result = Imported()
     failed: dict[tuple[str, ...], list[tuple[Dependency, Diagnostic]]] = {}
@@ -153,7 +153,7 @@ def _import(
     source: str,
     result: Imported,
 ) -> Diagnostic | None:
-    """Add one import to the result, or return what is wrong; the `recorded` files of the last build may serve."""
+    """Add one import to the result, or return its problem; the `recorded` files of the last build may serve."""
 
     def unreadable(message: str, hint: str) -> Diagnostic:
         return Diagnostic(
@@ -226,7 +226,7 @@ def _read_mentioned(domain: Domain, dependency: Dependency, path: Path, content:
 
 
 def _needed(dependency: Dependency, recorded: Import) -> Mapping[str, Any] | None:
-    """Return the facts that artifacts need, out of the recorded ones; None if one of them is not there."""
+    """Return the recorded facts that artifacts need; None if one is missing."""
     if not dependency.facts:
         return recorded.facts
     facts = {name: recorded.facts[name] for name in dependency.facts if name in recorded.facts}
@@ -234,14 +234,14 @@ def _needed(dependency: Dependency, recorded: Import) -> Mapping[str, Any] | Non
 
 
 def _named(dependencies: Sequence[Dependency]) -> str:
-    """Files of one noun in words: the only one, or their number and the first."""
+    """Return files of one noun in words: the only one, or their number and the first."""
     first, count = dependencies[0], len(dependencies)
     plural = f"{first.noun}es" if first.noun.endswith(("s", "sh", "ch", "x")) else f"{first.noun}s"
     return f"{first.noun} `{first.uri}`" if count == 1 else f"{count} {plural} (such as `{first.uri}`)"
 
 
 def _not_found(dependencies: Sequence[Dependency], source: str, line: int = 0) -> Diagnostic:
-    """Return a warning of files that have the same noun and are missing for the same reason."""
+    """Return one warning for missing files with the same noun and reason."""
     first, what = dependencies[0], _named(dependencies)
     beginning, match = next(
         (beginning, match)
@@ -259,9 +259,9 @@ def _keep_copy(
     result: Imported,
     trouble: Diagnostic,
 ) -> Diagnostic:
-    """Let the copy serve that an earlier build made, if there is one.
+    """Use the copy of an earlier build, if there is one.
 
-    `trouble` says what is wrong with the source. Returns it with what follows from it.
+    `trouble` says why; the result adds the consequence.
     """
     own, files = recorded.get(dependency.key), _find_recorded(dependency, recorded)
     if own is None or any(file.copy is None for _, _, file in files):
@@ -290,10 +290,10 @@ def _keep_copy(
 def find_dependencies(
     domain: Domain, snapshot: Snapshot, lookup: Lookup, options: Any, lines: Mapping[str, int]
 ) -> Sequence[Dependency]:
-    """The files that a model refers to.
+    """Find the files that a model refers to.
 
-    Packages are searched for only if one of them is not found without; what is not found then either is guessed.
-    Modelica libraries come first for the files that are said to be in them, so MODELICAPATH is read before that.
+    ROS packages are searched only for files that are not found elsewhere; the last resort is a guess. Files in Modelica
+    libraries come first, so MODELICAPATH is read before.
     """
     dependencies = domain.dependencies(snapshot, lookup, options, lines)
     if any(re.match(_IN_LIBRARY, dependency.uri, re.IGNORECASE) for dependency in dependencies):
@@ -316,7 +316,7 @@ def _is_found(dependency: Dependency) -> bool:
 
 
 def _find(dependency: Dependency) -> tuple[Path, bytes] | OSError | None:
-    """The first candidate that is a file and can be read, with its content; else why one can't be, None for no file."""
+    """Return the first readable candidate with its content; else why one is unreadable, None if none is a file."""
     trouble = None
     for path in dependency.candidates:
         try:

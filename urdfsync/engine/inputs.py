@@ -26,7 +26,7 @@ from urdfsync.state.store import Store
 
 
 class Inputs(msgspec.Struct, frozen=True, dict=True):
-    """Everything that a build reads before it parses the source."""
+    """All that a build reads before it parses the source."""
 
     config: Config
     robot: RobotConfig
@@ -42,18 +42,18 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
     """Of the package now."""
     parents: Parents
     program: str
-    """Hash of the program and the templates, by which notes of this machine hold."""
+    """Hash of the program and the templates; this machine's notes hold for it."""
     damage: Diagnostic | None = None
     """A warning if lines of the recorded state can't be read."""
 
     @property
     def former_name(self) -> str | None:
-        """Name of the robot in the last build, if it has another one now."""
+        """The robot's name in the last build, if it differs."""
         return self.last.name if self.last.name != self.robot.name else None
 
     @property
     def always_merges(self) -> bool:
-        """Whether the configuration asks to merge, not this command alone."""
+        """Whether the configuration, and not only this command, asks to merge."""
         return any(robot.name == self.robot.name and robot.on_conflict == "merge" for robot in self.config.robots)
 
     @property
@@ -63,14 +63,14 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
 
     @cached_property
     def users_files(self) -> UsersFiles:
-        """The user's models outside of the package, by whether they mention it, as it is or as it was."""
+        """The user's models outside of the package; finds those that mention its present or former name."""
         former = self.files.path(self.last.folder) if self.has_moved else None
         names = {folder.name for folder in (self.robot.folder, former) if folder}
         return find_users_files(self.config, self.robot, names, former)
 
 
 def inspect(config: Config, robot: RobotConfig, options: BuildOptions) -> Inputs:
-    """Read all that a build of a robot starts from. Raises UrdfsyncError for whatever is wrong with it."""
+    """Read all inputs of a robot's build. Raises UrdfsyncError for faults in them."""
     domain, store = registry.domain(robot.domain), Store(config.root)
     files = PackageFiles(config, robot)
     folder = Folder(files.key(robot.folder))
@@ -106,7 +106,7 @@ def inspect(config: Config, robot: RobotConfig, options: BuildOptions) -> Inputs
 
 
 def orphaned_robots(store: Store, config: Config) -> Iterator[tuple[str, str | None]]:
-    """Yield robots with a record that are not configured, and the key of their folder; None if it can't be read."""
+    """Yield unconfigured robots with a record, and the key of their folder; None for an unreadable record."""
     # not by its listed name: a file system that folds case has one record for `arm` and `Arm`
     configured = {robot.name.casefold() for robot in config.robots if file_type(store.path(robot.name), follow=False)}
     for name in store.names():

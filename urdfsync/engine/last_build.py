@@ -1,4 +1,4 @@
-"""The last build of a robot: what the state records of it, and the model and the package that follow from that."""
+"""The last build of a robot: its record, and the model and the package that follow from it."""
 
 from __future__ import annotations
 
@@ -32,16 +32,16 @@ NO_MODEL = (
     UrdfsyncError,
     ValueError,
 )
-"""Errors that a domain raises for a recorded snapshot that is none of its own: anybody may have written it."""
+"""Errors that a domain raises for a foreign recorded snapshot: anybody may have written it."""
 
 
 class LastBuild(msgspec.Struct, frozen=True, dict=True):
-    """The last build of a robot, as it is recorded, and as this machine has noted it."""
+    """The last build of a robot, from the record and from this machine's notes."""
 
     name: str
     """The robot's name then."""
     record: Record
-    """Without a model and files if the robot was never built, or if its state is lost."""
+    """Without model and files if the robot was never built, or its state is lost."""
     notes: Notes
     _store: Store
     _files: PackageFiles
@@ -63,14 +63,14 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
 
     @cached_property
     def files(self) -> Mapping[str, FileRecord]:
-        """The recorded files by key; those that a build may not touch are left out."""
+        """The recorded files by key, without those that a build may not touch."""
         return {key: file for key, file in self.record.files.items() if self._files.is_inside(key)}
 
     def file(self, key: str, role: Role, on_disk: OnDisk, generated: str | None) -> FileRecord:
-        """Return the record of a file as it is on disk.
+        """Return the record of a file on disk.
 
-        A text in the bases, or that this machine has generated, is urdfsync's own, whatever is recorded: a build that
-        a save overtook may have written it, git has put it back, or the state is lost.
+        A text in the bases, or one that this machine has generated, is urdfsync's own even if the record differs: an
+        overtaken build may have written it, git may have restored it, or the state is lost.
         """
         record = self.files.get(key, NEVER_WRITTEN)
         if not isinstance(on_disk, str) or role is Role.IMPORT or on_disk in (generated, *record.hashes):
@@ -79,13 +79,13 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
         return FileRecord((on_disk,)) if is_own and not self.is_chosen(key, on_disk) else record
 
     def is_chosen(self, key: str, on_disk: OnDisk) -> bool:
-        """Return whether a choice on this machine, such as --undo, has made a file and its base what they are."""
+        """Return whether a choice on this machine, such as --undo, made a file and its base."""
         aside = self.aside.get(self.folder.path(key))
         return self._files.is_chosen(key) or (aside is not None and aside.after == on_disk)
 
     @cached_property
     def options(self) -> Any:
-        """The domain's options; None if they are not as this program has them."""
+        """The domain's options; None if this program does not have them."""
         if self.record.generator.domain != self._robot.domain:
             return None
         try:
@@ -95,7 +95,7 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
 
     @cached_property
     def imports(self) -> Mapping[str, RecordedFile]:
-        """The imported files, and their copies in the package; of several records of a file, the one of its copy."""
+        """The imported files and their copies; of several records of a file, the one that fits the copy."""
         return {key: self._recorded_file(entries) for key, entries in self.record.imports.items()}
 
     def _recorded_file(self, entries: Sequence[Import]) -> RecordedFile:
@@ -108,7 +108,7 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
 
     @cached_property
     def version(self) -> Version | None:
-        """The model; None if there was none, or it is lost."""
+        """The model; None if there was none, or if it is lost."""
         if self.record.snapshot is None or self.record.generator.domain != self._robot.domain:
             return None
         imports = {key: file.entry for key, file in self.imports.items()}
@@ -116,7 +116,7 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
 
     @cached_property
     def package(self) -> Package | None:
-        """The package that follows from the model by today's templates; None if none does."""
+        """The package from the recorded model with today's templates; None if that fails."""
         if self.version is None:
             return None
         options, imports = self.options or self._robot.options, self.version.imports or {}
@@ -127,9 +127,9 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
 
     @cached_property
     def respelled(self) -> Mapping[str, tuple[str, str]]:
-        """The path that today's program gives a recorded class, and the class's hash, by its recorded path.
+        """Today's path and the hash of each recorded class, by its recorded path.
 
-        Only of classes that this program would generate from the recorded model but for their own names.
+        Only classes that differ in nothing but their own names.
         """
         recorded = {self.folder.path(key): file for key, file in self.files.items()}
         if not (names := [path for path in recorded if path.endswith(".mo")]) or self.package is None:
@@ -145,9 +145,9 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
         return respelled
 
     def has_generated(self, key: str, sha256: str, role: Role) -> bool:
-        """Return whether a file on disk is what was generated: noted here, or made again from the recorded model.
+        """Return whether a file on disk was generated: by this machine's notes, or by the recorded model.
 
-        That its hash is recorded is no proof: the file may be a person's, and the record a stranger's.
+        Its recorded hash proves nothing: the file may be a person's, and the record a stranger's.
         """
         path = self.folder.path(key)
         if sha256 in self.notes.written:
@@ -162,23 +162,23 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
             return False
 
     def base(self, sha256: str | None) -> str | None:
-        """Return the text with this hash that was generated once; None if it is not stored."""
+        """Return the stored generated text with this hash; None if there is none."""
         return self.texts.get(sha256) or self._store.base(self.name, sha256) if sha256 else None
 
     def bases(self, record: FileRecord) -> dict[str, str]:
-        """Return the texts of a file's bases that are stored, by hash."""
+        """Return the stored texts of a file's bases, by hash."""
         return {sha256: text for sha256 in record.hashes if (text := self.base(sha256)) is not None}
 
     @cached_property
     def _targets(self) -> Mapping[str, str]:
-        """The paths that the recorded model has for imported files, by their keys."""
+        """The paths of imported files in the recorded model, by their keys."""
         snapshot, lookup = self.record.snapshot or {}, Lookup(self._robot.source, ())
         dependencies = self._domain.dependencies(snapshot, lookup, self.options or self._robot.options, {})
         return dict(place for each in dependencies for place in itertools.islice(places_of(each), MOST_PARTS))
 
     @cached_property
     def aside(self) -> Mapping[str, Aside]:
-        """Texts that builds and choices replaced, by path below the package."""
+        """The texts that builds and choices replaced, by path below the package."""
         return self._store.aside(self.name)
 
     def aside_text(self, file: str) -> bytes | None:
@@ -193,7 +193,7 @@ def _without_name(path: str, text: str) -> tuple[str, str]:
 
 
 def import_hash(entry: Import) -> str:
-    """Return a hash over all that is recorded of an import."""
+    """Return one hash of a recorded import."""
     return digest(msgspec.json.encode(entry, order="sorted"))
 
 

@@ -1,4 +1,4 @@
-"""Files that are no longer generated and that stay, since texts of the user's need them."""
+"""Keeps files that are no longer generated, but that the user's texts need."""
 
 from __future__ import annotations
 
@@ -20,10 +20,10 @@ _CLASS_KINDS = frozenset({"block", "class", "connector", "function", "model", "p
 
 
 def code_words(content: bytes) -> set[str]:
-    """Return all names and keywords in a text, without those in strings and comments, and without the classes in it.
+    """Return all names and keywords in a text, without strings, comments, its own classes and its packages.
 
-    Left out are the packages that it stands in, too: one may be called like the robot's model. An edited file whose
-    element has another name may still declare its class by the old one. The text need not parse.
+    A package may have the name of the robot's model, and an edited file the old name of its class. The text need not
+    parse.
     """
     code = re.sub(r"\A\ufeff?\s*within\b[^;]*;", "", text_of(code_of(content)))
     words = re.findall(r"[^\W\d]\w*", code)
@@ -31,7 +31,7 @@ def code_words(content: bytes) -> set[str]:
 
 
 def keep_needed(generation: Generation, actions: Sequence[Action], merged: Mapping[str, str]) -> tuple[Action, ...]:
-    """Keep what the user's files need: records and what they show, and the `package.mo` of a folder with classes."""
+    """Keep files that the user's files need: records, their meshes, and the `package.mo` of a folder with classes."""
     deleted = {action.path: action.role for action in actions if action.is_deletion}
     kept = set[str]()
     if any(action.reason is Reason.DELETE and action.role is Role.RECORD for action in actions):
@@ -48,9 +48,8 @@ def keep_needed(generation: Generation, actions: Sequence[Action], merged: Mappi
 def _find_mentioned(generation: Generation, actions: Sequence[Action], merged: Mapping[str, str]) -> frozenset[str]:
     """Return the files that are no longer generated and that the user's texts need.
 
-    These are records that any of his texts mentions, edited files included; but those that a renamed element left are
-    not: he is told the new name. What a file that he keeps mentions stays whatever it is, and so does what is mentioned
-    or shown by what stays.
+    These are records that his texts or edited files mention, except those of renamed elements: he gets the new name. A
+    kept file also keeps all files that it mentions, and these keep theirs.
     """
     inputs, before = generation.inputs, generation.inputs.last.package
     package = PackageAfter(generation, actions, merged)

@@ -12,7 +12,7 @@ from urdfsync.config import ros_package_path
 from urdfsync.engine.actions import UsersChoice
 
 Progress: TypeAlias = Callable[[str, int, int], None]
-"""Called with a step of the work, how much of it is done, and of how much."""
+"""Called with a step of the work, the finished amount, and the total."""
 
 
 def no_progress(what: str, done: int, total: int) -> None:
@@ -29,11 +29,11 @@ class BuildOptions(msgspec.Struct, frozen=True):
     trusted: bool = False
     """Write to outputs outside of the configuration's folder, too."""
     renews: bool = True
-    """Renew the recorded state of a package that is in step; without it, together with the next file only."""
+    """Renew the recorded state of a package that is in step; else the next written file renews it."""
     adopts: bool = False
-    """Take files that are there before the first build for edits of the generated ones."""
+    """Take files from before the first build for edits of the generated ones."""
     removes: bool = False
-    """Take the robots' packages and records away, as if their sources gave nothing any more."""
+    """Remove the robots' packages and records, as if their sources were empty."""
     draw: bool = False
     """Also draw the main model's diagram into the state folder."""
     package_paths: tuple[Path, ...] = msgspec.field(default_factory=ros_package_path)

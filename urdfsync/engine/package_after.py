@@ -1,6 +1,6 @@
-"""The files of a robot's package as a build leaves them, and those of the user's around it.
+"""The files of a robot's package after a build, and the user's files around it.
 
-Apart from `fit`, which resolves names in them: a build of a package that nobody edited imports no parser.
+Separate from `fit`, which resolves names: a build of an unedited package imports no parser.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from urdfsync.engine.package_files import encode, text_hash
 
 
 def as_file(path: str) -> str:
-    """Return the path of the file that a class has as long as it is no folder."""
+    """Return the path of a class's file, if the class is no folder."""
     return f"{path.removesuffix('/package.mo').removesuffix('.mo')}.mo"
 
 
@@ -26,20 +26,20 @@ class _File(NamedTuple):
 
     key: str
     text: str | None = None
-    """A text that the build writes, other than the generated one."""
+    """A text that the build writes and that is not the generated one."""
     is_generated: bool = False
     is_edited: bool = False
-    """Whether the user wrote in it."""
+    """Whether the user edited it."""
     is_users: bool = False
     """Whether it is the user's own."""
     is_expected: bool = True
-    """Whether a file of its name is generated."""
+    """Whether a file of this name is generated."""
 
 
 class PackageAfter(Mapping[str, bytes]):
-    """The files of a robot's package as a build leaves them, by their paths below it, and the user's around it.
+    """The files of a robot's package after a build, by their paths below it, and the user's files around it.
 
-    Contents are made when they are asked for: rendering 4,000 takes a second.
+    Contents are made on demand: rendering 4,000 takes a second.
     """
 
     def __init__(
@@ -126,7 +126,7 @@ class PackageAfter(Mapping[str, bytes]):
 
     @cached_property
     def extended_orders(self) -> dict[str, tuple[str, set[str]]]:
-        """Text of each `package.order` with lines that no generated class has, and these lines, by path."""
+        """The text of each `package.order` that names classes of the user's, and these lines, by path."""
         inputs, files, orders = self._inputs, self._inputs.files, self._generation.package.orders
         users = [f"{path.removesuffix('.mo')}.order" for path, file in self._files.items() if file.is_users]
         texts = {path: files.any_text(inputs.folder.key(path)) for path in users if path.endswith("package.order")}

@@ -1,4 +1,4 @@
-"""The files of one robot's package as one build sees them: each is read once."""
+"""The files of one robot's package during one build: each is read once."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class Folder(str):
         return f"{self}/{path}"
 
     def path(self, key: str) -> str:
-        """Return the path of a file by its key; the key of one that is elsewhere."""
+        """Return the path of a file below the folder by its key; the key itself for another file."""
         return key.removeprefix(f"{self}/")
 
 
@@ -41,20 +41,20 @@ class FileState(NamedTuple):
 
 
 _unchanged: dict[str, tuple[tuple[int, ...], FileState]] = {}
-"""Files that were read, by absolute path, with their stat values: the daemon reads a file again once these differ.
+"""Read files by absolute path, with their stat values: the daemon reads a file again if these differ.
 
 Serves the rows "one mass changed in the daemon" of docs/speed.md: saves a sixth. Dropping it changes no byte.
 """
 
 
 def unchanged_state(path: str, facts: tuple[int, ...]) -> FileState | None:
-    """Return the state of a file that was read when it had these stat values; None if it has to be read."""
+    """Return the state of an unchanged file with these stat values; None if it has to be read."""
     known = _unchanged.get(path)
     return known[1] if known and known[0] == facts else None
 
 
 def note_state(path: str, facts: tuple[int, ...], content: bytes) -> FileState:
-    """Return the state of a file that was read, and remember it by its stat values before that."""
+    """Return the state of a read file, and remember it by its stat values before the reading."""
     state = state_of(content)
     if len(facts) > 1 and not is_young(facts, time.time_ns()):  # else there was no file
         _unchanged[path] = facts, state
@@ -67,16 +67,20 @@ class PackageFiles:
     def __init__(self, config: Config, robot: RobotConfig) -> None:
         self.root = config.root
         self.overlay: dict[str, bytes | None] = {}
-        """Contents that count for those on disk, by key: what choices make of files, and what those stand for that git
-        left. None for no file."""
+        """Contents that override the disk, by key: results of choices, and the meaning of files that git left.
+
+        None for no file.
+        """
         self.left_by_git: dict[str, tuple[str, ...]] = {}
-        """Files that are as git left them, by key, and the elements about which two branches contradict each other.
-        Without contradictions, the overlay has what the file stands for."""
+        """Files as git left them, by key, with the elements about which two branches contradict each other.
+
+        Without contradictions, the overlay has the file's meaning.
+        """
         self._prefix = os.path.join(os.path.normpath(config.root), "")  # noqa: PTH118 - strings: there are thousands
         self._trees = [Tree(robot.output), Tree(config.root)]
         self._tree_of: dict[str, Tree | None] = {}  # by folder
         self._states: dict[str, FileState | None] = {}
-        """State of each file that was looked at, by absolute path."""
+        """State of each file, by absolute path."""
 
     def key(self, path: Path) -> str:
         """Return the key of a file."""
@@ -118,28 +122,28 @@ class PackageFiles:
             raise OutputError.of("no-text", message, place, line, hint=hint) from None
 
     def any_text(self, key: str) -> str:
-        """Return the text of a file that is only searched: empty if it can't be read, since it may be the user's."""
+        """Return the text of a file for a search; empty if it can't be read, since it may be the user's."""
         try:
             return self.text(key) or ""
         except OutputError:
             return ""
 
     def can_read(self, key: str) -> bool:
-        """Return whether a file is there that can be read."""
+        """Return whether there is a readable file."""
         try:
             return self.text(key) is not None
         except OutputError:
             return False
 
     def state(self, key: str) -> FileState | None:
-        """Return the state of a file when it was first seen, None if there was none. Raises OutputError as `read`."""
+        """Return the state of a file at its first reading; None if there was none. Raises OutputError as `read`."""
         if key not in self.overlay:
             return self.state_on_disk(key)
         content = self.overlay[key]
         return None if content is None else state_of(content)
 
     def state_on_disk(self, key: str) -> FileState | None:
-        """Return the state of a file on disk when it was first seen. Raises OutputError as `read`."""
+        """Return the state of a file on disk at its first reading. Raises OutputError as `read`."""
         path = self._place(key)
         if path not in self._states:
             self._states[path] = self._read_state(path)
@@ -160,7 +164,7 @@ class PackageFiles:
         return state
 
     def hash(self, key: str, role: Role) -> str | None:
-        """Return the hash of a file: of an imported one of its bytes, of others of their text; None for no file."""
+        """Return the hash of a file: of the bytes of an imported one, of the text of others; None for no file."""
         state = self.state(key)
         if state is None:
             return None
@@ -180,7 +184,7 @@ class PackageFiles:
         return CLASS_FOLDER if is_class_folder else None
 
     def has_classes(self, key: str, gone: Collection[str]) -> bool:
-        """Return whether the folder of a `package.mo` holds classes other than it and those of the files in `gone`."""
+        """Return whether the folder of a `package.mo` holds classes, not counting itself and the files in `gone`."""
         folder, left = self.path(key).parent, {*gone, *(key for key, text in self.overlay.items() if text is None)}
         for path in map(folder.joinpath, dependencies.list_folder(folder)):
             package = path / "package.mo"
@@ -202,7 +206,7 @@ class PackageFiles:
         return (found - laid) | {key for key in laid if self.overlay[key] is not None}
 
     def has_class(self, folder: str, name: str) -> bool:
-        """Whether a folder has a file or a folder for this class. `classes` leaves out links, which count here."""
+        """Return whether a folder has a file or a folder for this class. Unlike `classes`, links count."""
         place, key = self.path(folder), f"{folder.rstrip('/')}/{name}.mo"
         if key in self.overlay:
             return self.overlay[key] is not None
@@ -212,7 +216,7 @@ class PackageFiles:
         return placed(self._prefix, key)
 
     def _tree(self, folder: str) -> Tree | None:
-        """Return the tree that a folder's files are in."""
+        """Return the tree of a folder's files."""
         if folder not in self._tree_of:
             file = os.path.join(folder, "")  # noqa: PTH118 - strings: there are thousands
             self._tree_of[folder] = next((tree for tree in self._trees if tree.covers(file)), None)
@@ -231,7 +235,7 @@ def state_of(content: bytes) -> FileState:
 
 
 def text_hash(text: str) -> str:
-    """Return the hash of an edited text, as files are compared by."""
+    """Return the hash of an edited text for comparisons."""
     return text_digest(encode(text))
 
 

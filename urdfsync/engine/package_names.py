@@ -1,4 +1,4 @@
-"""Names that the package of the last complete build had, and what they are called now."""
+"""Names of the last complete build's package, and their new names."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from urdfsync.modelica.files import class_path
 
 
 def renamed_identifiers(generation: Generation) -> dict[str, str]:
-    """Return new identifiers of elements by those of the last complete build, if they are others."""
+    """Return the renamed identifiers: new ones by those of the last complete build."""
     inputs = generation.inputs
     if inputs.last.version is None or generation.changes is None:
         return {}
@@ -29,14 +29,14 @@ def renamed_identifiers(generation: Generation) -> dict[str, str]:
 
 
 def recently_renamed(generation: Generation) -> dict[str, str]:
-    """Return the renamed identifiers, and those that the last build on this machine renamed."""
+    """Return the renamed identifiers of this build and of the last one on this machine."""
     return {**generation.inputs.last.notes.renamed, **renamed_identifiers(generation)}
 
 
 def renamed_names(generation: Generation) -> dict[str, str]:
-    """Return new names by the old ones: of classes, and of what those at the top of the package declare.
+    """Return new names by the old ones: of classes, and of declarations in classes at the top of the package.
 
-    Only names that the package has no more, and those of elements that have left them to others.
+    Only names that the package lacks, or that belong to other elements now.
     """
     inputs, renamed = generation.inputs, renamed_identifiers(generation) if generation.is_structural else {}
     if not renamed:
@@ -58,7 +58,7 @@ def renamed_names(generation: Generation) -> dict[str, str]:
 
 
 def names_of(generation: Generation, renamed: Mapping[str, str], before: frozenset[str]) -> dict[str, str]:
-    """Return the new names of those in `before` that have one by the renamed identifiers, by the old ones."""
+    """Return the new names of those in `before` with a renamed identifier, by the old ones."""
     inputs, now = generation.inputs, known_names(generation)
     kinds = inputs.domain.names(generation.now.snapshot, inputs.robot.target).values()
     identifiers = {identifier: identifier for names in kinds for identifier in names.values()} | dict(renamed)
@@ -73,7 +73,7 @@ def names_of(generation: Generation, renamed: Mapping[str, str], before: frozens
 
 
 def other_parts(generation: Generation) -> dict[str, str]:
-    """Return names that the package has as before, but for other parts, and the new names of the former ones."""
+    """Return names that belong to other parts now, with the new names of their former parts."""
     if not generation.other_elements:
         return {}
     names = renamed_names(generation)
@@ -82,19 +82,19 @@ def other_parts(generation: Generation) -> dict[str, str]:
 
 
 def known_names(generation: Generation) -> frozenset[str]:
-    """Return the names of all generated classes, and of what those at the top of the package declare."""
+    """Return the names of all generated classes, and of declarations in classes at the top of the package."""
     paths = generation.package.artifacts
     tops = (generation.package.content(path).decode() for path in paths if "/" not in path)
     return frozenset(map(class_of, paths)) | declared_names(tops)
 
 
 def new_name(part: str, renamed: Mapping[str, str], known: Collection[str]) -> str:
-    """Return the known name that `part` would have by the new identifiers; empty if there is none."""
+    """Return the new name of `part` by the new identifiers; empty if it is unknown."""
     return next((name for name in new_names(part, renamed) if name in known), "")
 
 
 def new_names(part: str, renamed: Mapping[str, str]) -> Iterator[str]:
-    """Yield the names that begin with a new identifier where this one begins with the old one, the likeliest first."""
+    """Yield this name with a new identifier in place of the old one at its beginning, the likeliest first."""
     if old := identifier_of(part, renamed):
         new = renamed[old]
         first = new[:1].upper() if part[:1].isupper() else new[:1].lower()
@@ -102,7 +102,7 @@ def new_names(part: str, renamed: Mapping[str, str]) -> Iterator[str]:
 
 
 def identifier_of(part: str, identifiers: Collection[str]) -> str:
-    """Return the longest identifier that a name is made from: it begins with it, in either case; empty for none."""
+    """Return the longest identifier at the beginning of a name, in either case; empty for none."""
     for end in range(len(part), 0, -1):
         for first in (part[0], part[0].lower(), part[0].upper()):
             if (start := first + part[1:end]) in identifiers:
@@ -111,7 +111,7 @@ def identifier_of(part: str, identifiers: Collection[str]) -> str:
 
 
 def class_of(path: str) -> str:
-    """Return the name of the class that a file is for, by its key or path."""
+    """Return the name of a file's class, by its key or path."""
     return class_path(PurePosixPath(path)).name
 
 

@@ -1,7 +1,7 @@
-"""The packages around a generated one: they must exist, or be made if the configuration says so; their order files.
+"""The packages around a generated one, and their order files. They must exist, or the configuration asks to make them.
 
-A `package.order` has to name every class of its package, and classes inside of a `package.mo` can't be told without a
-Modelica parser. So urdfsync enters its names into files that exist, and makes such a file only with the package.
+A `package.order` has to name every class of its package, and only a Modelica parser finds the classes inside of a
+`package.mo`. So urdfsync adds its names to existing files, and makes such a file only with the package.
 """
 
 from __future__ import annotations
@@ -23,21 +23,21 @@ from urdfsync.state.transaction import FileChange
 
 
 class SharedFile(msgspec.Struct, frozen=True):
-    """A file around the package, in which other robots may have a part: a `package.mo` or a `package.order`.
+    """A `package.mo` or a `package.order` around the package; other robots may share it.
 
-    It is read again when it is written, so that robots with one parent package can be planned at the same time.
+    It is read again when it is written, so robots with one parent package can be planned at the same time.
     """
 
     path: Path
     content: bytes | None = None
-    """Content of a `package.mo` that is written if there is none."""
+    """Content of a `package.mo`, written only if there is none."""
     names: tuple[str, ...] = ()
-    """Lines that a `package.order` has to have."""
+    """Required lines of a `package.order`."""
     owned: tuple[str, ...] = ()
     """Lines of a `package.order` that urdfsync may remove."""
 
     def change(self, files: PackageFiles) -> FileChange | None:
-        """Return what is left to do, from what is on disk now; None if nothing is."""
+        """Return the change that the file on disk needs; None if it needs none."""
         content = files.read(files.key(self.path))
         if self.content is not None:
             return FileChange(self.path, self.content, None) if content is None else None
@@ -52,16 +52,16 @@ class Parents(msgspec.Struct, frozen=True):
     """Files of the packages above a robot's that have to be written."""
 
     shared: tuple[SharedFile, ...] = ()
-    """Packages that do not exist yet, and order files above the parent's that have to name these."""
+    """Missing packages, and the order files above the parent's that have to name them."""
     listed: bool = True
-    """Whether the parent's `package.order` has to name the robot's package: if it is there, or made with the parent."""
+    """Whether the parent's `package.order` has to name the robot's package: it exists, or is made with the parent."""
     diagnostics: tuple[Diagnostic, ...] = ()
 
 
 def check(config: Config, robot: RobotConfig, uses: Sequence[tuple[str, str]]) -> Parents:
-    """Look at the output folder and at all parents of the robot's package, which needs the libraries `uses`.
+    """Check the output folder and all parents of the robot's package, which needs the libraries `uses`.
 
-    Raises OutputError, at the line of the configuration that says so, if the package can't be there.
+    Raises OutputError at the line of the configuration if the package can't be there.
     """
     if is_folder(robot.output):
         if is_file(robot.output / "package.mo"):
@@ -95,7 +95,7 @@ def check(config: Config, robot: RobotConfig, uses: Sequence[tuple[str, str]]) -
                 raise _refusal(config, robot, "no-parent", message, hint)
 
     def is_ordered(package: Path) -> bool:
-        """Whether a package has a `package.order`, or gets one because urdfsync makes the package."""
+        """Whether a package has a `package.order`, or urdfsync makes the package with one."""
         return package in missing or is_file(package / "package.order")
 
     shared = []
@@ -118,7 +118,7 @@ def _refusal(
 
 
 def _find_missing_uses(top: Path, uses: Sequence[tuple[str, str]]) -> tuple[Diagnostic, ...]:
-    """Return a warning if the user's top-level `package.mo` does not say which libraries it needs now."""
+    """Return a warning if the user's top-level `package.mo` lacks libraries in its `uses` annotation."""
     name, text = top.parent.name, read_file(top).decode(errors="replace") if is_file(top) else None
     if text is None:
         return ()
@@ -135,16 +135,16 @@ def _uses(uses: Sequence[tuple[str, str]]) -> str:
 
 
 def files(robot: RobotConfig) -> Iterator[str]:
-    """The files of the packages around a robot's that `check` may look at, there or not."""
+    """The files of the packages around a robot's that `check` may read, existing or not."""
     for folder in robot.folder.parents[: robot.target.package.count(".")]:
         yield from (f"{folder}/package.mo", f"{folder}/package.order")
 
 
 def merge_order(text: str | None, names: Sequence[str], owned: Collection[str] = ()) -> str:
-    """Return a `package.order` with `names` in it, and without the other names of `owned`; None stands for no file.
+    """Return a `package.order` with `names`, and without the other names of `owned`; None stands for no file.
 
-    `owned` are the names that urdfsync wrote last, in their order; all other lines are the user's and keep their
-    places. Our lines follow the order of `names`, unless the user has moved them; a new one goes next to its
+    `owned` are the names that urdfsync wrote last, in their order. All other lines are the user's and keep their
+    places. Our lines follow the order of `names`, unless the user has moved them. A new line stands next to its
     neighbour in `names`. Line endings are those of the file. The result is empty if no line is left.
     """
     if text is None:

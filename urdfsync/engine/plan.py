@@ -1,6 +1,6 @@
 """The pipeline of one robot: inspect, generate, decide, stage. Writes nothing.
 
-What `build` writes, a dry run shows and a hook judges is one and the same plan.
+`build` writes this plan, a dry run shows it, and a hook judges it.
 """
 
 from __future__ import annotations

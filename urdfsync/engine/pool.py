@@ -20,13 +20,13 @@ from urdfsync.engine.stage import Plan
 from urdfsync.workers import Workers, workers
 
 _AHEAD = 3
-"""Plans per worker that may be under way or wait to be carried out: each holds the texts of a robot."""
+"""Unfinished and waiting plans per worker: each holds the texts of a robot."""
 _CLUSTER_WORKERS = 16
-"""Workers that a cluster is taken to have, unless `--jobs` says otherwise."""
+"""Assumed number of a cluster's workers, unless `--jobs` gives it."""
 _PAUSE = 0.1
 """Seconds between two reports of progress."""
 _Planned: TypeAlias = tuple[Plan | UrdfsyncError | OSError, Dependencies]
-"""A plan or the error in its place, and all that was read."""
+"""A plan or an error, and all files that were read."""
 
 
 @contextlib.contextmanager
@@ -38,7 +38,7 @@ def start_pool(config: Config, robots: Sequence[RobotConfig], options: BuildOpti
 
 
 class Pool:
-    """Plans robots ahead, `most` at a time; a plan that was made in advance serves once."""
+    """Plans robots in advance, `most` at a time; such a plan is used once."""
 
     def __init__(
         self, config: Config, robots: Sequence[RobotConfig], options: BuildOptions, started: Workers, most: int
@@ -69,7 +69,7 @@ class Pool:
         return plan
 
     def _plan_ahead(self, robot: RobotConfig, options: BuildOptions) -> _Planned:
-        """Let the workers plan robots, and return the plan of one."""
+        """Let the workers plan further robots, and return the plan of this one."""
         while self._waiting and (len(self._futures) < self._most or robot in self._waiting):
             ahead = self._waiting[0]
             self._futures[ahead.name] = self._workers.submit(plan_in_worker, self._config, ahead, options)
@@ -82,7 +82,7 @@ class Pool:
 
 
 def plan_in_worker(config: Config, robot: RobotConfig, options: BuildOptions) -> _Planned:
-    """Plan in a worker; also what that has read."""
+    """Plan in a worker; return the plan and all files that were read."""
     with Dependencies() as reads:
         try:
             plan: Plan | UrdfsyncError | OSError = plan_robot(config, robot, options)

@@ -1,4 +1,4 @@
-"""One hash for the program that generates packages: what this machine has noted holds for the same program only."""
+"""One hash for the program that generates packages: this machine's notes hold for the same program only."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from urdfsync.files import digest
 
 @functools.cache
 def program_hash(domain: str, templates: str) -> str:
-    """Return a hash over the files of urdfsync and of a domain by their stat values, and over what is installed.
+    """Return a hash of the stat values of urdfsync's and a domain's files, and of the installed packages.
 
     `templates` is the hash of the templates. A process goes on with the code that it has loaded.
     """
@@ -26,7 +26,7 @@ def program_hash(domain: str, templates: str) -> str:
 
 
 def _code(file: str) -> Iterator[tuple[str, tuple[int, ...]]]:
-    """Yield the files of the package that a module is in, with their stat values; of no package, the module itself."""
+    """Yield the files of a module's package, or the module itself, with their stat values."""
     if os.path.basename(file) != "__init__.py":  # noqa: PTH119
         yield file, stat_of(os.stat(file))  # noqa: PTH116
         return
@@ -43,7 +43,7 @@ def _code(file: str) -> Iterator[tuple[str, tuple[int, ...]]]:
 
 
 def installed() -> list[str]:
-    """Return the names and versions of all that is installed, as the folders of their metadata say them."""
+    """Return the names and versions of all installed packages, by the folders of their metadata."""
     folders = set[str]()
     for place in sys.path:
         names = os.listdir(place) if os.path.isdir(place) else []  # noqa: PTH112, PTH208

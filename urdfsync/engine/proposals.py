@@ -1,6 +1,6 @@
 """Versions of files in conflict below `.urdfsync/conflicts/`: base, generated, and a proposed merge.
 
-A proposed merge that a person has changed is his: it is never overwritten, and `resolve --edit` begins with it.
+A proposed merge that a person has changed is never overwritten, and `resolve --edit` begins with it.
 """
 
 from __future__ import annotations
@@ -24,15 +24,15 @@ class Versions(msgspec.Struct, frozen=True):
     """The versions of all conflicts of a robot."""
 
     conflicts: tuple[Conflict, ...]
-    """With the files that their versions are in."""
+    """With the files of their versions."""
     changes: tuple[FileChange, ...]
     noted: Mapping[str, tuple[str, str]]
-    """Hash of each proposal as urdfsync wrote it, and of the two texts that it was made of, by path."""
+    """Hash of each proposal as urdfsync wrote it, and of its two sides, by path."""
     diagnostics: tuple[Diagnostic, ...]
 
 
 def save_versions(inputs: Inputs, conflicts: Sequence[Conflict]) -> Versions:
-    """Return how the versions get to their files, and which files these are."""
+    """Return the writes that save the versions, and their files."""
     store, robot, noted = inputs.store, inputs.robot.name, inputs.last.notes.proposals
     existing = store.conflict_files(robot)
     persons = store.persons_proposals(robot, noted)
@@ -66,6 +66,6 @@ def save_versions(inputs: Inputs, conflicts: Sequence[Conflict]) -> Versions:
 
 
 def _edited(files: Mapping[str, str], persons: set[str], existing: Mapping[str, bytes]) -> str | None:
-    """Return the proposal as a person has changed it; None if nobody has."""
+    """Return the proposal that a person has changed; None if nobody has."""
     name = files.get("merge", "")
     return existing[name].decode(errors="replace") if name in persons else None

@@ -19,7 +19,7 @@ from urdfsync.files import shown
 from urdfsync.spelling import counted
 
 _NAMED = 3
-"""So many contradictions of a file are named in its sentence."""
+"""The most contradictions that a file's sentence names."""
 
 
 class Exit(enum.IntEnum):
@@ -38,7 +38,7 @@ class Checked(enum.StrEnum):
 
     RIGHT = "right"
     INCOMPLETE = "incomplete"
-    """Nothing is wrong with it as far as it could be checked, but not everything could."""
+    """Nothing is wrong with it, but not everything could be checked."""
     WRONG = "wrong"
 
 
@@ -50,7 +50,7 @@ class DisputedFile(msgspec.Struct, frozen=True):
     result: Result
     action: Action
     texts: Conflict | None = None
-    """None if the versions are no texts that could be compared."""
+    """None if the versions are no comparable texts."""
 
     @property
     def shown(self) -> str:
@@ -64,7 +64,7 @@ class DisputedFile(msgspec.Struct, frozen=True):
 
     @property
     def relation(self) -> str:
-        """How the sides stand to each other, as a clause."""
+        """The relation of both sides, as a clause."""
         texts = self.texts
         if texts is None:
             return "it is not a text, so it can't be merged"
@@ -126,34 +126,34 @@ class Result(msgspec.Struct, frozen=True):
     locked: bool = False
     """It failed because another process is building."""
     unfinished: bool = False
-    """It failed half way, and what was begun could not be put back: the next build does that."""
+    """It failed half way, and its changes could not be undone: the next build does that."""
     source_error: SourceError | None = None
-    """It failed since the source can't be read as a model; an exporter may be at work on it."""
+    """It failed because the source is no readable model; an exporter may be writing it."""
     dry: bool = False
-    """Nothing was written, whatever the actions say."""
+    """It was a dry run: nothing was written."""
     writes: bool = False
     """The build has written files of the package, or would in a dry run."""
     renews: bool = False
     """The build has renewed the recorded state, or would in a dry run."""
     stale: tuple[str, ...] = ()
-    """Files that have changed since the source was expanded, if the old text was used."""
+    """Changed inputs of the source, if its old text was used."""
     is_broken: bool = False
-    """A file of the package that the user edited does not fit it, or is no Modelica."""
+    """An edited file does not fit the package, or is no Modelica."""
     drawing: Path | None = None
     changes: Changes | None = None
-    """Changes of the model since the last build that wrote; None if there are none, or they are not known."""
+    """Changes of the model since the last build that wrote; None if there are none, or if they are unknown."""
     conflict_texts: tuple[Conflict, ...] = ()
     """The texts of the files that conflict, in the order of their paths."""
     settled: frozenset[str] = frozenset()
-    """The keys of the files of which choices came about."""
+    """The keys of the files whose choices were carried out."""
     checked: Checked | None = None
     """Verdict of a check of the package; None if there was none. Its findings are among the diagnostics."""
     reads: Dependencies = msgspec.field(default_factory=Dependencies)
-    """All that the plan, or the error in its place, has read; what was written since is in there as it is now."""
+    """All that the plan or the error has read; entries of written files are renewed."""
 
     @property
     def conflicts(self) -> Sequence[DisputedFile]:
-        """The files that were left alone although they should be otherwise, in the order of their paths."""
+        """The files in conflict, in the order of their paths."""
         texts = {each.path: each for each in self.conflict_texts}
         actions = (action for action in self.actions.decided if action.is_conflict)
         return [DisputedFile(self, action, texts.get(action.path)) for action in actions]
@@ -168,17 +168,17 @@ class Result(msgspec.Struct, frozen=True):
 
     @property
     def are_files_in_step(self) -> bool:
-        """The same, whether the user's edits fit or not."""
+        """The same, even if the user's edits do not fit."""
         return not (self.failed or self.stale or self.conflicts or (self.dry and self.writes))
 
     @property
     def effective_changes(self) -> Changes | None:
-        """The changes of the model that a build writes, or that wait for a conflict; `diff` shows the others, too."""
+        """The changes of the model that a build writes, or that wait for a conflict. `diff` shows all changes."""
         return self.changes if self.writes or self.conflicts or self.settled else None
 
     @property
     def is_built(self) -> bool:
-        """Whether a build has written any file of the package, its record lost or not."""
+        """Whether a build has written any file of the package, even if its record is lost."""
         return any(action.base is not None or action.reason is Reason.UNCHANGED for action in self.actions)
 
     @property
@@ -188,7 +188,7 @@ class Result(msgspec.Struct, frozen=True):
 
     @property
     def summary(self) -> str:
-        """What happened to the package, or would in a dry run, as the rest of a line that names the robot."""
+        """The changes of the package, as the rest of a line that names the robot."""
         if self.failed:
             end = "the next build finishes it" if self.unfinished else "nothing was changed"
             return f"{error_count(self.diagnostics)}, {end}"
@@ -207,7 +207,7 @@ class Result(msgspec.Struct, frozen=True):
         return shown(Path(os.path.normpath(self.root / path)))
 
     def counts(self, silent: Container[Reason] = ()) -> list[str]:
-        """Return a phrase for each reason that is not `silent`, with the number of files, and for what waits."""
+        """Return a phrase for each reason that is not `silent`, with the number of files, and one for waiting files."""
         reasons = Counter(action.reason for action in self.actions.decided if not action.is_waiting)
         reasons[Reason.UPDATE] += reasons.pop(Reason.CREATE, 0)
         for conflict in (Reason.UNOWNED, Reason.MARKERS, Reason.ASKED):
@@ -236,7 +236,7 @@ def error_count(diagnostics: Sequence[Diagnostic]) -> str:
 
 
 def check_result(checked: Checked, diagnostics: Sequence[Diagnostic]) -> str:
-    """Return what the check after a build said, as the rest of a line that names the robot."""
+    """Return the result of the check after a build, as the rest of a line that names the robot."""
     return {
         Checked.RIGHT: "checked: compiles",
         Checked.INCOMPLETE: "checked in part",
@@ -245,7 +245,7 @@ def check_result(checked: Checked, diagnostics: Sequence[Diagnostic]) -> str:
 
 
 def exit_code(results: Iterable[Result], check: bool = False) -> Exit:
-    """The worst of all: an error, a lock, a conflict or what a build leaves broken, being out of step.
+    """Return the worst of all: an error, a lock, a conflict or a broken package, being out of step.
 
     The last counts only if `check`, or if a package is broken.
     """

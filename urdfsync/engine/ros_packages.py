@@ -1,4 +1,4 @@
-"""ROS packages and Modelica libraries on this machine: which folder holds the one of a name."""
+"""Finds the folders of ROS packages and Modelica libraries by name."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ _DEPTH = 8
 
 
 def find(folders: Sequence[Path], source: Path) -> Mapping[str, Path]:
-    """Folder of each ROS package below `folders`, and of those around `source`; of two of one name, the first.
+    """Return the folder of each ROS package below `folders` and around `source`; of two with one name, the first.
 
-    As with rospack, a package holds no others, and folders that ask to be ignored are. Folders that can't be read
-    are passed over.
+    As with rospack, a package holds no others, and folders with an ignore file are skipped. Unreadable folders are
+    skipped, too.
     """
     folders_by_name: dict[str, Path] = {}
     for folder in source.parents:
@@ -33,7 +33,7 @@ def find(folders: Sequence[Path], source: Path) -> Mapping[str, Path]:
 
 
 class Packages:
-    """The ROS packages that one source may name. All folders are looked through once, however many names there are."""
+    """The ROS packages that one source may name. All folders are searched once for all names."""
 
     def __init__(self, folders: Sequence[Path], source: Path) -> None:
         self.folders, self.source = folders, source
@@ -42,7 +42,7 @@ class Packages:
     def folder(self, name: str) -> Path | None:
         """Return the folder of a package: around the source, beside it, below the folders; None if there is none.
 
-        A folder without `package.xml` counts if it has the name and nothing else does, as for meshes.
+        A folder of this name without `package.xml` counts if there is no other, as for meshes.
         """
         if name not in self._named:
             self._named[name] = None if "\0" in name else self._find(name)  # it may be a stranger's
@@ -62,10 +62,10 @@ class Packages:
 
 
 def libraries(environment: Mapping[str, str]) -> Mapping[str, Path]:
-    """Folder of each Modelica library on MODELICAPATH; of two of one name, the one in the first entry.
+    """Return the folder of each Modelica library on MODELICAPATH; of two with one name, the one in the first entry.
 
-    As Modelica tools have it, a library is a folder `Name` or `Name VERSION` with a `package.mo`. In one entry the
-    folder without a version comes first, then the newest version.
+    A library is a folder `Name` or `Name VERSION` with a `package.mo`. In one entry the folder without a version comes
+    first, then the newest version.
     """
     folders: dict[str, Path] = {}
     for entry in filter(None, environment.get("MODELICAPATH", "").split(os.pathsep)):
@@ -87,7 +87,7 @@ def _precedence(name: str) -> tuple[bool, list[int], str]:
 
 
 def is_visible_file(path: Path) -> bool:
-    """Return whether a file is there, as far as that can be told: a folder above it may not let us in."""
+    """Return whether a file is known to exist: a folder above it may be inaccessible."""
     try:
         return is_file(path)
     except OSError:

@@ -18,9 +18,9 @@ from urdfsync.state.record import FileRecord
 
 
 class ClassFolder(enum.Enum):
-    """Stands for the hash of a missing file whose class the user has made a folder of (`X/package.mo`).
+    """Stands for the hash of a missing file whose class is a folder now (`X/package.mo`).
 
-    It is no string, so that no hash in a stranger's record is equal to it.
+    It is no string, so no hash in a stranger's record equals it.
     """
 
     CLASS_FOLDER = enum.auto()
@@ -34,7 +34,7 @@ NEVER_WRITTEN = FileRecord()
 
 
 class File(msgspec.Struct, frozen=True):
-    """One file of a package as a build finds it."""
+    """One file of a package before the build."""
 
     role: Role
     owner: str = ""
@@ -42,11 +42,11 @@ class File(msgspec.Struct, frozen=True):
     record: FileRecord = NEVER_WRITTEN
     on_disk: OnDisk = None
     generated: str | None = None
-    """Hash of what would be written; None if nothing would."""
+    """Hash of the generated text; None if there is none."""
 
     @property
     def is_free(self) -> bool:
-        """Whether nothing of the user's is at its path: no file, or one that urdfsync wrote there."""
+        """Whether its path is free of the user's text: there is no file, or one that urdfsync wrote."""
         return self.on_disk is None or self.on_disk in self.record.hashes
 
     @property
@@ -56,7 +56,7 @@ class File(msgspec.Struct, frozen=True):
 
 
 def decide_file(base: str | None, mine: OnDisk, generated: str | None) -> Reason:
-    """Decide on one file by the table of the design; a hash is None where there is no such text."""
+    """Decide on one file by the table of docs/conflicts.md; a hash is None if there is no such text."""
     if generated is None:
         if base is None or mine is None:
             return Reason.FORGET
@@ -75,8 +75,8 @@ def decide_file(base: str | None, mine: OnDisk, generated: str | None) -> Reason
 def decide(files: Mapping[str, File], moves: Mapping[str, str]) -> tuple[Action, ...]:
     """Decide on every file of a robot, by path.
 
-    `moves` has new and old path of files whose element was renamed. A file that the user edited goes to its new path
-    (MOVE, and MOVED_AWAY at the old one), unless something else of the user's is there.
+    `moves` has new and old path of files whose element was renamed. An edited file moves to its new path (MOVE, and
+    MOVED_AWAY at the old one), unless another file of the user's is there.
     """
     edited = _edited_moves(files, moves)
     origins = set(edited.values())
@@ -121,10 +121,9 @@ def put_off(
 ) -> tuple[Action, ...]:
     """Put off structural changes of a robot while one of its files is in conflict.
 
-    Still written are files after which the package compiles: records of which only numbers change (their paths are
-    `numbers_only`), imported files, and files that are restored as they were; but none of `origins`, which elements
-    leave that have another name now. Nothing is if the package `moves`. Conflicts about numbers alone put off
-    nothing else.
+    Still written are files that keep the package compiling: records with changed numbers (`numbers_only`), imported
+    files, and restored files. Files of `origins`, which renamed elements leave, wait. If the package `moves`, all files
+    wait. Conflicts about numbers alone put off nothing else.
     """
     actions = tuple(actions)
     if all(action.path in numbers_only and not moves for action in actions if action.is_conflict):
@@ -149,8 +148,8 @@ def files_after(
 ) -> dict[str, FileRecord]:
     """Return the records of a package's files after a build.
 
-    One that is complete has done all of its actions. Else the files count that are as generated now; what is recorded
-    of all others stays that of the last complete build.
+    A complete build has done all actions. After an incomplete one, generated files get new records; all others keep
+    those of the last complete build.
     """
     records = {} if is_complete else dict(recorded)
     for action in actions:

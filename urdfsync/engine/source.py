@@ -1,4 +1,4 @@
-"""A robot's source, in bytes and as a model, and its templates."""
+"""Reads a robot's source, as bytes and as a model, and its templates."""
 
 from __future__ import annotations
 
@@ -38,13 +38,13 @@ _XACRO = re.compile(rb"<xacro:(?:macro|if|unless|insert_block|call|element|attri
 _LINES = re.compile(r"\b(lines?) (\d+(?:, \d+)*)")
 """Lines that a message names."""
 NEVER: tuple[str, ...] = ("no expansion is recorded",)
-"""Why a source is stale of which there is no expansion."""
+"""Why a source without expansion is stale."""
 
 
 def is_xacro(file: Path, content: bytes) -> bool:
-    """Return whether a file is xacro, by its name or since it has elements that URDF does not explain.
+    """Return whether a file is xacro, by its name or by its elements.
 
-    A URDF that xacro has expanded may have such elements, in comments and as leftovers: beside links, without `${…}`.
+    An expanded URDF may still have elements of xacro, in comments and as leftovers: beside links, without `${…}`.
     """
     if file.suffix == ".xacro" or b"xmlns:xacro" not in content:
         return file.suffix == ".xacro"
@@ -53,27 +53,27 @@ def is_xacro(file: Path, content: bytes) -> bool:
 
 
 class Source(msgspec.Struct, frozen=True):
-    """The text of a source, and what it was made of."""
+    """The text of a source, and its inputs."""
 
     content: bytes
     name: str
-    """How diagnostics call it."""
+    """Its name in diagnostics."""
     places: Sequence[tuple[int, str, int]] = ()
-    """Line of each element in the text of an expansion, with the file and line that it is from."""
+    """Line of each element in an expanded text, with its original file and line."""
     diagnostics: tuple[Diagnostic, ...] = ()
     expansion: Expansion | None = None
     stale: tuple[str, ...] = ()
-    """Files that have changed since the source was expanded, if it was not expanded again."""
+    """Changed inputs of the source, if it was not expanded again."""
     is_made_here: bool = False
     """Whether this machine has expanded it, now or before."""
 
     @property
     def is_missing(self) -> bool:
-        """Whether the source was never made, and nothing was made now."""
+        """Whether the source was never made, and is not made now."""
         return bool(self.stale) and not self.content
 
     def locate(self, found: Diagnostic) -> Diagnostic:
-        """Return a diagnostic about the text with the files and lines that the user wrote."""
+        """Return a diagnostic about the text with the user's files and lines."""
         if not self.places or found.file != self.name or not found.line:
             return found
         file, line = self._place(found.line)
@@ -82,12 +82,12 @@ class Source(msgspec.Struct, frozen=True):
         return msgspec.structs.replace(found, message=message, file=file, line=line, column=0, details=details)
 
     def _place(self, line: int) -> tuple[str, int]:
-        """Return where the element at a line of the text is from: the root, for a line above it."""
+        """Return the original place of the element at a line of the text; of the root for a line above it."""
         number = bisect_right(self.places, line, key=lambda place: place[0])
         return self.places[max(number - 1, 0)][1:]
 
     def _with_places(self, text: str, told: str = "") -> str:
-        """Return a message with files and lines in the place of the lines that it names; `told` is named already."""
+        """Return a message with original files and lines in place of expanded lines; `told` is named already."""
 
         def replace(match: re.Match[str]) -> str:
             lines = [int(line) for line in match[2].split(", ")]
@@ -110,13 +110,11 @@ class Source(msgspec.Struct, frozen=True):
 
 
 def read_source(config: Config, robot: RobotConfig, store: Store, options: BuildOptions, name: str = "") -> Source:
-    """Read the robot's source, which xacro or a command may have to make first; `name` is its other name in the state.
+    """Read the robot's source; xacro or a command may have to make it first.
 
-    xacro expands it anew, unless this machine has noted that text and what it was made of. Where xacro or a file is
-    missing, the recorded text serves. A dry run runs no command.
-
-    Raises SourceError, at the line of the configuration for a source that can't be read, and ConfigError for a command
-    that is not trusted.
+    `name` is its other name in the state. xacro expands it anew, unless this machine has noted the text and its inputs.
+    If xacro or a file is missing, the recorded text serves. A dry run runs no command. Raises SourceError for an
+    unreadable source, at the line of the configuration, and ConfigError for an untrusted command.
     """
     if not robot.command:
         content = _read(config, robot)  # says what is wrong with a file that xacro can't read
@@ -155,7 +153,7 @@ def read_source(config: Config, robot: RobotConfig, store: Store, options: Build
 
 
 def expansion_hash(made: Expansion) -> str:
-    """Return the hash by which this machine notes what it has expanded."""
+    """Return the hash by which this machine notes an expansion."""
     return digest(dumps(made))
 
 
@@ -224,7 +222,7 @@ def read_file_source(domain: Domain, file: Path, arguments: Mapping[str, str], p
 
 
 def _warnings(made: Expansion, file: Path, place: tuple[str, int], robot: str = "") -> tuple[Diagnostic, ...]:
-    """Return what xacro said of a source, and the arguments that it does not have; they are given at `place`."""
+    """Return the warnings of xacro about a source, and about unknown arguments, which are given at `place`."""
     findings = []
     for name in made.unused:
         message = f"{robot}the source has no argument `{name}`"
@@ -264,15 +262,15 @@ def templates(config: Config, robot: RobotConfig, domain: Domain) -> Templates:
 
 
 def domain_templates(domain: Domain, *own: Path) -> Templates:
-    """Return the templates of a domain, behind folders of the user's own whose files hide them."""
+    """Return the templates of a domain; files in the user's folders hide them."""
     folders = (*own, templates_folder(domain))
     return Templates(folders, templates_digest(folders))
 
 
 def _check_templates(folder: Path) -> None:
-    """Refuse links that lead out of a template folder, and files that are too large to be templates.
+    """Refuse links that lead out of a template folder, and too large files: they may be a stranger's.
 
-    The files may be a stranger's. Raises ConfigError.
+    Raises ConfigError.
     """
     for place, folders, files in os.walk(folder):
         note_names(place, (*folders, *files))
@@ -296,7 +294,7 @@ def _check_templates(folder: Path) -> None:
 def check_options(config: Config, robot: RobotConfig, reading: Reading) -> tuple[Diagnostic, ...]:
     """Return the findings about the robot's options for this model, at their lines in the configuration.
 
-    Raises ConfigError with every option that does not suit the model.
+    Raises ConfigError with all options that do not suit the model.
     """
     findings = tuple(
         msgspec.structs.replace(
@@ -313,9 +311,9 @@ def check_options(config: Config, robot: RobotConfig, reading: Reading) -> tuple
 
 
 def read(domain: Domain, options: Any, content: bytes, name: str) -> tuple[Snapshot, Reading]:
-    """Return the model in a source, and all that was read; `name` is how diagnostics call the source.
+    """Return the model in a source, and its reading; `name` is the source's name in diagnostics.
 
-    Raises SourceError with all that is wrong in it.
+    Raises SourceError with all its faults.
     """
     reading = _read_model(domain, msgspec.json.encode(options), content, name)  # type: ignore[arg-type] # it is an object
     if reading.snapshot is None or any(finding.severity is Severity.ERROR for finding in reading.diagnostics):
@@ -331,7 +329,7 @@ def read_permissively(domain: Domain, text: Source) -> tuple[Snapshot, Reading]:
 
 @functools.lru_cache(maxsize=4)
 def _read_model(domain: Domain, options: bytes, content: bytes, name: str) -> Reading:
-    """Read a source, but not the same bytes twice in a row: the daemon confirms each build by another one.
+    """Read a source; the same bytes in a row only once: the daemon confirms each build by another one.
 
     Serves the rows "one mass changed in the daemon" of docs/speed.md. Options are in JSON, since they need no hash.
     """

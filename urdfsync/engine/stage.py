@@ -1,4 +1,4 @@
-"""The plan of one robot with all its writes: files, conflict files, bases, and the record as the last one."""
+"""Stages one robot's plan with all its writes: files, conflict files, bases, and last the record."""
 
 from __future__ import annotations
 
@@ -38,19 +38,19 @@ Drawing: TypeAlias = Callable[[Snapshot, Mapping[str, Import], Target, Any], str
 
 
 class Plan(msgspec.Struct, frozen=True):
-    """All that one build of a robot writes, and its result once that is done."""
+    """All writes of one robot's build, and its result afterwards."""
 
     result: Result
     state: StateHashes
-    """Hashes of the recorded state that the plan rests on."""
+    """Hashes of the recorded state when the plan was made."""
     shared: tuple[SharedFile, ...] = ()
     """Changes of files around the package."""
     writes: tuple[FileChange, ...] = ()
-    """The files to write but for the shared ones, the record last."""
+    """The files to write without the shared ones, the record last."""
     emptied: tuple[Path, ...] = ()
-    """The folders that are empty then, innermost first."""
+    """The folders that become empty, innermost first."""
     notes: Notes | None = None
-    """What this machine knows then, if that is something new."""
+    """This machine's notes after the build, if they change."""
 
 
 def stage(
@@ -60,7 +60,7 @@ def stage(
     settled: Settled,
     uses: Mapping[str, Use],
 ) -> Plan:
-    """Return the plan with all that is to be written, in a dry run, too: one plan has one verdict."""
+    """Return the plan with all its writes, in a dry run, too: one plan has one verdict."""
     inputs, store, robot = generation.inputs, generation.inputs.store, generation.inputs.robot
     actions = actions_after(decision.actions, settled)
     files, versions, notes = (
@@ -109,7 +109,7 @@ def stage(
 
 
 def _emptied(inputs: Inputs, changes: Iterable[FileChange]) -> tuple[Path, ...]:
-    """Return the folders of the package and the state that may be empty then, innermost first."""
+    """Return the folders of the package and the state that may become empty, innermost first."""
     above = {inputs.files.path(inputs.last.folder).parent, inputs.store.folder}
     folders = {folder for change in changes if change.content is None for folder in change.path.parents}
     below = [folder for folder in folders if not above.isdisjoint(folder.parents)]
@@ -119,7 +119,7 @@ def _emptied(inputs: Inputs, changes: Iterable[FileChange]) -> tuple[Path, ...]:
 def _tell_aside(
     generation: Generation, actions: Actions, index: Mapping[str, Aside], texts: Mapping[str, bytes], settled: Settled
 ) -> tuple[Diagnostic, ...]:
-    """Return a note if texts are replaced that this machine did not generate, without a word of the user's."""
+    """Return a note if the build replaces texts that this machine did not generate, without the user's choice."""
     inputs = generation.inputs
     told, chosen = (Reason.MERGE, Reason.MOVE, Reason.UNDO), settled.actions.keys()
     known = {inputs.folder.path(one.path) for one in actions if one.reason in told or {one.path, one.origin} & chosen}
@@ -142,7 +142,7 @@ def _notes(
     *,
     is_writing: bool,
 ) -> Notes | None:
-    """Return what this machine knows after a build; None if that is nothing new."""
+    """Return this machine's notes after a build; None if they do not change."""
     inputs, old, imports = generation.inputs, generation.inputs.last.notes, generation.imported
     recorded = inputs.last.record.hashes | record.hashes
     texts, expanded = generation.package.notes(), inputs.source.expansion
@@ -211,7 +211,7 @@ def _record(generation: Generation, decision: Decision, settled: Settled) -> Rec
 
 
 def _brought(generation: Generation) -> Mapping[str, str]:
-    """Return the declared renames that this build brings, or that an earlier one brought."""
+    """Return the declared renames that this build or an earlier one has applied."""
     done = generation.inputs.last.record.renamed
     brought = {(name, new) for (_, name), new in generation.renames.items()}
     declared = generation.inputs.robot.renamed.items()
@@ -226,7 +226,7 @@ def _confirmed(generation: Generation, decision: Decision) -> frozenset[str]:
 
 
 def _file_changes(generation: Generation, decision: Decision, settled: Settled) -> dict[str, FileChange]:
-    """Return the changes of the package's files by key, but for those in which other robots may have a part."""
+    """Return the changes of the package's files by key, without files that other robots share."""
     inputs, changes = generation.inputs, dict[str, FileChange]()
     shared = {inputs.files.key(file.path) for file in decision.shared}
     decided = {action.path: action for action in decision.actions}
@@ -274,7 +274,7 @@ def _state_changes(
 ) -> list[FileChange]:
     """Return the changes of the recorded state, the record as the last one.
 
-    A build of some commands that has nothing else to write leaves a complete state to the next one.
+    If some commands have nothing else to write, they leave a complete state to the next build.
     """
     inputs, store, expanded = generation.inputs, generation.inputs.store, generation.inputs.source.expansion
     name, last = inputs.robot.name, inputs.last

@@ -1,4 +1,4 @@
-"""What git has made of a file that two branches changed: the versions that it had, and what the file stands for."""
+"""Files that git has merged from two branches: finds their versions, and what each file means."""
 
 from __future__ import annotations
 
@@ -28,27 +28,27 @@ if TYPE_CHECKING:
     import pygit2
 
 _UNDER_WAY = "MERGE_HEAD", "CHERRY_PICK_HEAD", "REBASE_HEAD"
-"""Names of the commit that git is bringing to HEAD."""
+"""Names of the commit that git is merging into HEAD."""
 
 _IN_STEP = frozenset({Reason.UNCHANGED, Reason.KEEP, Reason.INCLUDED})
-"""Reasons that leave a file as it is that is still generated."""
+"""Reasons that keep a file that is still generated."""
 _Changes: TypeAlias = Counter[tuple[tuple[str, ...], tuple[str, ...]]]
-"""Lines and what is in their place; of lines without their order, since an added block can be cut in several ways."""
+"""Changed lines and their replacements; lines without their order, since an added block can be cut in several ways."""
 
 
 class Sides(NamedTuple):
-    """The versions of a file of which git made one text; lines end with line feeds."""
+    """The versions of a file that git merged; lines end with line feeds."""
 
     base: str
-    """Empty if the sides have none in common."""
+    """Empty if the sides have no common one."""
     ours: str
     theirs: str
 
 
 def lay_over(inputs: Inputs, key: str) -> bool:
-    """Lay what a file stands for over it if it still is what git made of the versions of two branches.
+    """Overlay a file with its meaning if it still is git's merge of two branches.
 
-    Of versions that nobody edited that is one of them. Of edits it is their merge by elements, if there is one.
+    For unedited versions that is one of them, for edits their merge by elements, if there is one.
     """
     found = _find_meaning(inputs, key)
     if isinstance(found, str):
@@ -59,7 +59,7 @@ def lay_over(inputs: Inputs, key: str) -> bool:
 
 
 def _find_meaning(inputs: Inputs, key: str) -> str | tuple[str, ...] | None:
-    """Return what a file stands for, or the elements that the branches contradict each other about; None for others."""
+    """Return a file's meaning, or the elements about which the branches contradict each other; None for other files."""
     last, file, text = inputs.last, inputs.files.path(key), inputs.files.any_text(key)
     has_markers = bool(markers.find_markers(text))
     if not has_markers and not last.files.get(key, NEVER_WRITTEN).is_ambiguous:
@@ -79,7 +79,7 @@ def _find_meaning(inputs: Inputs, key: str) -> str | tuple[str, ...] | None:
 def _merge_edits(last: LastBuild, key: str, sides: Sides) -> str | tuple[str, ...]:
     """Merge two versions by their elements: as they are, or else as edits of one generated text.
 
-    What two exports say otherwise is no contradiction of people.
+    Different exports are no contradiction of people.
     """
     from urdfsync.merge.texts import merge_file  # imports the parser
 
@@ -93,13 +93,13 @@ def _merge_edits(last: LastBuild, key: str, sides: Sides) -> str | tuple[str, ..
 
 
 def describe(contradictions: Sequence[str]) -> str:
-    """Say what two branches contradict each other about, as a clause."""
+    """Say, as a clause, about which elements two branches contradict each other."""
     elements = [element for element in dict.fromkeys(contradictions) if element]
     return f"git's markers are in it, since both branches changed {' and '.join(elements) or 'the same lines'}"
 
 
 def settle(action: Action) -> Action:
-    """Return the action after which a file has what it stands for, if git left another text there."""
+    """Return the action that writes a file's meaning, if git left another text there."""
     if not action.is_left_by_git or action.reason not in _IN_STEP:
         return action
     reason = Reason.UPDATE if action.reason is Reason.UNCHANGED else Reason.MERGE
@@ -107,7 +107,7 @@ def settle(action: Action) -> Action:
 
 
 def settled_texts(files: PackageFiles, actions: Iterable[Action], merged: Container[str]) -> dict[str, str]:
-    """Return what files stand for that get it, by key, but for those that are `merged` with what is new."""
+    """Return the meaning of each file that gets it, by key, without files that are `merged` with new texts."""
     is_settled = (Reason.MERGE, *ORPHANS, Reason.FORGET)
     return {
         action.path: files.text(action.path) or ""
@@ -123,9 +123,9 @@ def _are_generated(last: LastBuild, texts: Iterable[str]) -> bool:
 
 
 def can_join(file: Path, text: str, *, is_united: bool) -> bool:
-    """Return whether the lines of both sides of a list of names may be joined: it is as git left it.
+    """Return whether the lines of both sides of a list of names may be joined: the file is as git left it.
 
-    If git is gone, that is so where `is_united` says that git has united the recorded state.
+    Without git, `is_united` decides: git has united the recorded state.
     """
     try:
         Revision(file.parent, "HEAD")
@@ -135,9 +135,9 @@ def can_join(file: Path, text: str, *, is_united: bool) -> bool:
 
 
 def find_sides(file: Path, text: str) -> Sides | None:
-    """Return the versions of which git made a file: in what it is at work on, or in the last merge.
+    """Return the versions of a file that git merged: in the merge under way, or in the last one.
 
-    None if there are no such versions, or if somebody has changed the file since.
+    None if there are none, or if somebody has changed the file since.
     """
     import pygit2
 
@@ -152,7 +152,7 @@ def find_sides(file: Path, text: str) -> Sides | None:
 
 
 def find_left_records(inputs: Inputs, keys: Iterable[str]) -> dict[str, FileRecord]:
-    """Return the records of files of which git says that one branch edited and the other deleted them, by key.
+    """Return the records of files that one branch edited and the other deleted, by key.
 
     Git leaves such a file in the working tree, and unites the recorded states to one without it.
     """
@@ -227,10 +227,10 @@ def _plain(text: str) -> str:
 
 
 def _is_untouched(text: str, sides: Sides) -> bool:
-    """Return whether a text is what git makes of two versions, with the driver or by lines.
+    """Return whether a text is git's merge of two versions, with the driver or by lines.
 
-    By lines, each side of it has all of this version, and of the other one the changes that touch none of its own. So
-    it does not matter how git compared them. Without markers it also has both sides of a conflict.
+    By lines, each side of it has all of its version, and those changes of the other one that touch none of its own. So
+    the way in which git compared them does not matter. Without markers it also has both sides of a conflict.
     """
     from urdfsync.merge.texts import merge_file
 
@@ -256,7 +256,7 @@ def _changes(old: str, new: str) -> _Changes:
 
 
 def _apart(sides: Sides) -> tuple[_Changes, _Changes]:
-    """Return the changes of either side that touch none of the other one."""
+    """Return the changes of each side that touch none of the other side's."""
     from urdfsync.merge.lines import find_regions
 
     lines = [_lines(text) for text in sides]
@@ -270,7 +270,7 @@ def _apart(sides: Sides) -> tuple[_Changes, _Changes]:
 
 
 def _lines(text: str) -> list[str]:
-    """Return the lines of a text, whether the last one has an end or not: a merge gives it one before a marker."""
+    """Return the lines of a text; a missing end of the last one does not matter: a merge adds it before a marker."""
     return text.removesuffix("\n").split("\n")
 
 

@@ -1,4 +1,4 @@
-"""The user's own models outside of a robot's package: where they are looked for, and which of them use the robot."""
+"""Finds the user's own models outside of a robot's package, and those that use the robot."""
 
 from __future__ import annotations
 
@@ -17,15 +17,15 @@ _NOT_USERS = (FILE_NAME, "pyvenv.cfg")
 
 
 _MOST = 20_000
-"""Folders that are looked through, in a second: a stranger's configuration may name the whole disk."""
+"""The most searched folders, which take a second: a stranger's configuration may name the whole disk."""
 
 
 _MOST_KEPT = 50_000_000
-"""Bytes of files that are kept in memory; more are read again when they are looked at again."""
+"""The most bytes of files in memory; further files are read again each time."""
 
 
 class _Files(Mapping[Path, bytes]):
-    """Files that are read one after the other, when they are looked at. One that can't be read is empty."""
+    """Files that are read on demand. An unreadable one is empty."""
 
     def __init__(self, paths: Iterable[Path]) -> None:
         self._paths, self._kept, self._size = dict.fromkeys(paths), dict[Path, bytes](), 0
@@ -54,13 +54,13 @@ class UsersFiles(msgspec.Struct, frozen=True, dict=True):
 
     all: Mapping[Path, bytes]
     mentioning: Mapping[Path, bytes]
-    """Those that use the robot, or the class of another such file."""
+    """The files that use the robot, or the class of another such file."""
     is_too_wide: bool = False
-    """Whether there are so many folders that no file was looked for."""
+    """Whether there are too many folders, so that no file was searched."""
 
     @cached_property
     def tops(self) -> dict[str, Path]:
-        """Return the files or folders of top-level classes, by name; where several have one name, none."""
+        """Return the files or folders of top-level classes, by name; none for a name with several."""
         places_by_name = dict[str, set[Path]]()
         for path in self.all:
             folder = path.parent.parent if path.name == "package.mo" else path.parent
@@ -73,10 +73,10 @@ class UsersFiles(msgspec.Struct, frozen=True, dict=True):
 def find_users_files(
     config: Config, robot: RobotConfig, names: Iterable[str], former_folder: Path | None = None
 ) -> UsersFiles:
-    """Return the user's Modelica files, by whether they mention one of the names of a robot's package.
+    """Return the user's Modelica files, and those that mention a name of a robot's package.
 
-    They are below the configuration's folder, `output` and what `users` names. Left out are the packages of all robots,
-    of which `former_folder` may be one, other projects, virtual environments, and what can't be read.
+    They are below the configuration's folder, `output` and the paths of `users`. Left out are the packages of all
+    robots, also one in `former_folder`, other projects, virtual environments, and unreadable files.
     """
     packages = {str(configured.folder) for configured in config.robots} | {str(former_folder)}
     places = (config.root, robot.output, *robot.users)

@@ -1,7 +1,7 @@
-"""Evaluates an expression of xacro. It is Python, so its syntax tree is read before: nothing in it leads out of it.
+"""Evaluates expressions of xacro. They are Python, so their syntax tree is checked before: nothing leads out of it.
 
-Expressions work with numbers, texts, lists and dictionaries, and call what xacro documents. They read attributes of
-these values alone: those of other objects, such as the frame of a generator, lead to all of Python.
+Expressions use numbers, texts, lists and dictionaries, and call documented functions of xacro. They read attributes of
+these values only: those of other objects, such as the frame of a generator, lead to all of Python.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ _BUILTINS = frozenset(
     "list dict map len str float int bool True False min max round sorted range abs all any complex divmod enumerate "
     "filter frozenset hash isinstance issubclass ord repr reversed slice set sum tuple zip".split()
 )
-"""All that xacro has in `python`, but for `type` and `vars`: these lead out of an expression."""
+"""The functions of xacro's `python`, without `type` and `vars`: these lead out of an expression."""
 _VALUES = frozenset(
     {str, int, float, complex, bool, list, dict, tuple, set, frozenset, xacro.YamlListWrapper, xacro.YamlDictWrapper}
 )
@@ -85,7 +85,7 @@ class _Formatter(string.Formatter):
 
 
 def _attribute(value: Any, name: str) -> Any:
-    """Return an attribute of a value, a method, or what is in a namespace. Raises ForbiddenError for other objects."""
+    """Return an attribute of a value or of a namespace. Raises ForbiddenError for other objects."""
     if isinstance(value, xacro.NameSpace):
         return value.__getattr__(name)  # `value.name` finds the methods of its class first
     kind = value if isinstance(value, type) else type(value)
@@ -98,7 +98,7 @@ def _attribute(value: Any, name: str) -> Any:
 
 @functools.lru_cache(maxsize=10_000)
 def _compile(text: str) -> CodeType:
-    """Compile an expression once: macros have the same again and again. Raises ForbiddenError, SyntaxError."""
+    """Compile an expression once: macros repeat it. Raises ForbiddenError, SyntaxError."""
     tree = _Reader().visit(ast.parse(text, "<expression>", "eval"))
     code: CodeType = compile(ast.fix_missing_locations(tree), "<expression>", "eval")
     return code

@@ -1,7 +1,7 @@
 """The program that expands one xacro file, within limits; `expansion` starts it.
 
-A file of xacro may be a stranger's. It reads files and environment variables, which are recorded here;
-`xacro_expressions` sees to it that its expressions of Python do nothing else.
+A file of xacro may be a stranger's. It reads files and environment variables, which are recorded here.
+`xacro_expressions` forbids all else to its expressions.
 """
 
 from __future__ import annotations
@@ -38,12 +38,12 @@ if sys.platform != "win32":
     import resource
 
 _GRACE = 2
-"""Seconds of CPU time after which native code that does not return is ended."""
+"""Further seconds of CPU time for native code."""
 _PLACE = "place"
 _LONGEST = 500
-"""Characters of a message, which quotes the expression, and that may be a stranger's."""
+"""The most characters of a message: it quotes the expression, which may be a stranger's."""
 _SAID_WHERE = ("in file:", "when processing file:", "when instantiating macro:", "instantiated from:", "included from:")
-"""How lines begin by which xacro says where it is."""
+"""Beginnings of lines in which xacro states its place."""
 
 
 class Request(msgspec.Struct, frozen=True):
@@ -68,7 +68,7 @@ class Problem(msgspec.Struct, frozen=True):
     file: str = ""
     line: int = 0
     hint: str = ""
-    """Better advice than that of the code."""
+    """A better hint than that of the code."""
 
 
 NOT_UNICODE = Problem(
@@ -87,9 +87,9 @@ class Answer(msgspec.Struct, frozen=True):
 
     text: str = ""
     places: tuple[tuple[int, str, int], ...] = ()
-    """Line of each element in the text, and the file and line that it is from."""
+    """Line of each element in the text, and its original file and line."""
     files: Mapping[str, str | None] = {}
-    """Hash of each file that was read; None for one that is not there."""
+    """Hash of each file that was read; None for a missing one."""
     patterns: tuple[str, ...] = ()
     variables: tuple[str, ...] = ()
     """The environment variables that were asked for."""
@@ -106,11 +106,11 @@ class PackageNotFoundError(Exception):
 
 
 class PatternError(Exception):
-    """A pattern of files has more than the name of a file as a pattern."""
+    """A pattern of files has wildcards outside of the file's name."""
 
 
 class NotTextError(Exception):
-    """A file that is read as text is none."""
+    """A file is not text."""
 
     def __init__(self, file: str, content: bytes) -> None:
         super().__init__(file)
@@ -118,7 +118,7 @@ class NotTextError(Exception):
 
 
 class _Asked(dict[str, str]):
-    """A mapping that notes which keys were asked for."""
+    """A mapping that records its requested keys."""
 
     def __init__(self, values: Mapping[str, str]) -> None:
         super().__init__(values)
@@ -141,7 +141,7 @@ class _Asked(dict[str, str]):
 def find_matches(pattern: str) -> list[str]:
     """Return the files that a pattern matches, sorted, hidden ones left out as xacro does.
 
-    Only the name of the file is a pattern: with folders and links, there may be more matches than anybody waits for.
+    Only the name of the file may have wildcards: a search through folders and links may take forever.
     """
     folder, name = os.path.split(pattern)
     try:
@@ -154,7 +154,7 @@ def find_matches(pattern: str) -> list[str]:
 
 
 class _Files:
-    """Opens and finds files and packages for xacro, and notes all that was asked for."""
+    """Opens and finds files and packages for xacro, and records each."""
 
     def __init__(self, packages: ros_packages.Packages) -> None:
         self.hashes: dict[str, str | None] = {}
@@ -196,7 +196,7 @@ class _Files:
 
 
 class _File(io.TextIOWrapper):
-    """A text with the name of its file, which messages about YAML have."""
+    """A text with the name of its file, for messages about YAML."""
 
     name = ""
 
@@ -209,7 +209,7 @@ class _File(io.TextIOWrapper):
 
 
 class _Builder(expatbuilder.ExpatBuilderNS):
-    """Builds a document whose elements have the file and line that they are from."""
+    """Builds a document whose elements have their file and line."""
 
     file = ""
 
@@ -220,7 +220,7 @@ class _Builder(expatbuilder.ExpatBuilderNS):
 
 
 class _Copied(xml.dom.UserDataHandler):
-    """Gives copies of an element, such as those of a macro, the place of the original."""
+    """Gives copies of an element, such as in a macro, the place of the original."""
 
     def handle(self, operation: int, key: str, data: Any, src: Any, dst: Any) -> None:  # noqa: ARG002 - as DOM has it
         """Take part in the copying of an element."""
@@ -286,9 +286,9 @@ def expand(request: Request) -> Answer:
 
 
 def _raise_at_limit(seconds: float) -> None:
-    """Have TimeLimitError raised when `limits` would end the process, so that it is known where it was.
+    """Raise TimeLimitError when `limits` would end the process, so that its place is known.
 
-    Native code, which nothing is raised in, is ended a little later.
+    Native code, in which nothing can be raised, is ended a little later.
     """
     if sys.platform == "win32":
         return
@@ -303,7 +303,7 @@ def _raise_at_limit(seconds: float) -> None:
 
 
 def _places(document: Any, text: str) -> Iterator[tuple[int, str, int]]:
-    """Yield the line of each element in a text, and where the element is from."""
+    """Yield the line of each element in a text, and its original place."""
     lines = list[int]()
     parser = expat.ParserCreate()
     parser.StartElementHandler = lambda *_: lines.append(parser.CurrentLineNumber)
@@ -315,7 +315,7 @@ def _places(document: Any, text: str) -> Iterator[tuple[int, str, int]]:
 
 
 def _problem(error: BaseException, current: str, packages: Mapping[str, str]) -> Problem:
-    """Why an expansion failed: the innermost cause, and where xacro was then; `current` is the file in hand.
+    """Return why an expansion failed: the innermost cause, and xacro's place; `current` is its present file.
 
     `packages` are the folders of the ROS packages that the file named.
     """
@@ -364,12 +364,12 @@ def _problem(error: BaseException, current: str, packages: Mapping[str, str]) ->
 
 
 def _kind(content: bytes) -> FileKind | None:
-    """Return what a file is that can't be read as xacro or YAML."""
+    """Return the kind of a file that is neither xacro nor YAML."""
     return find_kind(content) or find_conflict(content.decode(errors="replace").replace("\r", ""))
 
 
 def _encode(answer: Answer) -> bytes:
-    """Return an answer as JSON; if that can't be, or is too large to be read by anybody, one with a problem instead."""
+    """Return an answer as JSON; if it is no JSON or too large, an answer with that problem."""
     try:
         content = msgspec.json.encode(answer)
     except UnicodeEncodeError:
@@ -381,7 +381,7 @@ def _encode(answer: Answer) -> bytes:
 
 
 def main() -> None:
-    """Expand what stdin asks for."""
+    """Expand the file that stdin names."""
     request = msgspec.json.decode(sys.stdin.buffer.read(), type=Request)
     with reserve_stdout() as answers:
         answers.write(_encode(expand(request)))

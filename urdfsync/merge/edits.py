@@ -21,11 +21,11 @@ from urdfsync.modelica.tree import (
 )
 
 _ITEM = re.compile(r" #\d+$")
-"""The end of the key of something that has no name, but a number."""
+"""The end of the key of a thing with a number instead of a name."""
 
 
 class Edit(msgspec.Struct, frozen=True):
-    """One thing that differs from base; a text is None where it does not exist."""
+    """One difference from base; a missing text is None."""
 
     element: str
     """The element, such as "component `body`"."""
@@ -46,10 +46,10 @@ class Edit(msgspec.Struct, frozen=True):
 
 
 def find_edits(base: str, mine: str) -> list[Edit] | None:
-    """Return what differs between two versions of a class; None if a text is no class of Modelica.
+    """Return the differences of two versions of a class; None if a text is no class of Modelica.
 
-    Blanks and the order of declarations are no difference, but for the inputs and outputs of a function. New comments
-    are one, together.
+    Blanks are no difference. Neither is the order of declarations, except of the inputs and outputs of a function. All
+    new comments are one difference.
     """
     base_tree, mine_tree = read_tree(base), read_tree(mine)
     if not (base_tree and mine_tree):
@@ -75,7 +75,7 @@ def _edit(path: tuple[str, ...], old: Node | None, new: Node | None) -> Edit:
 def _differences(
     path: tuple[str, ...], old: Node, new: Node
 ) -> Iterator[tuple[tuple[str, ...], Node | None, Node | None]]:
-    """Yield the innermost things that differ, with the keys around them."""
+    """Yield the innermost different things, with the keys around them."""
     if is_same(old, new):
         return
     if not (isinstance(old, SyntaxTree) and isinstance(new, SyntaxTree) and old.kind is new.kind) or (

@@ -1,4 +1,4 @@
-"""Three-way merge of classes: what changed from base to generated is done to the user's text, thing by thing.
+"""Three-way merge of classes: applies the changes from base to generated to the user's text, thing by thing.
 
 A thing is an element, an equation, a modifier or a part of one (`urdfsync.modelica.tree`).
 
@@ -42,7 +42,7 @@ from urdfsync.modelica.tree import (
 from urdfsync.spelling import same_count
 
 ROUNDING = 1e-6
-"""Numbers that differ by less, relative to the larger one, are the same number written with other digits."""
+"""Numbers that differ by less, relative to the larger one, are the same number with other digits."""
 
 _ROLES = (
     "within prefixes word head type name sizes connect equation import external components arguments sign expression "
@@ -52,16 +52,16 @@ _ROLES = (
 _COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
 _BLOCKS = frozenset({"if", "for", "when"})
 _MOVABLE = frozenset({"arguments", "annotation"})
-"""Lists that mean nothing if they are empty."""
+"""Lists without a meaning if they are empty."""
 
 
 Path: TypeAlias = tuple[str, ...]
 Layout: TypeAlias = frozenset[str] | None
-"""The annotations in which the layout is the user's; None between two people, whose layout and comments all count."""
+"""The annotations with the user's layout; None between two people, whose layout and comments all count."""
 
 
 def merge_trees(base: SyntaxTree, mine: SyntaxTree, generated: SyntaxTree, *, is_export: bool) -> list[Piece]:
-    """Return the merged text of a class in pieces: texts, and where the sides contradict each other.
+    """Return the merged text of a class in pieces: texts and contradictions.
 
     Unless `is_export`, `generated` is the version of another person.
     """
@@ -94,7 +94,7 @@ def _merge(path: Path, base: Node | None, mine: Node, generated: Node, users_lay
 
 
 def _merge_statement(path: Path, base: Node | None, mine: Node, other: Node, users_layout: Layout) -> list[Piece]:
-    """Merge a part of a class of two people, with the comments in it: a merge keeps those of the side given first."""
+    """Merge a part of a class of two people, with its comments: a merge keeps those of the first side."""
     merged = _merge_comments(base.text if base else "", mine.text, other.text)
     if merged is None:
         return [_contradiction(path, base, mine, other)]
@@ -105,7 +105,7 @@ def _merge_statement(path: Path, base: Node | None, mine: Node, other: Node, use
 
 
 def _merge_comments(base: str, mine: str, other: str) -> str | None:
-    """Return the text with the comments that two people want; None if both changed them."""
+    """Return the text with the merged comments of two people; None if both changed them."""
     if base == mine:
         return other
     old, own, new = map(comments, (base, mine, other))
@@ -115,7 +115,7 @@ def _merge_comments(base: str, mine: str, other: str) -> str | None:
 
 
 def _has_body(node: Node) -> bool:
-    """Whether a thing is a class, or what is in one."""
+    """Whether a thing is a class or a body."""
     return isinstance(node, SyntaxTree) and (node.kind is TreeKind.BODY or node.find("body") is not None)
 
 
@@ -139,7 +139,7 @@ def _merge_whole(path: Path, base: Node | None, mine: Node, generated: Node) -> 
 
 
 def _has_lines(path: Path, node: Node) -> bool:
-    """Whether the lines of a text are things of their own: of any other one, all of it has one meaning."""
+    """Whether the lines of a text are things of their own; any other text has one meaning."""
     if not isinstance(node, Leaf):
         return False
     is_block = path[-1] == "equation" and node.words[0] in _BLOCKS
@@ -152,14 +152,14 @@ def _contradiction(path: Path, base: Node | None, mine: Node | None, generated: 
 
 
 def _contradiction_of_lines(path: Path, texts: Sequence[str]) -> list[Piece]:
-    """Return a contradiction of texts with blanks around them, without the lines before it that they share."""
+    """Return a contradiction of texts with blanks around them, without their common first lines."""
     base, mine, other = texts
     start = mine[: min(same_count(mine, base), same_count(mine, other))].rfind("\n") + 1
     return [mine[:start], Contradiction(path, *(text[start:] for text in texts))]
 
 
 def _is_rounding(old: Node, new: Node) -> bool:
-    """Whether two texts differ in the last digits of numbers alone; Integers have none that count for nothing."""
+    """Whether two texts differ only in the last digits of numbers; all digits of Integers count."""
     if not (isinstance(old, Leaf) and isinstance(new, Leaf)) or len(old.words) != len(new.words):
         return False
     return all(
@@ -187,7 +187,7 @@ class _Item(msgspec.Struct, eq=False):
 def _merge_parts(
     path: Path, base: SyntaxTree | None, mine: SyntaxTree, generated: SyntaxTree, users_layout: Layout
 ) -> list[Piece]:
-    """Merge things that consist of others."""
+    """Merge things that have parts."""
     trees = base or SyntaxTree(mine.kind, ()), mine, generated
     is_two_people, is_class = users_layout is None, _has_body(mine)
     if mine.kind is TreeKind.BODY:
@@ -250,7 +250,7 @@ def _merge_parts(
 
 
 def _sequence(trees: Sequence[SyntaxTree]) -> list[str] | None:
-    """Merge what has an order that counts, by keys; None if both sides changed it, so that the result is in doubt."""
+    """Merge an ordered sequence by keys; None if both sides changed it."""
     kind = trees[1].kind
     keys = [tree.signature if kind is TreeKind.BODY else [part.key for part in tree.parts] for tree in trees]
     base, mine, generated = keys
@@ -262,7 +262,10 @@ def _sequence(trees: Sequence[SyntaxTree]) -> list[str] | None:
 
 
 def _is_unchanged(key: str, base: SyntaxTree, side: SyntaxTree, users_layout: Layout) -> bool:
-    """Whether a side has a thing as base has it, in the same section; layout and comments count of two people alone."""
+    """Whether a side leaves a thing of base and its section unchanged.
+
+    Layout and comments count only between two people.
+    """
     old, new = base.find(key), side.find(key)
     if not (old and new) or section_name(base.sections[key]) != section_name(side.sections[key]):
         return False
@@ -279,7 +282,7 @@ def _with_blanks(part: Part | None) -> str:
 def _merge_around(
     path: Path, base: Part | None, mine: Part, other: Part, pieces: list[Piece]
 ) -> tuple[Sequence[str], list[Piece]]:
-    """Merge the comments of two people around a part; if both changed them, all of it is a contradiction."""
+    """Merge the comments of two people around a part; if both changed them, the whole part is a contradiction."""
     before = _merge_comments(base.before if base else "", mine.before, other.before)
     remark = _merge_comments(base.remark if base else "", mine.remark, other.remark)
     if before is None or remark is None:
@@ -289,14 +292,14 @@ def _merge_around(
 
 
 def _blanks(base: Part | None, mine: Part, generated: Part | None) -> Sequence[str]:
-    """Return the blanks and comments around a part and its separator: the user's where he changed them."""
+    """Return the blanks and comments around a part and its separator: the user's, if he changed them."""
     own = mine.before, mine.after, mine.remark
     is_changed = not (base and generated) or own != (base.before, base.after, base.remark)
     return own if is_changed or not generated else (generated.before, generated.after, generated.remark)
 
 
 def _remaining_notes(part: Part, old: Part) -> str:
-    """Return the user's comments at a thing that is removed, each with the blanks before it."""
+    """Return the user's comments at a removed thing, each with the blanks before it."""
     had = comments(_with_blanks(old))
     lead = next(iter(re.findall(r"\n[ \t]*(?=\S|\Z)", part.before)), " ")
     notes = [note for note in comments(_with_blanks(part)) if note not in had]
@@ -358,7 +361,7 @@ def _text_of(trees: Sequence[SyntaxTree], items: list[_Item], notes: str, end: l
 
 
 def append_blanks(pieces: list[Piece], blanks: str) -> None:
-    """Add blanks and comments; what follows does not run into them, nor they into the line before."""
+    """Add blanks and comments, separated from the lines before and after them."""
     last = pieces[-1] if pieces else ""
     if isinstance(last, str) and last.endswith("\n") and re.match(r"\s*\n", blanks):
         pieces[-1] = last[:-1]  # the end of a comment
@@ -369,7 +372,7 @@ def append_blanks(pieces: list[Piece], blanks: str) -> None:
 
 
 def _empty_sections(sides: Sequence[Sequence[str]], items: Sequence[_Item]) -> set[str]:
-    """Return the keys of sections that are empty in the merge, and on neither side."""
+    """Return the keys of sections that are empty only in the merge."""
     return _sections_without_parts([item.key for item in items]).difference(*map(_sections_without_parts, sides))
 
 

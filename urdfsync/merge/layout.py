@@ -1,8 +1,7 @@
-"""Places for new things in a diagram that the user has arranged himself.
+"""Finds places for new things in a diagram that the user has arranged.
 
-Something new gets the place beside its neighbour that it has in the generated diagram, or the nearest one that is free;
-a new line goes from one end to the other with a bend in the middle. Lengths are in units of the diagram;
-a place, or the way to another one, is a complex number.
+A new thing gets its generated place beside its neighbour, or the nearest free one. A new line goes from one end to the
+other with a bend in the middle. Lengths are in units of the diagram; a place or a shift is a complex number.
 """
 
 from __future__ import annotations
@@ -18,16 +17,16 @@ from typing import TypeAlias
 from urdfsync.modelica.tree import Node, Part, SyntaxTree, is_same
 
 PICTURES = frozenset({"Icon", "Diagram"})
-"""Annotations with graphics: additions by the export are drawn, also in a layout of the user's."""
+"""Annotations with graphics: the user's layout also gets the additions of the export."""
 _DIAGRAM, _ICON = frozenset({"transformation", "Line", "Diagram"}), frozenset({"iconTransformation", "Icon"})
 """The annotations that belong together in the two layers of a class."""
 
 _STEP = 20.0
-"""Places are looked for at multiples of this from the wanted one."""
+"""Step between candidate places."""
 _REACH = 40
-"""So many steps away a place is looked for."""
+"""The most steps from the wanted place to a candidate."""
 _MOST_COMPARISONS = 1_000_000
-"""So often two boxes are compared at most: a second. What is new after that may lie upon something."""
+"""The most comparisons of two boxes, which take a second. Later new things may overlap others."""
 _NUMBER = re.compile(r"[-+]?\d+(?:\.\d*)?(?:[eE][-+]?\d+)?")
 _PLACEMENTS = {
     place: re.compile(rf"\b{place}\s*\(((?:[^()]|\([^()]*\))*)\)") for place in ("transformation", "iconTransformation")
@@ -39,7 +38,7 @@ Box: TypeAlias = tuple[complex, complex]
 
 
 def find_users_layout(base: SyntaxTree, mine: SyntaxTree) -> frozenset[str]:
-    """Return the annotations about layout that are the user's: all of the diagram, or of the icon, if he moved any.
+    """Return the annotations with the user's layout: all of the diagram, or of the icon, if he moved one thing.
 
     An addition is no move.
     """
@@ -52,14 +51,14 @@ def find_users_layout(base: SyntaxTree, mine: SyntaxTree) -> frozenset[str]:
 
 
 def _is_moved(key: str, base: Node, mine: Node) -> bool:
-    """Whether an annotation about layout of one element is not as it was, but for graphics that were added."""
+    """Whether an element's layout annotation changed, apart from added graphics."""
     keys = ("annotation", *(("Placement",) if key.endswith("ransformation") else ()), key)
     old, new = (_inside(node, keys) for node in (base, mine))
     return old is not None and (new is None or not (_has_all(new, old) if key in PICTURES else is_same(new, old)))
 
 
 def _has_all(mine: Node, base: Node) -> bool:
-    """Whether all that base draws is there as it was."""
+    """Whether all graphics of base are unchanged."""
     if not (isinstance(mine, SyntaxTree) and isinstance(base, SyntaxTree)):
         return is_same(mine, base)
     pairs = ((mine.find(part.key), part) for part in base.parts)
@@ -67,9 +66,9 @@ def _has_all(mine: Node, base: Node) -> bool:
 
 
 def arrange(mine: SyntaxTree, generated: SyntaxTree, users_layout: Collection[str]) -> dict[str, str]:
-    """Return the texts of the parts of a generated body that `mine` lacks, by key, with places that fit to `mine`.
+    """Return the texts of those parts of a generated body that `mine` lacks, by key, with places that fit `mine`.
 
-    In the annotations `users_layout`, the layout is the user's.
+    The annotations `users_layout` have the user's layout.
     """
     lines = {part.key: ends for part in generated.parts if (ends := _ends(part))}
     shifts = {place: _shifts(mine, generated, lines, place) for place in _PLACEMENTS if place in users_layout}
@@ -90,7 +89,10 @@ def arrange(mine: SyntaxTree, generated: SyntaxTree, users_layout: Collection[st
 def _shifts(
     mine: SyntaxTree, generated: SyntaxTree, lines: Mapping[str, tuple[str, str]], place: str
 ) -> dict[str, complex]:
-    """Return how far each component is from its generated place, by key; those that `mine` lacks get a free one."""
+    """Return the shift of each component from its generated place, by key.
+
+    Components that `mine` lacks get a free place.
+    """
     boxes = {part.key: box for part in mine.parts if (box := _box(part, place))}
     planned = {part.key: box for part in generated.parts if (box := _box(part, place))}
     shifts = {key: sum(boxes[key]) / 2 - sum(planned[key]) / 2 for key in planned.keys() & boxes.keys()}
@@ -117,13 +119,13 @@ def _shifts(
 
 
 def _touch(box: Box, other: Box) -> bool:
-    """Whether two boxes lie upon each other."""
+    """Whether two boxes overlap."""
     return all(low.real < high.real and low.imag < high.imag for low, high in ((box[0], other[1]), (other[0], box[1])))
 
 
 @functools.cache
 def _steps() -> list[complex]:
-    """Return the ways to the places around a place, the nearest first, and of these the one below."""
+    """Return the shifts to the places around a place, the nearest first, and among these the one below."""
     reach = [number * _STEP for number in range(-_REACH, _REACH + 1)]
     ways = itertools.starmap(complex, itertools.product(reach, reach))
     return sorted(ways, key=lambda way: (abs(way.real) + abs(way.imag), way.imag))

@@ -1,7 +1,6 @@
 """Compare sequences with the algorithm of git, by libgit2, and merge them: lines with the result of `git merge-file`.
 
-What only one side changed is taken from it, what both changed alike is taken once, and changes that overlap or touch
-are a contradiction.
+A change of one side is taken, equal changes are taken once, and overlapping or touching changes are a contradiction.
 """
 
 from __future__ import annotations
@@ -12,7 +11,7 @@ from typing import NamedTuple, TypeAlias
 
 
 class Contradiction(NamedTuple):
-    """A thing of which the sides say something else; a text is empty on a side that does not have the thing."""
+    """A thing with different texts on the two sides; the text is empty on a side without the thing."""
 
     path: tuple[str, ...]
     """The keys of the things around it, from the outermost one, and its own; empty for lines."""
@@ -92,9 +91,9 @@ def merge_sequences(base: Sequence[str], mine: Sequence[str], generated: Sequenc
 
 
 def merge_order(base: Sequence[str], mine: Sequence[str], generated: Sequence[str]) -> list[str]:
-    """Return all that `mine` and `generated` have, in the generated order.
+    """Return all items of `mine` and `generated`, in the generated order.
 
-    What the user added or moved stands behind what precedes it in `mine`; before all else if nothing does.
+    An item that the user added or moved stands behind its predecessor in `mine`, or first.
     """
     old, own = set(base), set(mine)
     before, after = [key for key in base if key in own], [key for key in mine if key in old]
@@ -115,8 +114,8 @@ def merge_order(base: Sequence[str], mine: Sequence[str], generated: Sequence[st
 def compare(old: Sequence[Hashable], new: Sequence[Hashable]) -> list[Change]:
     """Return the changes that make `new` of `old`, in order, with a common item between any two.
 
-    Of several shortest scripts git's own is taken. Like git, this leaves out frequent items and gives up on the
-    shortest script of long sequences with little in common.
+    Of several shortest scripts it is git's own. Like git, this leaves out frequent items, and gives up on the shortest
+    script of long sequences with little in common.
     """
     # importing pygit2 takes 55 ms and 20 MB, which only a conflict needs ("one mass changed" in docs/speed.md)
     import pygit2

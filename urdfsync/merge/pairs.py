@@ -1,7 +1,7 @@
-"""Which things of three versions of a body are the same thing, where their names alone do not say so.
+"""Pairs things of three versions of a body whose names differ.
 
-Equations, connections and base classes are named by what they say. Where both sides have taken one out of base, what
-stands there instead is its new version: else both new ones would stay, side by side.
+The text of equations, connections and base classes is their name. If both sides removed one of base, the thing in its
+place is its new version. Otherwise both new ones would stay, side by side.
 """
 
 from __future__ import annotations
@@ -14,13 +14,13 @@ import msgspec
 from urdfsync.modelica.tree import Leaf, Part, SyntaxTree, is_equation, key_by_whole_equation
 
 _ALIKE = 0.5
-"""Share of words that two equations have in common at least, if one is the new version of the other."""
+"""Least share of common words of an equation and its new version."""
 _MOST_COMPARISONS = 400_000
 """The most pairs of equations that are compared: a second."""
 
 
 class TooManyPairsError(Exception):
-    """So many things have other versions that comparing each with each would take minutes."""
+    """There are too many changed things: comparing each with each would take minutes."""
 
 
 def pair(base: SyntaxTree, mine: SyntaxTree, generated: SyntaxTree) -> tuple[SyntaxTree, SyntaxTree, SyntaxTree]:
@@ -41,11 +41,11 @@ def pair(base: SyntaxTree, mine: SyntaxTree, generated: SyntaxTree) -> tuple[Syn
 
 
 class _Candidates:
-    """The new things of one side, each of which may be the version of one thing in base."""
+    """The new things of one side; each may be the new version of a thing in base."""
 
     def __init__(self, parts: Sequence[Part]) -> None:
         self.taken: dict[str, str] = {}
-        """The keys in base of new versions, by the keys that they have in the side."""
+        """The base's keys of new versions, by the side's keys."""
         self._by_word = defaultdict[tuple[str, str], deque[Part]](deque)
         self._words = {part.key: _words(part) for part in parts if is_equation(part)}
         for part in parts:
@@ -54,7 +54,7 @@ class _Candidates:
                 self._by_word[kind, word].append(part)
 
     def find_version(self, part: Part) -> Part | None:
-        """Return the thing that the side has instead of one of base."""
+        """Return the side's new version of a thing of base."""
         kind, *ends = part.key.split()
         if is_equation(part):
             words = _words(part)

@@ -1,4 +1,4 @@
-"""New names of components that one side has renamed, in the texts with the old names."""
+"""Applies one side's new names of components to the texts with the old names."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ _OPEN, _CLOSED = ("(", "[", "{"), (")", "]", "}")
 def rename(base: str, other: str, names: Mapping[str, str], *, modifiers: bool = True) -> tuple[str, str]:
     """Return both texts with new names; `names` has them by the old ones.
 
-    A name without a dot before it is renamed if base has it so, too. A name behind a dot is renamed if base has a
-    renamed name behind the same word and a dot. So `robot.elbow` follows, and the user's own variable `elbow` does not.
-    Names of modifiers are those of another class: they follow if base has them, too; without `modifiers` they stay.
+    A name without a dot before it is renamed if base has it without a dot, too. A name behind a dot is renamed if base
+    has it behind the same word. So `robot.elbow` follows, and the user's own variable `elbow` does not. Names of
+    modifiers belong to another class: they follow if base has them, too; without `modifiers` they stay.
     """
     used = {(before, token.text) for before, token in _uses(base) if token.text in names}
     places = {place for place, _ in used} - (set() if modifiers else {_MODIFIER})
@@ -39,7 +39,7 @@ def rename(base: str, other: str, names: Mapping[str, str], *, modifiers: bool =
 def without_clashes(names: Mapping[str, str], mine: str) -> dict[str, str]:
     """Return the new names that are free in the user's text, by the old ones.
 
-    A new name is taken if the text has it beside the old one, and it is not renamed itself.
+    A new name is not free if the text has it beside the old one, and does not rename it.
     """
     alone = {token.text for before, token in _uses(mine) if not before}
     free = dict(names)
@@ -55,7 +55,7 @@ def find_uses_of(text: str, names: Mapping[str, str]) -> Iterator[tuple[str, int
 
 
 def find_renamed(base: SyntaxTree, mine: SyntaxTree, generated: SyntaxTree) -> dict[str, str]:
-    """Return the components that the user renamed, new names by old: alike in all else, and no others are."""
+    """Return the components that the user renamed, new names by old: pairs that are equal in all else and unique."""
     old, new, others = (_components(tree) for tree in (base, mine, generated))
     removed = {name: _likeness(part, name) for name, part in old.items() if name not in new}
     added = {name: _likeness(part, name) for name, part in new.items() if name not in old and name not in others}
@@ -76,7 +76,7 @@ def _components(file: SyntaxTree) -> dict[str, Part]:
 
 
 def _likeness(part: Part, name: str) -> Hashable:
-    """Return a value that is equal for components that differ in their own names and their layout alone."""
+    """Return a value that is equal for components that differ only in their names and layout."""
     parts = part.node.parts if isinstance(part.node, SyntaxTree) else ()
     texts = (inner.node.text for inner in parts if inner.key != "annotation")
     return tuple("" if word == name else word for text in texts for word in words_of(text))

@@ -27,15 +27,15 @@ class Merge(msgspec.Struct, frozen=True):
     text: str | None
     """The merged text; None if there is a conflict or a flaw."""
     proposal: str
-    """The merged text, with all three versions of a conflict between markers, for people; never in a `.mo` file."""
+    """The merged text for people, with all three versions of a conflict between markers; never in a `.mo` file."""
     contradictions: tuple[str, ...]
-    """The contradictions in words; an empty text for lines, which have no names."""
+    """The contradictions in words; an empty text for lines."""
     flaw: str = ""
-    """Why the merged text can't be right as Modelica, as the end of a sentence that begins with "the merge"."""
+    """Why the merged text is wrong Modelica, as the end of a sentence that begins with "the merge"."""
     with_mine: str | None = None
-    """The merged text with the user's side of each contradiction; None without one, or if it can't be right."""
+    """The merged text with the user's side of each contradiction; None without one, or if it is wrong Modelica."""
     with_generated: str | None = None
-    """The merged text with the generated side of each contradiction; None without one, or if it can't be right."""
+    """The merged text with the generated side of each contradiction; None without one, or if it is wrong Modelica."""
 
     @property
     def rejected(self) -> Merge:
@@ -46,11 +46,10 @@ class Merge(msgspec.Struct, frozen=True):
 def merge(
     base: str, mine: str, generated: str, *, is_modelica: bool = False, names: Mapping[str, str] | None = None
 ) -> Merge:
-    """Bring what changed from `base` to `generated` into `mine`; `names` has new names by the old ones.
+    """Apply the changes from `base` to `generated` to `mine`; `names` has new names by the old ones.
 
-    Kinds of line endings are no difference. Lines of `mine` keep theirs, others get the one that prevails in
-    `mine`. With `is_modelica`, classes are merged by their elements, and a merge is checked for flaws that neither side
-    has.
+    Line endings are no difference. Lines of `mine` keep theirs, others get the most frequent one of `mine`. With
+    `is_modelica`, classes are merged by their elements, and a merge is checked for flaws that neither side has.
     """
     if names:
         base, mine = rename(base, mine, without_clashes(names, mine))
@@ -84,7 +83,7 @@ def _preferring(side: str, pieces: Sequence[Piece], ending: str) -> str:
 def merge_file(base: str, mine: str, other: str, markers: Sequence[tuple[str, str]]) -> tuple[str, tuple[str, ...]]:
     """Merge the versions of two people: return the text with markers in it, and the element of each conflict.
 
-    It is a merge by lines if that of elements has a flaw. Lines have no element: their conflicts have an empty text.
+    If the merge by elements has a flaw, it is a merge by lines: then the elements are empty texts.
     """
     ending = _ending(mine)
     merged, elements = "", tuple[str, ...]()
@@ -100,7 +99,7 @@ def merge_file(base: str, mine: str, other: str, markers: Sequence[tuple[str, st
 
 
 def _ending(text: str) -> str:
-    """Return the line ending that prevails in a text."""
+    """Return the most frequent line ending of a text."""
     return "\r\n" if 2 * text.count("\r\n") > text.count("\n") else "\n"
 
 
@@ -131,7 +130,7 @@ def _merge_pieces(
 
 
 def _merge_classes(texts: Sequence[str], statements: KnownStatements, *, is_export: bool) -> list[Piece] | None:
-    """Merge texts that are one class each; None if one of them is not, or if too much of them differs."""
+    """Merge texts that are one class each; None if one of them is not, or if they differ too much."""
     base, _, generated = texts
     base_tree, mine_tree, generated_tree = (read_tree(text, statements) for text in texts)
     if not (base_tree and mine_tree and generated_tree):
@@ -149,7 +148,7 @@ def _merge_classes(texts: Sequence[str], statements: KnownStatements, *, is_expo
 
 
 def _with_markers(pieces: Sequence[Piece], ending: str, markers: Sequence[tuple[str, str]]) -> str:
-    """Return the pieces as one text; lines with contradictions in them in all versions that have a marker."""
+    """Return the pieces as one text; lines with contradictions in all versions with a marker."""
     result: list[str] = []
     row: list[Piece] = []
     for piece in pieces:
@@ -177,7 +176,7 @@ def _shown(row: Sequence[Piece], ending: str, markers: Sequence[tuple[str, str]]
 
 
 def _version(row: Sequence[Piece], side: str) -> str:
-    """Return one line as a side has it; without the comma of a part that this side lacks."""
+    """Return a side's version of one line, without the comma of a missing part."""
     text, lacks = "", False
     for piece in row:
         if not isinstance(piece, str):
@@ -193,10 +192,10 @@ def _version(row: Sequence[Piece], side: str) -> str:
 
 
 def find_flaw(text: str, sides: Sequence[str], statements: KnownStatements | None = None) -> str:
-    """Return why a merged text can't be right as Modelica; empty if it can. Names and types are not checked.
+    """Return why a merged text is wrong Modelica; empty if it is right.
 
-    The `statements` of the sides are not read again. A fault that a side has as often as the merge is no flaw: it
-    concerns its author.
+    Names and types are not checked. The `statements` of the sides are not read again. A fault is no flaw if a side has
+    it as often as the merge.
     """
     faults = [*find_markers(text), *find_faults(text, statements or {})]
     counts = Counter[str]()

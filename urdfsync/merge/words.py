@@ -8,7 +8,7 @@ from urdfsync.spelling import same_count
 _LONGEST = 60
 """Characters of a text that a sentence quotes."""
 _SILENT = frozenset("body value expression definition import components".split())
-"""Parts that need no name, since what is in them has one."""
+"""Parts without a name: the things in them have names."""
 _ROLES = {
     "annotation": "annotation",
     "arguments": "modifiers",
@@ -27,7 +27,7 @@ _ROLES = {
 
 
 def place_of(path: tuple[str, ...]) -> tuple[str, str]:
-    """Return the element that a path of keys leads to, and the part of it: ("component `body`", "m")."""
+    """Return the element at a path of keys, and the part of it: ("component `body`", "m")."""
     names = [key for key in path if key not in _SILENT and key not in _ROLES]
     kind, _, name = names[0].partition(" ") if names else ("class", "", "")
     role = _ROLES.get(path[-1], "") if path else ""
@@ -43,7 +43,7 @@ def place_of(path: tuple[str, ...]) -> tuple[str, str]:
 
 
 def describe(contradiction: Contradiction) -> str:
-    """Say what the sides disagree about: component `body`: you set `m = 99`, the export changes 11.5 to 12.1."""
+    """Describe a contradiction: component `body`: you set `m = 99`, the export changes 11.5 to 12.1."""
     if not contradiction.path:
         return ""
     element, part = place_of(contradiction.path)
@@ -74,7 +74,7 @@ def describe(contradiction: Contradiction) -> str:
 
 
 def _change(base: str, side: str, what: str) -> str:
-    """Say what a side did with a text of several lines: added `y = 3;`, removed some, or changed them."""
+    """Describe a side's change of a text of several lines: added `y = 3;`, removed some, or changed them."""
     old, new = ([line.strip() for line in text.splitlines() if line.strip()] for text in (base, side))
     start = same_count(old, new)
     end = same_count(old[start:][::-1], new[start:][::-1])
@@ -87,7 +87,7 @@ def _change(base: str, side: str, what: str) -> str:
 
 
 def _quoted_pair(old: str, new: str) -> list[str]:
-    """Return two texts as a sentence can quote them, so that their first difference is seen."""
+    """Return two texts as quotes that show their first difference."""
     lines = [" ".join(text.split()) for text in (old, new)]
     shared = same_count(lines[0], lines[1])
     start = shared - _LONGEST // 4 if max(map(len, lines)) > _LONGEST and shared > _LONGEST // 2 else 0
@@ -95,6 +95,6 @@ def _quoted_pair(old: str, new: str) -> list[str]:
 
 
 def quoted(text: str) -> str:
-    """Return a text in one line, as a sentence can quote it."""
+    """Return a text as a quote in one line."""
     line = " ".join(text.split())
     return line if len(line) <= _LONGEST else f"{line[: _LONGEST - 1]}…"

@@ -1,4 +1,4 @@
-"""Classes at their places: read from a file, or part of the language, with the modifiers that are applied to them."""
+"""Classes from files, or of the language, with the modifiers that are applied to them."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ class Node(msgspec.Struct, eq=False, dict=True):
     name: tuple[str, ...]
     """Its full name."""
     file: str = ""
-    """How the source of the class knows its file."""
+    """The file's name in the source of the class."""
     parent: Node | None = None
     """The class around it."""
     classes: dict[str, Node | None] = msgspec.field(default_factory=dict)
-    """Its own classes, as far as anybody has asked for them."""
+    """Its own classes that were read so far."""
     bases: tuple[Type, ...] | None = None
     """The classes that it extends, once they are resolved."""
 
@@ -43,7 +43,7 @@ class Scoped(NamedTuple):
 
 
 class Type(NamedTuple):
-    """A class as a component or a derived class has it: with all modifiers that are applied to it."""
+    """The class of a component or a derived class, with all modifiers that are applied to it."""
 
     node: Node
     modifiers: tuple[Scoped, ...] = ()

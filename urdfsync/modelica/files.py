@@ -1,4 +1,4 @@
-"""Files of Modelica: where they are, which class each is for, and which words are in them. None is parsed."""
+"""Finds files of Modelica, the class of each, and the words in them, without parsing."""
 
 from __future__ import annotations
 
@@ -24,12 +24,12 @@ def class_path(file: PurePosixPath) -> PurePosixPath:
 
 
 def class_parts(path: str) -> tuple[str, ...]:
-    """Return the name of the class that a file is for, from its POSIX path below the package."""
+    """Return the name of a file's class, from its POSIX path below the package."""
     return tuple(path.removesuffix(".mo").removesuffix("/package").split("/")) if path != PACKAGE_FILE else ()
 
 
 class TooManyFoldersError(Exception):
-    """There are more folders than may be looked through."""
+    """There are too many folders to search."""
 
 
 def modelica_files(
@@ -37,9 +37,9 @@ def modelica_files(
 ) -> Iterator[str]:
     """Yield all files of Modelica below folders, each once, but for links, hidden folders and `Resources`.
 
-    Folders below them that hold a file of one of the names `others` are left out as well, and those whose paths are in
-    `left_out`. What is looked at is recorded as a dependency. What can't be looked at is left out. Raises
-    TooManyFoldersError beyond `most` folders.
+    Folders below them are left out, too, if they hold a file of one of the names `others`, or if `left_out` has them.
+    All read files and folders are recorded as dependencies. Unreadable ones are left out. Raises TooManyFoldersError
+    beyond `most` folders.
     """
     tops, seen = [*map(str, folders)], set[str]()
     waiting = tops[::-1]
@@ -66,7 +66,7 @@ def modelica_files(
 
 
 def files_that_use(files: Mapping[Path, bytes], names: Iterable[str]) -> dict[Path, bytes]:
-    """Return the files that use one of these names, or the class of another such file, which is called like that file.
+    """Return the files that use one of these names, or the class of another such file, by that file's name.
 
     Strings and comments do not count: a library of words about robots is no user.
     """
@@ -86,7 +86,7 @@ def has_word(text: bytes, name: bytes) -> bool:
 
 
 def text_of(content: bytes) -> str:
-    """Return the text of a file as it is parsed; bytes that are not UTF-8 survive in it."""
+    """Return the text of a file for parsing; it keeps bytes that are not UTF-8."""
     return content.decode(errors="surrogateescape").replace("\r\n", "\n")
 
 
@@ -101,12 +101,12 @@ def _is_used(name: str, content: bytes) -> bool:
 
 
 def class_of_file(path: Path) -> str:
-    """Return the name of the class that a file is for."""
+    """Return the name of a file's class."""
     return path.parent.name if path.name == PACKAGE_FILE else path.stem
 
 
 def place_of(path: Path, files: Collection[Path]) -> tuple[Path, ClassName]:
-    """Return the folder of a file's top-level class, and the name of the package that the file is in by its folders."""
+    """Return the folder of a file's top-level class, and the file's package by its folders."""
     folder = path.parent.parent if path.name == PACKAGE_FILE else path.parent
     parts: list[str] = []
     while folder / PACKAGE_FILE in files or is_file(folder / PACKAGE_FILE):

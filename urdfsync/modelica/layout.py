@@ -1,4 +1,4 @@
-"""The faults of a text as the file of one class, and of files as a package, by the specification 3.6, section 13.4."""
+"""Checks texts as files of one class, and files as a package, by the specification 3.6, section 13.4."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _ALLOWED_TWICE = ("has the equation", "connects", "extends")  # the language has
 
 
 def with_within(text: str, name: str) -> str:
-    """Return the file of a class that gets this full name, with the `within` clause that it needs."""
+    """Return the file of a class with this full name, with its `within` clause."""
     tokens = lex(text)[0]
     end = next((number for number, token in enumerate(tokens) if token.text == ";"), 0)
     if tokens[0].text != "within" or not end:
@@ -29,9 +29,9 @@ def with_within(text: str, name: str) -> str:
 def check_class_file(
     text: str, path: PurePosixPath, name: str, stored: StoredText | None = None
 ) -> tuple[StoredText | None, list[Diagnostic]]:
-    """Check one file; returns what it declares, None if it can't be read, and findings without their file.
+    """Check one file; returns its declarations, None if it can't be read, and findings without their file.
 
-    `name` is the full name of the class that the file is for; `stored` is the text, if it was parsed before.
+    `name` is the full name of the file's class; `stored` is the text, if it was parsed before.
     """
     findings: list[Diagnostic] = []
 
@@ -100,9 +100,9 @@ def check_places(
 
 
 def check_order(text: str, present: Collection[str], others: Collection[str] | None) -> Iterator[Diagnostic]:
-    """Check whether a `package.order` names what is `present` in its folder, each once.
+    """Check whether a `package.order` names each class that is `present` in its folder once.
 
-    It may name `others`, too; anything if that is None, since `package.mo` can't be read.
+    It may name `others`, too. None means that `package.mo` can't be read: then any name is allowed.
     """
     names = [line.strip() for line in text.removeprefix(_BYTE_ORDER_MARK).split("\n")]
     lacking = sorted({*present}.difference(names))

@@ -1,4 +1,4 @@
-"""Cut Modelica text into the tokens that a compiler sees, each with its place."""
+"""Cuts Modelica text into tokens, each with its place."""
 
 from __future__ import annotations
 
@@ -30,18 +30,18 @@ _WORD = 2
 STATEMENT = re.compile(
     rf"""(?:[^;"'/]++|{_STRING}|{_QUOTED_NAME}|'|//[^\n]*+|/\*.*?\*/|/(?![/*]))*+;""", re.VERBOSE | re.DOTALL
 )
-"""All up to the next semicolon, unless something before it has no end."""
+"""All up to the next semicolon, unless a string or comment before it has no end."""
 _ENDLESS_STRING = re.compile(r'"(?:[^"\\]++|\\.)*+\\?', re.DOTALL)
 _ESCAPE = re.compile(r"""\\(['"?\\abfnrtv]|(?P<meaningless>.))""", re.DOTALL)
 
 
 class Fault(NamedTuple):
-    """Something wrong in a text: words that continue a sentence (`lacks ; before x`), and the line, from 1."""
+    """A fault of a text: words that continue a sentence (`lacks ; before x`), and the line, from 1."""
 
     reason: str
     line: int
     is_repetition: bool = False
-    """Whether something is only there twice: the text could be read."""
+    """Whether it is only a repetition: then the text could be read."""
 
 
 class Token(NamedTuple):
@@ -52,7 +52,7 @@ class Token(NamedTuple):
 
 
 class Lexer:
-    """Cuts a text into tokens, statement by statement, when they are asked for."""
+    """Cuts a text into tokens, statement by statement, on demand."""
 
     def __init__(self, text: str) -> None:
         self.text = text
@@ -61,7 +61,7 @@ class Lexer:
         self.starts: list[int] = []
         """Where each token begins in the text."""
         self.position = int(text.startswith("\ufeff"))
-        """Where the next token is looked for."""
+        """The place of the next token."""
         self.endless: list[Fault] = []
         """Comments, strings and quoted names without an end."""
 
@@ -101,7 +101,7 @@ class Lexer:
         return bisect_left(self._line_ends, start) + 1
 
     def strange_escapes(self) -> list[Fault]:
-        """Return the escapes without a meaning in the strings and quoted names that were read."""
+        """Return the undefined escapes in the strings and quoted names so far."""
         if "\\" not in self.text:
             return []
         return [
@@ -118,12 +118,12 @@ class Lexer:
 
 
 def words_in(text: str) -> list[str]:
-    """Return the tokens of a text as texts alone."""
+    """Return the tokens of a text, without their places."""
     return Lexer(text).read_all().words[:-1]
 
 
 def lex(text: str) -> tuple[list[Token], list[Fault]]:
-    """Return the tokens of a text without blanks and comments, and what has no end. An empty token ends the list."""
+    """Return the tokens of a text without blanks and comments, and unterminated ones. An empty token ends the list."""
     lexer = Lexer(text).read_all()
     return list(map(Token, lexer.words, lexer.starts)), lexer.endless
 
@@ -139,5 +139,5 @@ def is_number(token: str) -> bool:
 
 
 def is_name(token: str) -> bool:
-    """Whether a token can be the name of something, quoted names included."""
+    """Whether a token can be a name, also a quoted one."""
     return (token[:1].isalpha() or token[:1] == "_" or (token[:1] == "'" and len(token) > 1)) and token not in KEYWORDS

@@ -1,4 +1,4 @@
-"""Values as Modelica source: literals that read back as the same value, and text that can't end a string."""
+"""Writes values as Modelica: literals that read back as the same value, and text that can't end a string."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ def capitalize_first(value: str) -> str:
 
 
 def numbers_only(old: str, new: str) -> bool:
-    """Whether two texts differ in the values of number and string literals at most."""
+    """Whether two texts differ at most in the values of number and string literals."""
     return _shape(old) == _shape(new)
 
 

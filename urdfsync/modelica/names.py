@@ -1,4 +1,4 @@
-"""The little that the core knows of Modelica: which names are identifiers, and how a package names its parents."""
+"""Modelica's names for the core: identifiers, reserved words, and `within` clauses."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ RESERVED_CLASSES = frozenset(
     stateselect string urdfsync visualization2
     """.split()
 )
-"""Types and libraries, folded to lower case, that a class of these names would hide from generated models."""
+"""Types and libraries, in lower case, that a class of the same name would hide from generated models."""
 
 FUNCTIONS = frozenset(
     """
@@ -38,13 +38,13 @@ FUNCTIONS = frozenset(
     transpose vector zeros
     """.split()
 )
-"""Functions and operators of the language, and its variable `time`: names in enclosing packages hide them."""
+"""Functions and operators of the language, and its variable `time`: a package of the same name would hide them."""
 
 DEVICES = frozenset(["con", "prn", "aux", "nul", *(f"{port}{n}" for port in ("com", "lpt") for n in range(10))])
-"""Names, folded to lower case, that Windows gives to no file or folder, whatever its suffix."""
+"""Names, in lower case, that Windows reserves, with any suffix."""
 
 GENERATED_CLASSES = frozenset({"joints", "links", "package"})
-"""Files and folders, folded to lower case, that stand beside a robot's model."""
+"""Files and folders beside a robot's model, in lower case."""
 
 _IDENTIFIER = re.compile(r"[A-Za-z_][A-Za-z0-9_]*", re.ASCII)
 
@@ -60,13 +60,13 @@ def is_identifier(name: str) -> bool:
 
 
 def is_class_name(name: str) -> bool:
-    """Whether `name` can be the name of a robot's model: a capital first, since what begins small is a component."""
+    """Whether `name` can be the name of a robot's model: it begins with a capital, unlike components."""
     free = name.lower() not in RESERVED_CLASSES | DEVICES | GENERATED_CLASSES
     return free and is_identifier(name) and name[:1].isupper()
 
 
 def class_name(text: str) -> str:
-    """Return a class name in capitals-first style made from any text: `my-robot v2` becomes `MyRobotV2`."""
+    """Make a class name from any text: `my-robot v2` becomes `MyRobotV2`."""
     words = re.findall(r"[A-Za-z0-9]+", text)
     name = "".join(word[0].upper() + word[1:] for word in words)
     return name if is_class_name(name) else f"Robot{name}"

@@ -1,8 +1,8 @@
-"""Read Modelica text: what its names mean, what is missing in it or there twice, and what it consists of.
+"""Reads Modelica text: its names, its faults, and its parts.
 
-The grammar is the concrete syntax of the language specification 3.6 (appendix A). It is generous where that costs
-nothing: it does not ask which kind of class may have what, nor for the precedence of operators. Elements and equations
-are read one by one, so that one that is no Modelica does not hide what is wrong with another one.
+The grammar is the concrete syntax of the language specification 3.6 (appendix A). It is generous: it ignores
+restrictions of kinds of classes, and the precedence of operators. Elements and equations are read one by one, so a
+fault in one does not hide faults in others.
 """
 
 from __future__ import annotations
@@ -17,13 +17,13 @@ from urdfsync.modelica.lexer import Fault, Lexer, is_name, is_number
 from urdfsync.modelica.syntax import Class, Component, Extends, ImportClause, Modifier, Name, StoredText
 
 _DEEPEST = 50
-"""How many brackets, classes and blocks are read within each other: deeper ones would exhaust Python's stack."""
+"""Deepest nesting of brackets, classes and blocks: a deeper one would exhaust Python's stack."""
 _NUMBER = r"[-+]?\d++(?:\.\d*+)?(?:[eE][-+]?\d++)?\s*+"
 _ARRAY = rf"\{{\s*+{_NUMBER}(?:,\s*+{_NUMBER})*+\}}\s*+"
 _NUMBERS = re.compile(rf"{_ARRAY}|\{{\s*+{_ARRAY}(?:,\s*+{_ARRAY})*+\}}")
 """An array of numbers, or of arrays of numbers."""
 _LONGEST = 60
-"""Characters of what is quoted from a text."""
+"""The most characters of a quote."""
 
 SECTIONS = frozenset({"equation", "algorithm", "public", "protected"})
 _BLOCK_ENDS = frozenset({"end", "else", "elseif", "elsewhen", "", *SECTIONS})
@@ -48,7 +48,7 @@ _REPEATABLE = frozenset(
 
 
 def parse(text: str) -> StoredText:
-    """Read a text that should be a file of Modelica; whatever can't be read of it is left out."""
+    """Read a text that should be a file of Modelica; unreadable parts are left out."""
     return Parser(text).read()
 
 
@@ -63,8 +63,8 @@ class _FaultError(Exception):
 class Parser(Lexer):
     """Reads one text from the first token to the last.
 
-    A method reads what it is named for, and returns its value. It raises _FaultError where something is missing;
-    `_each` catches that, and goes on behind the element or equation.
+    A method reads the part in its name, and returns its value. It raises _FaultError for a missing token; `_each`
+    catches this, and goes on behind the element or equation.
     """
 
     def __init__(self, text: str) -> None:
@@ -78,9 +78,9 @@ class Parser(Lexer):
         self._libraries = list[str]()
         """Libraries that `uses` annotations name."""
         self._names = list[Name]()
-        """Names in expressions, until what they stand in takes them."""
+        """Names in expressions, until their element takes them."""
         self._seen = set[str]()
-        """Names that were taken before by the elements or equations beside the one that is being read."""
+        """Names that earlier elements or equations of the same section have taken."""
         self._depth = self._subscript_depth = 0
 
     def read(self) -> StoredText:
@@ -93,7 +93,7 @@ class Parser(Lexer):
 
     @property
     def word(self) -> str:
-        """The token that comes now; empty behind the last one."""
+        """The present token; empty behind the last one."""
         try:
             return self.words[self.at]
         except IndexError:
@@ -102,12 +102,12 @@ class Parser(Lexer):
 
     @property
     def line(self) -> int:
-        """The line of that token."""
+        """The line of the present token."""
         return self.line_at(self.starts[self.at]) if self.word or self.words else 1
 
     @property
     def following(self) -> str:
-        """The token after that, within a statement."""
+        """The next token, within a statement."""
         return self.words[self.at + 1] if self.word not in (";", "") else ""
 
     def _step(self) -> str:
@@ -116,7 +116,7 @@ class Parser(Lexer):
         return word
 
     def _accept(self, *words: str) -> str:
-        """Go on if the token is one of these, and return it; else return an empty text."""
+        """Consume the token if it is one of these, and return it; else return an empty text."""
         word = self.word
         if word not in words:
             return ""
@@ -138,7 +138,7 @@ class Parser(Lexer):
         return _FaultError(f"lacks {what} before {before}", self.line)
 
     def _since(self, start: int) -> str:
-        """Return the tokens since the one with the number `start`, with blanks where they would run together."""
+        """Return the tokens from number `start` on, with blanks where they would run together."""
         return re.sub(r" ?([.()\[\]]) ?", r"\1", " ".join(self.words[start : self.at]))
 
     def _once(self, seen: set[str], key: str, reason: str) -> None:
@@ -148,13 +148,13 @@ class Parser(Lexer):
         seen.add(key)
 
     def _declared_name(self, names: set[str]) -> Name:
-        """Read the name of something that is declared beside `names`."""
+        """Read a declared name; `names` are those beside it."""
         text, start = self._identifier(), self.starts[self.at - 1]
         self._once(names, text, f"declares `{text}` twice")
         return Name((text,), self.line_at(start), starts=(start,))
 
     def _take_names(self, mark: int) -> tuple[Name, ...]:
-        """Return the names that were read since there were so many."""
+        """Return the names that were read after the first so many, and drop them."""
         if len(self._names) == mark:
             return ()
         names = tuple(self._names[mark:])
@@ -162,7 +162,7 @@ class Parser(Lexer):
         return names
 
     def _leave_out(self, indices: set[str], mark: int) -> None:
-        """Leave out the indices of a loop from the names that were read since there were so many."""
+        """Remove the indices of a loop from the names that were read after the first so many."""
         names = self._take_names(mark)
         self._names += (name for name in names if name.is_global or name.parts[0] not in indices)
 
@@ -184,7 +184,7 @@ class Parser(Lexer):
             raise self._lack(f"`,` or `{closing}`")
 
     def _each(self, read: Callable[..., None], *arguments: object) -> None:
-        """Read one element or equation and its semicolon; if something is wrong with it, go on behind it."""
+        """Read one element or equation and its semicolon; after a fault go on behind it."""
         start, depth, subscript_depth, classes = self.at, self._depth, self._subscript_depth, len(self.open)
         mark = len(self._names)
         try:
@@ -205,21 +205,21 @@ class Parser(Lexer):
     # --- for the tree (`urdfsync.modelica.tree`), which overrides these ---------------------------------------------
 
     def _mark(self) -> int:
-        """Return what `_note` takes for `mark`, to put into a part all parts that are noted meanwhile."""
+        """Return a `mark` for `_note`, which then puts all parts that are noted meanwhile into its part."""
         return 0
 
     def _note(self, key: str, start: int, mark: int | None = None) -> None:
-        """Note that the tokens since the one with the number `start` are a part with this key."""
+        """Note that the tokens from number `start` on are a part with this key."""
 
     def _note_statement(self, start: int) -> None:
-        """Note that all since the token with this number is an element, an equation, or the words of a section."""
+        """Note that the tokens from this number on are an element, an equation, or the words of a section."""
 
     def _next_word(self) -> str:
         """Return the first word of the next element or equation."""
         return self.word
 
     def _skips_rest(self) -> bool:
-        """Whether the rest of an element or equation was left out, since only its name counts."""
+        """Skip the rest of an element or equation if only its name counts; return whether it was skipped."""
         return False
 
     # --- names and expressions ------------------------------------------------------------------------------------
@@ -321,7 +321,7 @@ class Parser(Lexer):
             self._names[place] = self._names[place]._replace(arguments=arguments)
 
     def _call(self) -> tuple[Name, ...]:
-        """Read the arguments of a function. Returns their names, as far as they have some."""
+        """Read the arguments of a function. Returns the names of named ones."""
         names, arguments = set[str](), list[Name]()
         for _ in self._list():
             if is_name(self.word) and self.following == "=":
@@ -467,7 +467,7 @@ class Parser(Lexer):
                 self._expect_end()
 
     def _expect_end(self) -> None:
-        """Note a fault if something comes behind the annotation of a class, which is the last thing in it."""
+        """Note a fault if anything stands behind the annotation of a class."""
         if self.word not in ("end", ""):
             self.faults.append(Fault(f"goes on after the annotation of `{self.open[-1].name}`", self.line))
 
@@ -581,7 +581,7 @@ class Parser(Lexer):
         self._note("sizes", start)
 
     def _constraint(self, prefixes: Collection[str]) -> Extends | None:
-        """Read the class that constrains an element with these prefixes, if it is replaceable and one is given."""
+        """Read the constraining class of a replaceable element, if it has one."""
         start, mark = self.at, self._mark()
         if "replaceable" not in prefixes or not self._accept("constrainedby"):
             return None
@@ -608,7 +608,7 @@ class Parser(Lexer):
             self._note("description", start)
 
     def _annotation(self) -> None:
-        """Read an annotation, if there is one; names have meanings of their own in it."""
+        """Read an annotation, if there is one; its names have their own meanings."""
         if self._accept("annotation"):
             for argument in self._arguments("annotation"):
                 if argument.name.parts == ("uses",):
@@ -638,7 +638,7 @@ class Parser(Lexer):
         return modifiers
 
     def _argument(self, names: set[str]) -> Modifier | None:
-        """Read one modifier; None for a connection that is taken away."""
+        """Read one modifier; None for a removed connection."""
         start, mark, names_mark = self.at, self._mark(), len(self._names)
         prefixes = self._prefixes(_ARGUMENT_PREFIXES)
         declares, is_redeclared = not prefixes.isdisjoint({"redeclare", "replaceable"}), "redeclare" in prefixes
@@ -720,7 +720,7 @@ class Parser(Lexer):
         self._once(seen, f"connect {first} {second}", f"connects `{first}` and `{second}` twice")
 
     def _block(self, kind: str, *, repeats: bool) -> None:
-        """Read the rest of an equation or statement that holds others, which may repeat each other."""
+        """Read the rest of an equation or statement with nested ones, which may repeat each other."""
         start, mark = self.at - 1, len(self._names)
         indices = set[str]()
         branch = kind
@@ -744,5 +744,5 @@ class Parser(Lexer):
 
 
 def _short(text: str) -> str:
-    """Return a piece of a text as a sentence can quote it."""
+    """Return a piece of a text as a quote."""
     return text if len(text) <= _LONGEST else f"{text[: _LONGEST - 1]}…"

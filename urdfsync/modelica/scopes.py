@@ -1,8 +1,8 @@
-"""Resolve names in Modelica classes: scopes, inheritance, imports, modifiers and redeclarations.
+"""Resolves names in Modelica classes: scopes, inheritance, imports, modifiers and redeclarations.
 
-It follows chapters 5 and 7 of the language specification 3.6. A name is an element or missing. A class that is not at
-hand is `OPAQUE`: it has any element. Where an element is redeclared, the parts of its old type, of its constraining
-type and of its new one are all accepted, which is more than the language allows: so what is called missing is missing.
+It follows chapters 5 and 7 of the language specification 3.6. A name is an element or missing. An unavailable class is
+`OPAQUE`: it has any element. A redeclared element has the parts of its old, its constraining and its new type. This is
+more than the language allows, so a name that is reported as missing is missing.
 """
 
 from __future__ import annotations
@@ -28,9 +28,9 @@ _PREDEFINED = {
 }
 """Attributes or literals of predefined types."""
 _ANYTHING = FUNCTIONS | {"integer", "Clock", "Connections", "ExternalObject"}
-"""Functions and predefined types of whose elements nothing is said."""
+"""Functions and predefined types whose elements are not checked."""
 _ICONS = ("Modelica", "Icons")
-"""The package of the Modelica Standard Library whose classes are pictures: there is nothing to inherit."""
+"""The package of the Modelica Standard Library with pictures only: its classes have no elements."""
 _MULTIBODY, _ROTATIONAL = ("Modelica", "Mechanics", "MultiBody"), ("Modelica", "Mechanics", "Rotational")
 _TRANSLATIONAL = ("Modelica", "Mechanics", "Translational")
 _SUPPORT = "useSupport flange_a flange_b phi_support support"
@@ -41,31 +41,31 @@ _INTERFACES = {
     (*_ROTATIONAL, "Interfaces", "PartialElementaryTwoFlangesAndSupport2"): _SUPPORT,
     (*_TRANSLATIONAL, "Interfaces", "PartialTwoFlanges"): "flange_a flange_b",
 }
-"""The components of Modelica Standard Library classes that UrdfSync's own extend: builds do not read that library."""
+"""The components of the Modelica Standard Library classes that UrdfSync extends: builds do not read that library."""
 INTERFACES = {name: predefined(".".join(name), names.split()) for name, names in _INTERFACES.items()}
 """These as classes, by their full names."""
 _DEEPEST = 40
-"""The most lookups that may lead to each other: more of them go in circles."""
+"""The deepest chain of lookups: a longer one is a circle."""
 
 
 class Element(NamedTuple):
-    """Something that has a name: a component, a class, a literal, an attribute, or a part of the language itself."""
+    """A named thing: a component, a class, a literal, an attribute, or a part of the language."""
 
     types: Types
-    """The classes that a component may have, the one that it has first; of a class, what it may stand for."""
+    """The possible classes of a component, its present one first; of a class, its possible meanings."""
     is_component: bool = False
 
 
 class Missing(NamedTuple):
-    """A name of which a part means nothing."""
+    """A name with an unresolved part."""
 
     part: str
     types: Types = ()
-    """The classes that lack it; empty if it is the first part, which was looked for in all scopes."""
+    """The classes that lack it; empty for the first part, which was looked for in all scopes."""
     is_certain: bool = True
-    """False if one of the classes on the way extends one that is not at hand."""
+    """False if one of the classes on the way extends an unavailable one."""
     number: int = 0
-    """Of the part in the name, from 0."""
+    """Number of the part in the name, from 0."""
 
 
 ANYTHING = Element((Type(OPAQUE),))
@@ -80,11 +80,11 @@ class Scopes:
         self._sources = sources
         self._tops: dict[str, Node | None] = {}
         self._resolving: frozenset[Node] = frozenset()
-        """Classes whose base classes are being looked for: these are not looked for in what they inherit."""
+        """Classes whose base classes are being resolved: inherited elements do not count there."""
         self._depth = 0
 
     def node(self, name: Sequence[str]) -> Node | None:
-        """Return the class with this full name, not an inherited one; None if it is not at hand."""
+        """Return the class with this full name, not an inherited one; None if it is unavailable."""
         node = self._top(name[0]) if name else None
         for part in name[1:]:
             node = node and self._child(node, part)
@@ -116,7 +116,7 @@ class Scopes:
     # --- lookup ---------------------------------------------------------------------------------------------------
 
     def lookup(self, name: Name, scope: Node | None) -> Element | Missing:
-        """Return the meaning of a name that is used in a class; of None, in a file outside of all classes."""
+        """Return the meaning of a name in a class; None stands for the file outside of all classes."""
         meaning = self._first(name.parts[0], None if name.is_global else scope)
         for number, part in enumerate(name.parts[1:], start=1):
             if isinstance(meaning, Missing):
@@ -127,12 +127,12 @@ class Scopes:
         return meaning
 
     def lookup_base(self, name: Name, node: Node) -> Element | Missing:
-        """Return the meaning of a name after `extends` in a class: nothing that the class inherits."""
+        """Return the meaning of a name after `extends` in a class: inherited elements do not count."""
         with self._without_bases(node):
             return self.lookup(name, node)
 
     def part(self, types: Types, name: str) -> Element | Missing:
-        """Return the meaning of a name in something that may have any of these types."""
+        """Return the meaning of a name in an element with these possible types."""
         every = [self._member(type_, name) for type_ in types]
         elements = [member for member in every if isinstance(member, Element)]
         is_certain = all(member.is_certain for member in every if isinstance(member, Missing))
@@ -151,7 +151,7 @@ class Scopes:
         return _modified(meaning.types, [Scoped(used.arguments, scope)] if used.arguments else [])
 
     def types_in(self, component: Component, scope: Node) -> Types:
-        """Return the types that a component may have by its own declaration, in a class."""
+        """Return the possible types of a component by its own declaration in a class."""
         if not component.type.parts[0]:  # an attribute of a predefined type
             return ANYTHING.types
         types = self.types_of(Extends(component.type, component.arguments), scope)
@@ -173,7 +173,7 @@ class Scopes:
 
     @contextlib.contextmanager
     def _without_bases(self, node: Node) -> Iterator[None]:
-        """Inside, names are not looked for in what a class inherits."""
+        """Inside, names are not looked for in inherited elements."""
         before = self._resolving
         self._resolving = before | {node}
         try:
@@ -248,7 +248,7 @@ class Scopes:
     # --- elements of a class --------------------------------------------------------------------------------------
 
     def _member(self, type_: Type, name: str) -> Element | Missing:
-        """Return an element of a class, its own or an inherited one, with the modifiers that concern it."""
+        """Return an element of a class, its own or an inherited one, with its modifiers."""
         if self._depth > _DEEPEST:
             return ANYTHING
         self._depth += 1
@@ -302,7 +302,7 @@ class Scopes:
         return Element(types, is_component=True)
 
     def _redeclared(self, modifiers: tuple[Scoped, ...], name: str) -> Types:
-        """Return what modifiers of a class declare one of its elements anew to be."""
+        """Return the redeclared types of an element by the modifiers of its class."""
         nested = _nested(modifiers, name)
         types: Types = ()
         for arguments, scope in modifiers:
@@ -315,7 +315,7 @@ class Scopes:
     def _with_inherited(
         self, types: Types, node: Node, modifiers: tuple[Scoped, ...], name: str, prefixes: frozenset[str]
     ) -> Types:
-        """Add the types of the inherited element that one with the prefix `redeclare` replaces."""
+        """Add the types of the inherited element to one that redeclares it."""
         before = self._inherited(node, modifiers, name) if "redeclare" in prefixes else None
         types += before.types if isinstance(before, Element) else ()
         return tuple(dict.fromkeys(types))
@@ -338,12 +338,12 @@ class Scopes:
 
 
 def _modified(types: Types, modifiers: Sequence[Scoped]) -> Types:
-    """Return types with more modifiers, which come before those that they have."""
+    """Return types with more modifiers, in front of their present ones."""
     return tuple(type_ if type_.node is OPAQUE else Type(type_.node, (*modifiers, *type_.modifiers)) for type_ in types)
 
 
 def _nested(modifiers: Iterable[Scoped], name: str) -> tuple[Scoped, ...]:
-    """Return those parts of a class's modifiers that concern one of its elements."""
+    """Return the modifiers of a class's element among the class's modifiers."""
     return tuple(
         Scoped(modifier.arguments, scope)
         for arguments, scope in modifiers

@@ -1,6 +1,6 @@
-"""Texts with blanks for plain statements that need not be read: nearly all of a robot model is as it was generated.
+"""Replaces plain statements that need no reading by blanks: nearly all of a robot model is unedited.
 
-The other statements stay at their places, so that lines and characters count as before.
+The other statements keep their lines and columns.
 """
 
 from __future__ import annotations
@@ -25,37 +25,37 @@ _SEEN_BY_OTHERS = re.compile(r"\b(?:redeclare|uses)\b")
 
 
 _LONGEST = 1_000_000
-"""Characters that are read of a text: more take longer than 3 s."""
+"""The most characters of a text to read: more take longer than 3 s."""
 TOO_LONG = StoredText([Fault(f"has more than {_LONGEST:,} characters of yours", 1)])
-"""Stands for a text of which more would have to be read."""
+"""Stands for a text with more characters to read."""
 
 
 class Difference(NamedTuple):
     """The difference between an edited text and the generated one."""
 
     same: frozenset[str]
-    """The plain statements that both have, and that mean the same but for the names."""
+    """The plain statements that both have, and that mean the same apart from the names."""
     names: frozenset[str]
     """The names that other statements declare, in either text."""
     is_whole: bool
-    """Whether all names may have another meaning, such as where one extends or imports what the other does not."""
+    """Whether all names may have another meaning, such as after a changed `extends` or `import`."""
     generated: Class | None
-    """The generated class, as far as its text differs; None if there is none."""
+    """The generated class without equal statements; None if there is none."""
 
 
 class Reading(NamedTuple):
-    """A text of which some statements were passed over."""
+    """A text with some statements passed over."""
 
     text: str
     stored: StoredText
     passed: frozenset[int]
-    """Lines of the components of which only type and name were read."""
+    """Lines of the components with only type and name read."""
 
 
 # row "robot model edited, in the daemon": 110 of the 160 ms that 1,000 links may cost more
 @functools.lru_cache(maxsize=64)
 def parse_without(text: str, passed: frozenset[str]) -> Reading:
-    """Parse a text without some of its plain statements; their components have types and names only.
+    """Parse a text without some of its plain statements; their components have only types and names.
 
     The parsed text is `TOO_LONG` if too many characters have to be read.
     """
@@ -84,7 +84,7 @@ def compare(mine: str, generated: str) -> Difference:
 
 
 def _visible(classes: Iterable[Class]) -> Iterator[tuple[str, object]]:
-    """Yield the rest that gives names a meaning in each class: kind, base classes, redeclarations there, imports."""
+    """Yield other parts of each class that give names a meaning: kind, base classes, redeclarations there, imports."""
     for definition in classes:
         redeclared = [str(inner.type and inner.type.type) for base in definition.extends for inner in base.arguments]
         imported = [(str(clause.name), [*clause.names]) for clause in definition.imports]
@@ -99,9 +99,9 @@ def plain_statements(text: str) -> frozenset[str]:
 
 
 def is_plain(statement: str) -> bool:
-    """Whether a statement, without its semicolon, does no more than declare one component, connect, assert or annotate.
+    """Whether a statement, without its semicolon, only declares one component, connects, asserts or annotates.
 
-    It is none if others see more of it than the type and the name of a component.
+    It is not plain if other classes see more of it than type and name of a component.
     """
     if ";" in statement or _SEEN_BY_OTHERS.search(statement):
         return False
@@ -115,7 +115,7 @@ def is_plain(statement: str) -> bool:
 
 
 def mentioning(statements: Collection[str], names: Collection[str]) -> set[str]:
-    """Return the statements in which one of the names is a word."""
+    """Return the statements that contain one of the names as a word."""
     near = [statement for statement in statements if any(name in statement for name in names)]
     return {statement for statement in near if not set(re.findall(r"\w+", statement)).isdisjoint(names)}
 
@@ -127,7 +127,7 @@ def component_of(statement: str) -> tuple[str, str] | None:
 
 
 def _shorten(text: str, passed: Collection[str]) -> tuple[str, frozenset[int]]:
-    """Return a text with blanks for statements, and the lines of the components of which type and name are left."""
+    """Return a text with blanks for statements, and the lines of components that keep type and name."""
     pieces, lines, line = list[str](), set[int](), 1
     for statement in text.split(_END):
         piece, end = f"{statement}{_END}", 0

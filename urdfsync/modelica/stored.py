@@ -1,4 +1,4 @@
-"""Classes by their full names, for the resolution of names: of a robot's package, of the user's files, of libraries.
+"""Finds classes by their full names: of a robot's package, of the user's files, of libraries.
 
 Files of libraries are read when a name needs them.
 """
@@ -35,7 +35,7 @@ class StoredClasses:
         """`texts` are the files of the robot's package by their path below `folder`, `others` files of the user's.
 
         `find` gives the folder or file of any other top-level class, None if there is none; `read` parses a file if
-        names are resolved in others alone. Of `former_package`, nothing on disk counts.
+        names are resolved in others alone. Files of `former_package` on disk do not count.
         """
         self._find = functools.cache(lambda name: find(name) or self._beside(name))
         self._read = read or parse_file
@@ -49,11 +49,11 @@ class StoredClasses:
         self.all_users: list[Node] = []
         """The classes of the user's files, in the order of the files."""
         self.unread: list[Path] = []
-        """Files of the user that are no Modelica, or not where their class belongs: its classes are unknown."""
+        """The user's files that are no Modelica, or are in the wrong place: their classes are unknown."""
         self.libraries = {*STANDARD_LIBRARIES}
-        """Libraries that need not be installed: their classes are not looked for."""
+        """Libraries that need not be installed: their classes are not searched."""
         self.seen: dict[ClassName, str | None] = {}
-        """The classes that were asked for, and their files; None where there is none."""
+        """The requested classes and their files; None for a missing class."""
         prefix = tuple(package.split("."))
         for path in texts:
             if path.endswith(".mo") and f"/{NOT_CLASSES}/" not in f"/{path}":
@@ -110,7 +110,7 @@ class StoredClasses:
         return file.removeprefix(self._below) if file.startswith(self._below) else ""
 
     def has_library(self, name: str) -> bool:
-        """Whether a library need not be at hand: a `uses` annotation around the package, or of the user's, names it."""
+        """Whether a library may be missing: a `uses` annotation around the package, or of the user's, names it."""
         if name in self.libraries:
             return True
         for package in self._not_on_disk[:1]:
@@ -122,7 +122,7 @@ class StoredClasses:
         return False
 
     def names_in(self, name: ClassName) -> Iterable[str]:
-        """Return the names of classes that are stored below this package; of the empty name, top-level ones."""
+        """Return the names of classes that are stored below this package; for the empty name, top-level ones."""
         names = {other[len(name)] for other in (*self.users, *self.own) if other[:-1] == name or not name}
         path = self._file(name) if name and name not in self.own else None
         if path is not None and path.name == PACKAGE_FILE:
@@ -132,7 +132,7 @@ class StoredClasses:
         return names
 
     def _beside(self, name: str) -> Path | None:
-        """Return the folder or file of a top-level class that stands beside one of the user's; None for none."""
+        """Return the folder or file of a top-level class beside one of the user's; None if there is none."""
         places = (folder / end for folder in self._folders for end in (f"{name}/{PACKAGE_FILE}", f"{name}.mo"))
         file = next((place for place in places if is_file(place)), None)
         return file.parent if file and file.name == PACKAGE_FILE else file

@@ -1,7 +1,7 @@
 """The parts of Modelica text that give names a meaning: classes, components, modifiers, and uses of names.
 
-The parser makes these values. Lines count from 1. Annotations, descriptions and the arithmetic of expressions are
-left out; of an expression only the names in it remain.
+The parser makes these values. Lines count from 1. Annotations, descriptions and the arithmetic of expressions are left
+out; expressions keep only their names.
 """
 
 from __future__ import annotations
@@ -15,16 +15,16 @@ from urdfsync.modelica.lexer import Fault
 
 
 class Name(NamedTuple):
-    """A name with dots, where it is used; subscripts are left out."""
+    """One use of a name with dots; subscripts are left out."""
 
     parts: tuple[str, ...]
     line: int
     is_global: bool = False
-    """Whether it begins with a dot, so that it is looked for among the top-level classes alone."""
+    """Whether it begins with a dot: then only top-level classes count."""
     is_called: bool = False
     """Whether it is called as a function or record constructor."""
     starts: tuple[int, ...] = ()
-    """Where its parts begin in the text, from 0."""
+    """The beginnings of its parts in the text, from 0."""
     arguments: tuple[Name, ...] = ()
     """The names of the arguments that it is called with."""
 
@@ -36,19 +36,19 @@ class Modifier(msgspec.Struct, frozen=True, array_like=True, omit_defaults=True)
     """One argument of a modification: `mass = 3`, `inertial(mass = 3)`, `redeclare Elastic elbow(c = 1)`."""
 
     name: Name
-    """Of the modified element; with more than one part in annotations alone."""
+    """Of the modified element; only annotations have names with several parts."""
     arguments: tuple[Modifier, ...] = ()
     uses: tuple[Name, ...] = ()
     """Names in its value."""
     is_redeclared: bool = False
     type: Extends | None = None
-    """Of an element that is declared anew (`redeclare`, `replaceable`), its type or the class that it stands for."""
+    """Type or class of a redeclared element (`redeclare`, `replaceable`)."""
     constraint: Extends | None = None
     """The class after `constrainedby`."""
 
 
 class Extends(msgspec.Struct, frozen=True, array_like=True, omit_defaults=True):
-    """A class that another one is made from, with its modifiers: `extends`, `constrainedby`, `type A = B(…)`."""
+    """A base class with its modifiers: `extends`, `constrainedby`, `type A = B(…)`."""
 
     type: Name
     arguments: tuple[Modifier, ...] = ()
@@ -71,7 +71,7 @@ class ImportClause(msgspec.Struct, frozen=True, array_like=True, omit_defaults=T
     """An import clause."""
 
     name: Name
-    """The class or package behind `import`; like all names that are imported, it counts from the top."""
+    """The class or package behind `import`; imported names count from the top."""
     names: Mapping[str, Name] = {}
     """The imported names, by their short names; empty for everything in the package (`import A.*`)."""
 
@@ -85,15 +85,15 @@ class Class(msgspec.Struct, eq=False, array_like=True, omit_defaults=True):
     prefixes: frozenset[str] = frozenset()
     """Such as `partial`, `encapsulated`, `replaceable`, `redeclare`."""
     alias: Extends | None = None
-    """The class that a short definition stands for: `type Angle = Real(unit = "rad")`."""
+    """The class of a short definition: `type Angle = Real(unit = "rad")`."""
     literals: tuple[str, ...] | None = None
     """Of an enumeration; empty for `enumeration(:)`."""
     is_extension: bool = False
-    """Whether it is `model extends A`, which goes on with the inherited class of this name."""
+    """Whether it is `model extends A`, which continues the inherited class of this name."""
     is_derivative: bool = False
     """Whether it is a function that is defined as the derivative of another one."""
     arguments: tuple[Modifier, ...] = ()
-    """Modifiers of the class that `is_extension` goes on with."""
+    """Modifiers of the class that `is_extension` continues."""
     constraint: Extends | None = None
     imports: list[ImportClause] = msgspec.field(default_factory=list)
     extends: list[Extends] = msgspec.field(default_factory=list)
@@ -104,10 +104,10 @@ class Class(msgspec.Struct, eq=False, array_like=True, omit_defaults=True):
 
 
 class StoredText(msgspec.Struct, frozen=True, array_like=True, omit_defaults=True):
-    """A file of Modelica, as far as it could be read."""
+    """The readable parts of a file of Modelica."""
 
     faults: Sequence[Fault] = ()
-    """Everything wrong with its syntax, and everything in it that is there twice."""
+    """All faults of its syntax, and all repetitions."""
     within: str | None = None
     """The package that its `within` clause names; None if it has none."""
     within_line: int = 0

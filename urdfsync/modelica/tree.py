@@ -1,8 +1,8 @@
-"""A class as a tree of the things that it consists of: elements, equations, modifiers. The tree keeps every byte.
+"""A class as a tree of things: elements, equations, modifiers. The tree keeps every byte.
 
-Things have keys by which they are found in another version of the class: a component its name, a modifier its name, an
-equation what it says. Blanks and comments stand between the things, so they are part of the tree, but of no thing.
-Of an element or equation no more than its name is read, until somebody asks for its parts: most are never asked.
+Things have keys, by which they are found in another version of the class: the name of a component or modifier, the
+words of an equation. Blanks and comments stand between the things: they are part of the tree, but of no thing. Only the
+name of an element or equation is read, until its parts are needed: most never are.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from urdfsync.modelica.lexer import STATEMENT, Fault, is_name, is_number, lex, w
 from urdfsync.modelica.parser import SECTIONS, Parser
 
 LAYOUT = frozenset({"Placement", "Line", "Icon", "Diagram"})
-"""Annotations that say where something stands in a diagram, and what it looks like."""
+"""Annotations with places and looks in a diagram."""
 
 _REMARK = re.compile(r"[^\S\n]*(?://[^\n]*|/\*(?:(?!\*/)[^\n])*\*/)(?=\s*\n)")
 """A comment that ends a line."""
@@ -35,12 +35,12 @@ _PUNCTUATION = _OPEN | _CLOSED | {",", ";"}
 _LONGEST_INTEGER = 20
 
 _GEOMETRY = frozenset({"extent", "points", "origin", "rotation"})
-"""Arguments that say where something is drawn."""
+"""Arguments with places of graphics."""
 _TAIL = frozenset({"external", "annotation"})
 """Keys of the parts that end a class, behind all sections."""
 
 Words: TypeAlias = tuple[str | float, ...]
-"""The tokens of a text, numbers by their value, without blanks and comments. Integers stay integers."""
+"""The tokens of a text without blanks and comments, numbers by their value. Integers stay integers."""
 
 
 class UnreadableError(Exception):
@@ -48,7 +48,7 @@ class UnreadableError(Exception):
 
 
 class TreeKind(Enum):
-    """How the parts of a tree stand beside each other."""
+    """The arrangement of a tree's parts."""
 
     SLOTS = "slots"
     """Each has a role, such as `type`, and the order of roles is fixed; not every role is taken."""
@@ -66,7 +66,7 @@ _SEPARATORS = {TreeKind.LIST: ",", TreeKind.ARRAY: ",", TreeKind.SUM: "+"}
 
 
 class Leaf:
-    """A text of which a change is no business of the parts in it: a number, a name, an expression, a statement."""
+    """A text that changes as a whole: a number, a name, an expression, a statement."""
 
     def __init__(self, text: str, words: Words | None = None) -> None:
         self.text = text
@@ -74,12 +74,12 @@ class Leaf:
 
     @cached_property
     def words(self) -> Words:
-        """Its words; of a connection only its two ends, in alphabetical order."""
+        """Its words; a connection has only its two ends, in alphabetical order."""
         return words_of(self.text) if self._words is None else self._words
 
 
 class SyntaxTree:
-    """A thing that consists of others."""
+    """A thing with parts."""
 
     def __init__(
         self,
@@ -90,9 +90,9 @@ class SyntaxTree:
         *,
         is_function: bool = False,
     ) -> None:
-        """`closing` has the blanks and comments before the closing bracket, and the bracket.
+        """`closing` has the closing bracket with the blanks and comments before it.
 
-        `is_function` tells that it is the body of a function: the order of its inputs and outputs counts.
+        `is_function` marks the body of a function: the order of its inputs and outputs counts.
         """
         self.kind, self.opening, self.closing, self.is_function = kind, opening, closing, is_function
         self._parts = parts
@@ -113,7 +113,7 @@ class SyntaxTree:
 
     @cached_property
     def text(self) -> str:
-        """The tree as it was read, every byte."""
+        """The text of the tree, every byte."""
         separators = [*(len(self.parts) - 1) * [self.separator], ""]
         inner = (
             f"{part.before}{part.node.text}{part.after}{separator}{part.remark}"
@@ -149,7 +149,7 @@ class SyntaxTree:
         return {part.key: part for part in self.parts}
 
     def says(self, *, layout: bool) -> list[tuple[str, str, Node]]:
-        """Return its parts with their keys; without `layout`, no layout, no words of sections, and in no order."""
+        """Return its parts with their keys; without `layout`, in no order and without layout and words of sections."""
         if layout:
             return [(part.key, "", part.node) for part in self.parts]
         parts = [
@@ -165,7 +165,7 @@ class SyntaxTree:
 
 
 class Statement(SyntaxTree):
-    """An element or equation with its semicolon, which is read when its parts are asked for."""
+    """An element or equation with its semicolon; it is read when its parts are needed."""
 
     def __init__(self, text: str, *, is_equation: bool) -> None:
         super().__init__(TreeKind.SLOTS, ())
@@ -191,11 +191,11 @@ class Part(msgspec.Struct, frozen=True, eq=False):
     after: str = ""
     """Blanks and comments between it and the separator."""
     remark: str = ""
-    """A comment behind it, and behind the separator if there is one, that ends the line."""
+    """A comment at the end of its line, behind the separator if there is one."""
 
 
 def is_same(node: Node, other: Node, *, layout: bool = True) -> bool:
-    """Whether two things say the same; without `layout`, in any order of declarations and modifiers."""
+    """Whether two things have the same meaning; without `layout`, in any order of declarations and modifiers."""
     if node is other or node.text == other.text:
         return True
     if isinstance(node, Leaf) or isinstance(other, Leaf):
@@ -211,7 +211,7 @@ def is_same(node: Node, other: Node, *, layout: bool = True) -> bool:
 
 
 def is_section(key: str) -> bool:
-    """Whether a part of a body is the word that begins a section."""
+    """Whether a part of a body is the first word of a section."""
     return key.startswith("section ")
 
 
@@ -221,7 +221,7 @@ def is_equation(part: Part) -> bool:
 
 
 def section_name(section: str) -> str:
-    """Return the name of a section without its number; what stands before the first one is public."""
+    """Return the name of a section without its number; parts before the first section are public."""
     return section.rpartition(" ")[0] or section or "section public"
 
 
@@ -241,14 +241,14 @@ def comments(text: str) -> list[str]:
 
 
 def key_by_whole_equation(*trees: SyntaxTree) -> tuple[SyntaxTree, ...]:
-    """Name equations by all that they say, in all versions of a body, if one of them has several for one variable."""
+    """Key equations by all their words, in all versions of a body, if one version has several for one variable."""
     counts = [Counter(_variable(part) for part in tree.parts) for tree in trees]
     several = {name for names in counts for name, count in names.items() if name and count > 1}
     return tuple(tree.with_parts(list(_keyed(tree.parts, several))) if several else tree for tree in trees)
 
 
 def _variable(part: Part) -> str:
-    """Return the variable that names an equation if it is the only one for it; empty for anything else."""
+    """Return the variable that can name an equation; empty if there is none."""
     return part.key.partition(" = ")[0] if is_equation(part) else ""
 
 
@@ -262,7 +262,7 @@ def _keyed(parts: Sequence[Part], variables: Collection[str]) -> Iterator[Part]:
 
 
 def as_sum(node: Node) -> Node:
-    """Make a sum with one term of an expression that is nothing but a name; return others as they are."""
+    """Turn an expression that is only a name into a sum with one term; return others unchanged."""
     if not isinstance(node, Leaf) or any(
         not isinstance(word, str) or not (is_name(word) or word == ".") for word in node.words
     ):
@@ -280,7 +280,7 @@ def _words(tokens: Sequence[str]) -> Words:
 
 
 def _number(text: str) -> float:
-    """Return the value of a number; one without a point stays an Integer, unless no tool could read it."""
+    """Return the value of a number; one without a point is an Integer, unless it is too long for tools."""
     return int(text) if text.isdecimal() and len(text) < _LONGEST_INTEGER else float(text)
 
 
@@ -297,7 +297,7 @@ def _type_words(part: Part) -> Words:
 
 
 def _drawn(words: Words) -> Words:
-    """Return the words of an item of an array, but for where it is drawn."""
+    """Return the words of an array's item, without its place."""
     drawn, depth, is_place = list[str | float](), 0, False
     for number, word in enumerate(words):
         depth += (word in _OPEN) - (word in _CLOSED)
@@ -310,7 +310,7 @@ def _drawn(words: Words) -> Words:
 
 
 def _numbered(parts: Sequence[Part]) -> list[Part]:
-    """Return items or terms with their words as keys, but for where they are drawn; equal ones are numbered."""
+    """Return items or terms with their words as keys, without their places; equal ones are numbered."""
     seen = Counter[str]()
     numbered = []
     for part in parts:
@@ -321,10 +321,10 @@ def _numbered(parts: Sequence[Part]) -> list[Part]:
 
 
 class Span(NamedTuple):
-    """A part of a text, by its tokens: from the one with the number `start` up to the one before `stop`."""
+    """A part of a text: its tokens from number `start` up to the one before `stop`."""
 
     key: str
-    """Its role in what is around it, such as `type`, or the name of a modifier."""
+    """Its role in the thing around it, such as `type`, or the name of a modifier."""
     start: int
     stop: int
     inner: Sequence[Span] = ()
@@ -333,19 +333,19 @@ class Span(NamedTuple):
 
 
 class KnownStatement(NamedTuple):
-    """An element or equation that a text before had, too."""
+    """An element or equation that an earlier text has, too."""
 
     part: Part
     names: Sequence[tuple[str, str]]
-    """Names that it takes, each with the fault if another statement has it, too."""
+    """Names that it takes, each with the fault for a second statement with this name."""
 
 
 KnownStatements: TypeAlias = dict[tuple[str, str], KnownStatement]
-"""Elements and equations that are read already, by their section, and their text with the blanks before it."""
+"""Elements and equations that were read before, by their section, and their text with the blanks before it."""
 
 
 def read_tree(text: str, statements: KnownStatements | None = None) -> SyntaxTree | None:
-    """Read a text that is one class; None if it is no Modelica, several classes, or has things with the same name.
+    """Read a text that is one class; None if it is no Modelica, has several classes, or things with the same name.
 
     Known `statements` are not read again, and new ones are added.
     """
@@ -353,26 +353,26 @@ def read_tree(text: str, statements: KnownStatements | None = None) -> SyntaxTre
 
 
 def find_faults(text: str, statements: KnownStatements) -> Sequence[Fault]:
-    """Return the faults of a text, but for those inside of a known element or equation."""
+    """Return the faults of a text, without those inside of a known element or equation."""
     return _TreeReader(text, statements, reads_all=True).read().faults
 
 
 class _OpenBody:
-    """The body of a class, as far as it has been read."""
+    """The body of a class during the reading."""
 
     def __init__(self, mark: int, end: int, *, skips: bool) -> None:
         self.skips = skips
-        """Whether only names of elements and equations are read."""
+        """Whether to read only names of elements and equations."""
         self.mark = mark
-        """How many spans there are before those of the element or equation that is being read."""
+        """The number of spans before the present element or equation."""
         self.end = end
-        """Where the text ends that is in a part."""
+        """The end of the text in parts."""
         self.parts: list[Part] = []
         self.section = ""
-        """The words that began the section here, such as `initial equation`."""
+        """The first words of the present section, such as `initial equation`."""
         self.sections = Counter[str]()
         self.names: list[tuple[str, str]] = []
-        """Names that the element or equation takes that is being read."""
+        """Names that the present element or equation takes."""
 
     def add(self, part: Part, text: str, stop: int) -> None:
         """Add a part that ends at this place in the text, and the comment behind it."""
@@ -382,16 +382,16 @@ class _OpenBody:
 
 
 class _TreeReader(Parser):
-    """Makes the tree of what the parser reads: it notes how far each part goes."""
+    """Makes the tree during the parsing: it notes the extent of each part."""
 
     def __init__(self, text: str, statements: KnownStatements, *, reads_all: bool = False) -> None:
         super().__init__(text)
         self._statements, self._reads_all = statements, reads_all
         self._spans: list[Span] = []
         self._body = _OpenBody(0, 0, skips=False)
-        """That of the innermost class around this place."""
+        """The body of the innermost class around this place."""
         self._end = 0
-        """Where the text ends that is in the tree."""
+        """The end of the text in the tree."""
 
     def file(self) -> SyntaxTree | None:
         """Read the whole text; None if it is not one class that can be merged."""
@@ -500,7 +500,7 @@ class _TreeReader(Parser):
         body.add(part, text, stop)
 
     def _key(self, spans: Sequence[Span]) -> str:
-        """Return the key of an element or equation, by which other versions of the class have it."""
+        """Return the key of an element or equation: other versions of the class have the same."""
         first = next(span for span in spans if span.key not in ("prefixes", "type"))
         inner = self.words[first.start : first.stop]
         if first.key == "import":
@@ -532,11 +532,11 @@ class _TreeReader(Parser):
     # --- the parts --------------------------------------------------------------------------------------------------
 
     def _stop(self, at: int) -> int:
-        """Return where the token before the one with this number ends."""
+        """Return the end of the token before the one with this number."""
         return self.starts[at - 1] + len(self.words[at - 1])
 
     def _blanks(self, at: int) -> str:
-        """Return what stands before a token, and go beyond it."""
+        """Return the blanks before a token, and go beyond them."""
         before = self.text[self._end : self.starts[at]]
         self._end = self.starts[at]
         return before
@@ -552,7 +552,7 @@ class _TreeReader(Parser):
         return _with_unique_keys(SyntaxTree(TreeKind.SLOTS, [self._slot(span) for span in spans]))
 
     def _slot(self, span: Span) -> Part:
-        """Return a part of an element that has a role in it."""
+        """Return a part of an element, by its role."""
         if span.body:
             self._end += len(span.body.text)
             return Part("body", "", span.body)
@@ -582,7 +582,7 @@ class _TreeReader(Parser):
         return SyntaxTree(TreeKind.LIST, parts, opening, closing)
 
     def _separated(self, part: Part, at: int, separator: str) -> Part:
-        """Return a part with the blanks before the separator, if that comes now, and the comment behind it."""
+        """Return a part with the blanks before a following separator, and the comment behind it."""
         after = ""
         if self.words[at] == separator:
             after = self._blanks(at)
@@ -592,7 +592,7 @@ class _TreeReader(Parser):
         return msgspec.structs.replace(part, after=after, remark=remark)
 
     def _expressed(self, span: Span) -> Node:
-        """Return an expression: a sum or an array of things that have names, or a leaf."""
+        """Return an expression: a sum or an array of named things, or a leaf."""
         depth, operators, items, terms = 0, set[str](), [span.start], [span.start]
         for at in range(span.start, span.stop):
             word = self.words[at]
@@ -615,7 +615,7 @@ class _TreeReader(Parser):
         return is_name(word) or (word == "{" and is_name(self.words[at + 1]))
 
     def _sequence(self, kind: TreeKind, starts: Sequence[int], span: Span) -> SyntaxTree:
-        """Return a sum or an array, of which each item begins at one of these tokens."""
+        """Return a sum or an array; each item begins at one of these tokens."""
         parts, has_bracket = list[Part](), kind is TreeKind.ARRAY
         opening = self._said(span.start + 1) if has_bracket else ""
         separators = [*(start - 1 for start in starts[1:]), span.stop - has_bracket]

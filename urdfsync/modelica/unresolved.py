@@ -1,4 +1,4 @@
-"""Find names in classes that mean nothing, and modifiers of elements that do not exist."""
+"""Finds unresolved names in classes, and modifiers of missing elements."""
 
 from __future__ import annotations
 
@@ -12,17 +12,17 @@ from urdfsync.modelica.syntax import Component, Extends, Modifier, Name
 from urdfsync.spelling import nearest
 
 _RATHER_ALIKE, _ALIKE = 0.6, 0.75
-"""Likeness (see `difflib`) of a misspelled name; what may be the name of a library has to be more alike."""
+"""Likeness (see `difflib`) of a misspelled name; the second is for a possible name of a library."""
 
 _CALLED = frozenset({"function", "operator function", "record"})
-"""Kinds of classes whose elements are what they are called with."""
+"""Kinds of classes whose elements are their arguments."""
 
 
 class UnresolvedKind(enum.Enum):
-    """The kind of fault that a name has."""
+    """The kind of a name's fault."""
 
     CLASS = "class"
-    """It is used as a class, and there is none."""
+    """It is used as a class, and there is no such class."""
     ELEMENT = "element"
     """A class has no component or function of this name."""
     CIRCLE = "circle"
@@ -34,20 +34,20 @@ class UnresolvedKind(enum.Enum):
 
 
 class Unresolved(NamedTuple):
-    """One place at which something is wrong with a name."""
+    """One faulty use of a name."""
 
     kind: UnresolvedKind
     name: str
     """The name as it is written, with dots."""
     part: str
-    """The part of it that means nothing."""
+    """The unresolved part of it."""
     owner: str
     """The full name of the class that lacks it."""
     line: int
     near: str = ""
     """The candidate that is most like the part; empty if none is."""
     candidates: Collection[str] = ()
-    """The names that mean something there."""
+    """The valid names at this place."""
     is_library: bool = False
     """Whether it may be the name of a library."""
 
@@ -77,15 +77,15 @@ def unresolved(
 ) -> Iterator[Unresolved]:
     """Yield the faults of names in a class and in the classes inside of it.
 
-    A name that may come from an unread library is no fault, nor is an element that a class may inherit from there,
-    unless its name is `lost`. With `all_libraries`, all libraries are known by name: another one is missing.
-    Components in the lines `passed` are right.
+    A name that may come from an unread library is no fault. Neither is an element that a class may inherit from there,
+    unless its name is `lost`. With `all_libraries`, the names of all libraries are known, so any other library is
+    missing. Components in the lines `passed` are right.
     """
     yield from _Walk(scopes, all_libraries, lost, passed).find(node)
 
 
 def _is_in_open_package(scope: Node | None, scopes: Scopes) -> bool:
-    """Whether a class or one around it is a package that may inherit classes from a library that is not at hand."""
+    """Whether a class or one around it is a package that may inherit classes from an unavailable library."""
     while scope is not None:
         if scope.definition.kind == "package" and any(base.node is OPAQUE for base in scopes.bases(scope)):
             return True
@@ -135,7 +135,7 @@ class _Walk(NamedTuple):
         return bool(waiting)
 
     def _used(self, used: Extends, scope: Node | None) -> Iterator[Unresolved]:
-        """Yield the faults of a class that is used, and of the modifiers beside it."""
+        """Yield the faults of a used class, and of the modifiers beside it."""
         yield from self._missing(used.type, self.scopes.lookup(used.type, scope), scope, UnresolvedKind.CLASS)
         yield from self._arguments(used.arguments, self.scopes.types_of(used, scope), scope)
 
@@ -164,7 +164,7 @@ class _Walk(NamedTuple):
     def _arguments(
         self, arguments: tuple[Modifier, ...], types: Types, scope: Node | None, depth: int = 0
     ) -> Iterator[Unresolved]:
-        """Yield the faults of modifiers of something that may have one of these types."""
+        """Yield the faults of modifiers of an element with these possible types."""
         for modifier in arguments:
             meaning: Element | Missing = Element(types)
             for part in modifier.name.parts:

@@ -1,4 +1,4 @@
-"""All that the page of a robot shows, gathered from what other commands know. Writes nothing."""
+"""Gathers the content of a robot's page from the results of other commands. Writes nothing."""
 
 from __future__ import annotations
 
@@ -31,9 +31,9 @@ class Content(msgspec.Struct, frozen=True):
 
     robot: RobotConfig
     version: Contents
-    """What is shown."""
+    """The version that is shown."""
     section: Section
-    """What changed, in words."""
+    """The changes in words."""
     against: str
     """The older version, in words."""
     picture: Picture
@@ -42,9 +42,9 @@ class Content(msgspec.Struct, frozen=True):
     renamed: Mapping[str, str]
     """New names of elements by the old ones."""
     changes: Mapping[str, Sequence[str]]
-    """What changed of each element, in words."""
+    """The changes of each element, in words."""
     files: Mapping[str, Sequence[str]]
-    """Files of each element, as people see them."""
+    """Files of each element, for people."""
     diagram: str
     """SVG; empty if there is none."""
     edits: RobotEdits
@@ -61,8 +61,8 @@ def gather(
 ) -> Content:
     """Return all about one robot; `against` is a git revision, else a file, counted from `folder`.
 
-    Where nothing changed since the last build, the older version is the first of `shown_before` that differs.
-    Raises UrdfsyncError if the source can't be read, or the older version.
+    If nothing changed since the last build, the older version is the first different one of `shown_before`. Raises
+    UrdfsyncError if the source or the older version can't be read.
     """
     options = msgspec.structs.replace(options, dry=True)
     (compared,) = compare_sources([robot], against, config, options, folder)
@@ -93,7 +93,7 @@ def gather(
 def _with_older(
     compared: Comparison, generation: Generation, shown_before: Sequence[Contents]
 ) -> tuple[Comparison, Contents | None]:
-    """Return the comparison that the page tells, and the older version in it; see `gather`."""
+    """Return the comparison for the page, and its older version; see `gather`."""
     older = compared.versions[0] if compared.versions else _last_build(generation)
     other = next((each for each in shown_before if each[0] != generation.now), None)
     if other is None or (compared.result.changes and compared.result.changes.changes):
@@ -106,7 +106,7 @@ def _with_older(
 
 
 def _last_build(generation: Generation) -> Contents | None:
-    """Return the version that is recorded of the last complete build, with its imports as far as they are still so."""
+    """Return the recorded version of the last complete build, with its unchanged imports."""
     last = generation.inputs.last
     if last.version is None:
         return None
@@ -117,7 +117,7 @@ def _last_build(generation: Generation) -> Contents | None:
 
 
 def _statuses(changes: Changes) -> dict[str, str]:
-    """Return which elements differ; rounding, and what is not modelled, is no difference."""
+    """Return which elements differ; rounding and unmodelled parts are no difference."""
     statuses = dict[str, str]()
     for change in changes.changes:
         kind = change.element.partition(" ")[0]
@@ -131,7 +131,7 @@ def _statuses(changes: Changes) -> dict[str, str]:
 
 
 def _change_words(changes: Changes) -> dict[str, list[str]]:
-    """Return what changed of each element that has its own row."""
+    """Return the changes of each element with its own row."""
     words = dict[str, list[str]]()
     for element, of_element in changes.by_element().items():
         rows = outline(msgspec.structs.replace(changes, changes=tuple(of_element)))

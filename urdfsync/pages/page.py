@@ -1,6 +1,6 @@
-"""The page of a robot as one HTML file, which needs nothing else: no server, no network, no other file.
+"""Makes the page of a robot: one HTML file that needs no server, no network and no other file.
 
-Whatever is in a source is shown as text. The page forbids every script and style that it was not written with.
+Texts of a source are shown as text. The page forbids all scripts and styles other than its own.
 """
 
 from __future__ import annotations
@@ -33,20 +33,20 @@ from urdfsync.simulation.files import check_file, not_writable
 from urdfsync.simulation.results import SimulateResult
 
 SCRIPTS = ("robot.js", "loops.js", "orbit.js", "panels.js", "motion.js", "page.js")
-"""Our own scripts, in the order in which they run: each may use what those before it declare."""
+"""Our own scripts, in their order: each may use declarations of those before it."""
 FOLLOWER = "follow.js"
-"""The last one, if a daemon serves the page."""
+"""The last script of a page that a daemon serves."""
 _FOLDER = Path(__file__).parent
 _STYLE = re.compile("<style>(.*?)</style>", re.DOTALL)
 _MOST_INSTANTS = 1000
-"""Instants of a simulation that the page has."""
+"""The most instants of a simulation on the page."""
 _LEAST = 1e-17
-"""The least relative error that the scale of a check has."""
+"""The least relative error on the scale of a check."""
 _DATA = "against statuses renamed changes files diagram".split()
-"""What the scripts need of the content."""
+"""The content for the scripts."""
 _SUFFIXES = (".html", ".htm")
 _GENERATOR, _BEGINNING = b'<meta name="generator" content="urdfsync', 2000
-"""What every page has in so many of its first bytes."""
+"""The mark of every page in so many of its first bytes."""
 _ESCAPES = {ord(char): f"\\u{ord(char):04x}" for char in "<>&\u2028\u2029"}
 
 
@@ -100,7 +100,7 @@ def page(
 
 
 def check_page(file: Path, inputs: Mapping[str, Path]) -> None:
-    """Raise OutputError for a page that can't be written, or would replace one of `inputs`."""
+    """Raise OutputError for a page that can't be written, or that would replace one of `inputs`."""
     if file.suffix.lower() not in _SUFFIXES:
         raise not_writable(file, "a page's name ends with .html", "name such a file")
     check_file(file, inputs)
@@ -115,7 +115,7 @@ def is_page(file: Path) -> bool:
 
 
 def _policy(scripts: Sequence[str], styles: Sequence[str], connections: str) -> str:
-    """Return the content security policy: these scripts and styles alone, and nothing from elsewhere."""
+    """Return the content security policy: only these scripts and styles, and nothing from elsewhere."""
     hashes = [" ".join(map(_hash, dict.fromkeys(texts))) for texts in (scripts, styles)]
     own = f"script-src {hashes[0]}; style-src {hashes[1]}; connect-src {connections}; img-src data: blob:"
     return f"default-src 'none'; {own}; base-uri 'none'; form-action 'none'"
@@ -126,12 +126,12 @@ def _hash(text: str) -> str:
 
 
 def _json(values: Any) -> str:
-    """Return JSON that ends no script element and begins no comment, whatever texts are in it; no number is null."""
+    """Return JSON that ends no script element and begins no comment; no number is null."""
     return msgspec.json.encode(values).decode().translate(_ESCAPES)
 
 
 def _packed(meshes: Iterable[Triangles]) -> str:
-    """Return the contents of meshes, one after the other; the data say how many points and faces there are of each."""
+    """Return the contents of meshes, one after the other; the data have the numbers of points and faces of each."""
     content = b"".join(mesh.content for mesh in meshes)
     return base64.b64encode(gzip.compress(content, 6, mtime=0)).decode()
 
@@ -140,7 +140,7 @@ def _packed(meshes: Iterable[Triangles]) -> str:
 
 
 def _motion(result: SimulateResult) -> dict[str, Any]:
-    """Return the joints of one robot, and the series of their variables at so many times as a page shows."""
+    """Return the joints of one robot, and the series of their variables at the page's times."""
     robots = [joint.robot for joint in result.joints]
     robot = "robot" if "robot" in robots else next(iter(robots), "")
     joints = [joint for joint in result.joints if joint.robot == robot]
@@ -153,7 +153,7 @@ def _motion(result: SimulateResult) -> dict[str, Any]:
 
 
 def _compared(result: CheckResult) -> list[tuple[Deviation, float, float]]:
-    """Return all that was compared, the worst first, each with the logarithms of its error and of what is allowed."""
+    """Return all compared quantities, the worst first, each with the logarithms of its error and its tolerance."""
     deviations = sorted(result.deviations, key=lambda each: each.relative / each.tolerance, reverse=True)
     sizes = ((each.relative, each.tolerance) for each in deviations)
     logs = [[math.log10(min(max(size, _LEAST), 1.0)) for size in pair] for pair in sizes]

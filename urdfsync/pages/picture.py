@@ -1,4 +1,4 @@
-"""The picture of a robot: its scenes, and the triangles of the meshes in them. What is simplified is remembered."""
+"""Makes the picture of a robot: its scenes, and the triangles of their meshes. Simplified meshes are remembered."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ from urdfsync.pages.scene import Pictures, Scene, Triangles
 from urdfsync.versions.comparison import Contents
 
 _MOST, _MOST_IN_ALL = 60_000, 500_000
-"""Triangles of one mesh, and of all, which have equal shares: a page has some 13 bytes for each."""
+"""The most triangles of one mesh, and of all meshes, which have equal shares: each takes some 13 bytes."""
 _MOST_REFUSED = 4
-"""Files that are too large for the package and are read for the picture: each may take 16 s."""
+"""The most files that are too large for the package and are read for the picture: each may take 16 s."""
 
 
 class Picture(msgspec.Struct, frozen=True):
@@ -32,13 +32,13 @@ class Picture(msgspec.Struct, frozen=True):
     before: Scene | None
     """None if nothing changed, or there is no older version."""
     meshes: Mapping[str, Triangles]
-    """Those of both versions."""
+    """The meshes of both versions."""
     notes: Sequence[str]
-    """What is not shown as it is."""
+    """Missing and simplified meshes, in words."""
 
 
 class _File(NamedTuple):
-    """A mesh file; `key` is that of a dependency that is too large for the package, and empty for an imported file."""
+    """A mesh file; `key` is the key of a dependency that is too large for the package, empty for an imported file."""
 
     path: str
     content: bytes
@@ -79,7 +79,7 @@ def picture(generation: Generation, older: Contents | None) -> Picture:
 
 
 def _by_hash(version: Contents) -> tuple[dict[str, Import], dict[str, _File]]:
-    """Return the imports of a version with their hashes for their paths, and their files by these."""
+    """Return the imports of a version with hashes in place of paths, and their files by these hashes."""
     imports, contents = version[0].imports or {}, version[1]
     present = [entry for entry in imports.values() if entry.target in contents]
     files = {entry.target_hash: _File(entry.target, contents[entry.target]) for entry in present}
@@ -100,7 +100,7 @@ def _read(
 
 
 def _note(mesh: Triangles | str) -> str:
-    """Return what is said of a mesh that is not shown as it is."""
+    """Return the note about a missing or simplified mesh."""
     if isinstance(mesh, str):
         return f"can't be shown: {mesh}"
     # triangles without area are left out of every mesh

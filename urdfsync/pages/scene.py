@@ -21,7 +21,7 @@ class Shape(msgspec.Struct, frozen=True):
     kind: str
     """`visual` or `collision`."""
     form: str
-    """`box`, `cylinder`, `capsule`, `sphere` or `mesh`; long ones stand along z."""
+    """`box`, `cylinder`, `capsule`, `sphere` or `mesh`; cylinders and capsules stand along z."""
     size: tuple[float, ...]
     """Edges of a box; radius and length of all others, without the half spheres of a capsule."""
     pose: Pose
@@ -29,7 +29,7 @@ class Shape(msgspec.Struct, frozen=True):
     color: tuple[float, ...]
     """Red, green, blue and opacity, from 0 to 1."""
     mesh: str = ""
-    """The import's `target`, as the scene got it."""
+    """The import's `target`."""
 
 
 class Body(msgspec.Struct, frozen=True):
@@ -66,7 +66,7 @@ class Hinge(msgspec.Struct, frozen=True):
     upper: float | None = None
     """None for no limit."""
     leader: str = ""
-    """The element that it follows; empty if it moves by itself."""
+    """The followed element; empty if it moves by itself."""
     multiplier: float = 1.0
     offset: float = 0.0
     is_dependent: bool = False
@@ -81,9 +81,9 @@ class End(msgspec.Struct, frozen=True):
 
 
 class Loop(msgspec.Struct, frozen=True):
-    """A connection of two bodies that hinges connect already, by equations for the place and axes of its second end.
+    """A connection of two bodies that hinges already connect.
 
-    These are resolved in the first end.
+    Its equations hold place and axes of its second end, resolved in the first end.
     """
 
     element: str
@@ -91,9 +91,9 @@ class Loop(msgspec.Struct, frozen=True):
     facts: Facts
     ends: tuple[End, End]
     translations: tuple[tuple[float, ...], ...]
-    """Directions along which both ends are at one place."""
+    """Directions along which both ends coincide."""
     rotations: tuple[tuple[tuple[float, ...], tuple[float, ...]], ...]
-    """A direction of the first end and one of the second, which are at right angles."""
+    """Pairs of perpendicular directions, of the first end and of the second."""
 
 
 class Scene(msgspec.Struct, frozen=True):

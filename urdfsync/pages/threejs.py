@@ -1,8 +1,8 @@
-"""three.js, as trimesh brings it for its own viewer.
+"""Loads three.js from trimesh, which has it for its own viewer.
 
-The repository has no JavaScript of others. The page gets it when it is written, from the installed package of trimesh,
-which reads meshes anyway: three.js r140, 0.7 MB, under the MIT licence. In meshcat and in viser
-it can't be told from their own programs, 0.9 and 0.8 MB in one file, and both would be a further dependency.
+The repository has no JavaScript of others. The page gets it from the installed trimesh, which reads meshes anyway:
+three.js r140, 0.7 MB, under the MIT licence. In meshcat and viser it is part of one file with their own programs (0.9
+and 0.8 MB), and both would be a further dependency.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ _SCRIPT = "<script>"
 _END = "THREE.GLTFLoader=GLTFLoader;})();"
 """The end of the loader; the viewer's own code follows."""
 _FORBIDDEN = ("</script", "<!--")
-"""Would end the element that the script stands in, or change how it is read."""
+"""Would end the script's element, or change its meaning."""
 
 
 class Library(NamedTuple):
@@ -33,7 +33,7 @@ class Library(NamedTuple):
 
 
 def load() -> Library:
-    """Return three.js. Raises UrdfsyncError if the installed trimesh does not have it as expected."""
+    """Return three.js. Raises UrdfsyncError if the installed trimesh lacks it."""
     spec = importlib.util.find_spec("trimesh")  # which does not import it: that takes half a second
     for folder in (spec.submodule_search_locations or ()) if spec else ():
         try:

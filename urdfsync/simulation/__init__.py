@@ -1,1 +1,1 @@
-"""`urdfsync simulate`: a model of a package or of the user is simulated, joints are held against their limits."""
+"""`urdfsync simulate`: simulates a model of a package or of the user, and compares joints with their limits."""

@@ -25,19 +25,19 @@ from urdfsync.simulation.results import STOP, SimulateOptions
 from urdfsync.simulation.values import modifiers
 
 TOLERANCE = 1e-10
-"""The tolerance of the integration inside of an FMU for co-simulation, which importers can't change."""
+"""The tolerance of an FMU's integration for co-simulation; importers can't change it."""
 _DESCRIPTION = "modelDescription.xml"
 _BY_URDFSYNC = "exported by urdfsync"
 _BEGINNING = 2**16
-"""Bytes of a description that have the attributes of its root element, where that stands."""
+"""So many first bytes of a description contain the attributes of its root element."""
 _MOST_BYTES = 2**28
-"""Of an FMU whose list of contents is read; such a list may be nearly all of a file."""
+"""The most bytes of an FMU whose list of contents is read: the list may be nearly all of a file."""
 _HIGHER_DERIVATIVE = re.compile(rb'(?<=name=")((?:der\(){2,})([^"()]*)\)+(?=")')
 _MODEL_EXCHANGE = re.compile(rb"[ \t]*<ModelExchange\b[^>]*?(?:/>|>.*?</ModelExchange>)\s*", re.DOTALL)
 
 
 class Exported(msgspec.Struct, frozen=True):
-    """An FMU, and what it was made of."""
+    """An FMU, and its inputs."""
 
     KEYS = ("model", "tool", "tolerance", "bytes", "seconds")
 
@@ -47,7 +47,7 @@ class Exported(msgspec.Struct, frozen=True):
     name: str
     """The model's name in the FMU."""
     inputs: tuple[Input, ...]
-    """The inputs that a trial drives; none without a trial."""
+    """The driven inputs of a trial; none without a trial."""
     stop: float
     step: float
     tolerance: float
@@ -73,8 +73,8 @@ def export(
 ) -> Exported:
     """Export a model as FMU. Writes nothing but the cache.
 
-    Raises UrdfsyncError for whatever is wrong with the model or the compiler, and with `for_trial` for inputs that no
-    motion could drive; OSError for what can't be read.
+    Raises UrdfsyncError for faults of the model or the compiler, and with `for_trial` for inputs that no motion can
+    drive; OSError for unreadable files.
     """
     begin = time.monotonic()
     prepared = prepare(config, robot, options, for_export=True)
@@ -135,7 +135,7 @@ def _corrected(content: bytes, *, with_model_exchange: bool) -> bytes:
 def is_exported(file: Path) -> bool:
     """Whether a file is an FMU that urdfsync exported.
 
-    It may be a stranger's: no more is read than the beginning of its description, whatever that unpacks to.
+    It may be a stranger's, so only the beginning of its description is unpacked.
     """
     try:
         if not file.is_file() or file.stat().st_size > _MOST_BYTES:

@@ -38,7 +38,7 @@ def check_outputs(files: Mapping[str, Path], inputs: Mapping[str, Path]) -> None
 
 
 def input_files(config: Config, robot: RobotConfig, motion: Path | None) -> dict[str, Path]:
-    """Return the files that no output may replace, by what they are."""
+    """Return the files that no output may replace, by their kinds."""
     files = {"the source of the robot": robot.source, "the configuration": config.file}
     return files | ({"the file with the inputs": motion} if motion else {})
 
@@ -58,7 +58,7 @@ def check_file(file: Path, inputs: Mapping[str, Path]) -> None:
 
 
 def default_file(name: str, is_ours: Callable[[Path], bool]) -> Path:
-    """Return the file of a name, here. Raises OutputError if one is there that `is_ours` says is not urdfsync's."""
+    """Return the file of a name in the working folder. Raises OutputError if `is_ours` denies an existing one."""
     file = Path(name)
     if file.is_symlink() or (file.exists() and not is_ours(file)):
         hint = "name a file with `--output`, this one to replace it"
@@ -90,7 +90,7 @@ def _content(kind: str, file: Path, result: SimulateResult) -> bytes:
 
 
 def _csv_lines(series: Series) -> Iterator[str]:
-    """Yield the lines of a CSV file, all digits of each number in it; names with commas are quoted."""
+    """Yield the lines of a CSV file, with all digits of each number; names with commas are quoted."""
     names = (f'"{name}"' if "," in name else name for name in series)
     yield ",".join(names) + "\n"
     for row in zip(*series.values(), strict=True):

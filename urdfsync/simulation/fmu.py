@@ -1,4 +1,4 @@
-"""Tries an FMU out: FMPy validates and simulates it, and the trajectory is held against that of `simulate`."""
+"""Tries an FMU out: FMPy validates and simulates it, and the trajectory is compared with that of `simulate`."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ AGREEMENT = 1e-6
 """The greatest difference that counts as agreement, of each variable relative to its greatest value or 1."""
 _REFERENCE_TOLERANCE = 1e-10
 _TOLERANCES = (1e-10, 1e-8, 1e-6)
-"""Of FMPy's own integration of model exchange, the first with which it comes to the end."""
+"""Tolerances of FMPy's integration of model exchange; the first successful one counts."""
 _SAME_TIME = 1e-9
 _LONGEST_MESSAGE = 300
 KINDS = {"me": "ModelExchange", "cs": "CoSimulation"}
@@ -38,11 +38,11 @@ class Trial(msgspec.Struct, frozen=True):
     """The findings of FMPy about an FMU."""
 
     findings: tuple[str, ...]
-    """Of its validation."""
+    """Findings of its validation."""
     agreement: Mapping[str, float]
     """For each kind that was simulated, the greatest relative difference of a variable from `simulate`."""
     worst: Mapping[str, str]
-    """The variable that has it."""
+    """The variable with this difference."""
     compared: int
     """Number of variables."""
     problems: Mapping[str, str] = {}
@@ -63,7 +63,7 @@ class WrittenFmu(msgspec.Struct, frozen=True):
 
 
 def find_faults(trial: Trial, file: Path) -> list[Diagnostic]:
-    """Return what a trial found, as warnings."""
+    """Return the findings of a trial, as warnings."""
     warnings = [
         Diagnostic(Severity.WARNING, "fmu-not-valid", f"FMPy: {words}", shown(file)) for words in trial.findings
     ]
@@ -108,8 +108,8 @@ def try_out(
 ) -> Trial:
     """Validate and simulate an FMU, with the motion of the options or with inputs that stay at 0.
 
-    A motion is for co-simulation alone, where inputs change at each step: FMPy's integration of model exchange does
-    not see that they change within its own steps. Raises UrdfsyncError.
+    A motion drives only co-simulation, whose inputs change at each step: FMPy's integration of model exchange misses
+    changes within its own steps. Raises UrdfsyncError.
     """
     motion = read_motion(options.motion, exported.inputs) if options.motion else at_rest(exported.inputs, exported.stop)
     stop = motion.times[-1]
@@ -208,9 +208,9 @@ def _examine(request: _Request) -> Iterator[_Examined]:
 
 
 def _differences(series: Series, reference: Series) -> dict[str, float]:
-    """Return the greatest difference of each variable that both have, relative to its greatest value or 1.
+    """Return the greatest difference of each common variable, relative to its greatest value or 1.
 
-    Where the reference has several results at one time, at an event, the nearest counts.
+    If the reference has several results at one time, at an event, the nearest counts.
     """
     import numpy as np
 

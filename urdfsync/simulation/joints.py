@@ -1,4 +1,4 @@
-"""Joints over a simulation: their places in a model, their motion, and the limits that they passed."""
+"""Finds joints in a simulated model, their motion, and the limits that they passed."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from urdfsync.simulation.bench import Axis, Bench, Signal
 from urdfsync.simulation.results import JointResult, LoopResult, PassedLimit, Range, Series
 
 _ENDLESS = 1e300
-"""From here on a limit is none: compilers write infinity as the greatest number that they have."""
+"""A larger limit is none: compilers write infinity as their greatest number."""
 _ROUNDING = 1e-6
-"""As `UrdfSync.Functions.isAtMost` has it: in the unit of a quantity, and as a share of it."""
+"""The margin of `UrdfSync.Functions.isAtMost`: in the unit of a quantity, and as a share of it."""
 _INTEGRATION = 1e-4
-"""The share of the way that a quantity goes in all which counts as an error of the integration.
+"""Errors of the integration, as a share of a quantity's whole way.
 
 Sources that follow a motion begin up to 2e-5 rad below 0 on a way of 1 rad, with the tolerance of Test, 1e-6: a joint
-whose lower limit is 0 passes nothing by that.
+with the lower limit 0 does not pass it by that.
 """
 
 
@@ -27,7 +27,7 @@ Layouts: TypeAlias = Sequence[Sequence[Axis]]
 
 
 def pattern(bench: Bench) -> str:
-    """Return a regular expression for the variables of joints, wherever in a model the robot is."""
+    """Return a regular expression for the variables of joints of a robot anywhere in a model."""
     axes = [axis for layout in bench.layouts for axis in layout]
     names = dict.fromkeys(name for axis in axes for _, signal in _signals(axis) for name in _names(signal))
     names |= dict.fromkeys(name for loop in bench.loops for name in (loop.gap, *loop.force, *loop.torque))
@@ -54,7 +54,7 @@ def joint_results(layouts: Layouts, series: Series, parameters: Mapping[str, flo
 
 
 def loop_results(bench: Bench, series: Series) -> Iterator[LoopResult]:
-    """Yield the result of each loop of each robot in a model; none of one that the model has without its joint."""
+    """Yield the result of each loop of each robot in a model, without loops whose joint is replaced."""
     for place, _ in robots(bench.layouts, series) if bench.loops else ():
         for loop in bench.loops:
             vectors = [[_below(place, name) for name in names] for names in ((loop.gap,), loop.force, loop.torque)]
@@ -64,9 +64,9 @@ def loop_results(bench: Bench, series: Series) -> Iterator[LoopResult]:
 
 
 def robots(layouts: Layouts, series: Series) -> list[tuple[str, Sequence[Axis]]]:
-    """Return the components that are robots, with their layouts: those below which most of the positions are.
+    """Return the components that are robots, with their layouts: those with most of the positions.
 
-    A joint may have been exchanged for another model, and parts of something else may have the name of a joint.
+    A joint may be exchanged for another model, and other parts may have the name of a joint.
     """
     shares: dict[tuple[str, int], float] = {}
     for number, layout in enumerate(layouts):
@@ -89,7 +89,7 @@ def _names(signal: Signal) -> Iterator[str]:
 
 
 def _values(signal: Signal, place: str, series: Series, parameters: Mapping[str, float]) -> Any:
-    """Return the numbers of a signal as an array; None if the model does not have it."""
+    """Return the numbers of a signal as an array; None if the model lacks it."""
     name, *added = (_below(place, name) for name in (signal.variable, *(signal.added or ())))
     if name not in series:
         return None
@@ -102,7 +102,7 @@ def _values(signal: Signal, place: str, series: Series, parameters: Mapping[str,
 
 
 def _by_direction(accelerations: Any, speeds: Any) -> Any:
-    """Return the sizes of accelerations, below 0 where they slow a joint down."""
+    """Return the sizes of accelerations, negative where they slow a joint down."""
     import numpy as np  # see above
 
     sizes = np.abs(accelerations)
@@ -119,7 +119,7 @@ def _quantity(signal: Signal, place: str, values: Any, parameters: Mapping[str, 
 
 
 def _passed(name: str, quantity: Range, times: Sequence[float], values: Any) -> Iterator[PassedLimit]:
-    """Yield the limits that a quantity passes by more than rounding and the integration make."""
+    """Yield the limits that a quantity passes by more than rounding and errors of the integration."""
     import numpy as np  # see above
 
     for limit, sign in ((quantity.lower, -1), (quantity.upper, 1)):

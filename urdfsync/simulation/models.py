@@ -1,4 +1,4 @@
-"""The model that is simulated: its file, its base classes, its inputs and the settings of its annotation."""
+"""Finds the simulated model: its file, its base classes, its inputs and its settings."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _ARRAY = re.compile(r"\s*\[")
 _UNIT = re.compile(r"\bunit\s*=\s*(\"[^\"]*\"|\{[^{}]*\})")
 _KINDS = ("model", "block", "class")
 _FILTERED = (("Sources", "Position"), ("Sources", "Speed"))
-"""Ends of the names of drives of the Modelica Standard Library that have a filter."""
+"""Endings of names of the Modelica Standard Library's drives with a filter."""
 
 
 class Input(msgspec.Struct, frozen=True):
@@ -33,20 +33,20 @@ class Input(msgspec.Struct, frozen=True):
 
     name: str
     unit: str
-    """As Modelica writes it; empty if it is unknown."""
+    """The unit as Modelica writes it; empty if unknown."""
 
 
 class Driven(msgspec.Struct, frozen=True):
     """The changes to a model by which its inputs can follow a table."""
 
     changed: Mapping[Path, bytes]
-    """Contents in which the inputs are outputs, by file: the model's own equations may then set them."""
+    """Contents with outputs in place of the inputs, by file: the model's own equations may then set them."""
     modifiers: tuple[str, ...]
     """Modifiers that switch the filters of drives off."""
 
 
 class Model:
-    """A class that can be simulated, with those that it extends."""
+    """A class that can be simulated, with its base classes."""
 
     def __init__(self, scopes: Scopes, node: Node, content: Callable[[str], bytes]) -> None:
         """`content` reads a file of Modelica."""
@@ -65,11 +65,11 @@ class Model:
         return {name: number for name, number in numbers.items() if number > 0}
 
     def step(self, stop: float, wanted: float | None) -> float:
-        """Return the interval of results of a simulation until `stop`, in s, if no other is wanted."""
+        """Return the default interval of results of a simulation until `stop`, in s."""
         return wanted or self.settings.get("Interval") or stop / self.settings.get("NumberOfIntervals", STEPS)
 
     def inputs(self) -> list[Input]:
-        """Return all inputs, those of base classes first. Raises ConfigError for one that can't be driven."""
+        """Return all inputs, those of base classes first. Raises ConfigError for an input that can't be driven."""
         inputs: list[Input] = []
         for node, component in self._components():
             if component.type.parts[-1] != "RealInput" and "input" not in component.prefixes:
@@ -89,9 +89,9 @@ class Model:
         return inputs
 
     def driven(self, package: str) -> Driven:
-        """Return the changes by which inputs follow a table, and drives of the package their inputs without a filter.
+        """Return the changes by which inputs follow a table, and by which drives of the package lose their filters.
 
-        Drives of the user's own models keep theirs: without it, start values may contradict the motion there.
+        Drives of the user's own models keep them: without a filter, start values may contradict the motion.
         """
         changed: dict[str, list[int]] = {}
         modifiers = []
@@ -117,7 +117,7 @@ class Model:
 
 
 def find_model(scopes: Scopes, package: str, name: str, content: Callable[[str], bytes]) -> Model:
-    """Return the model that a user means, by its full name or by that below the package. Raises ConfigError."""
+    """Return the model of a full name, or of a name below the package. Raises ConfigError."""
     for full in dict.fromkeys((f"{package}.{name}", name)):
         node = scopes.node(full.split("."))
         if node is not None:
@@ -134,7 +134,7 @@ def find_model(scopes: Scopes, package: str, name: str, content: Callable[[str],
 
 
 def _near(scopes: Scopes, package: str, name: str) -> str:
-    """Return the name most like one that there is not, in the deepest package that there is; empty for none."""
+    """Return the name most like a missing one, in its deepest existing package; empty for none."""
     around, _, last = name.rpartition(".")
     for place in dict.fromkeys((around or package, package)):
         node = scopes.node(place.split("."))
@@ -144,7 +144,7 @@ def _near(scopes: Scopes, package: str, name: str) -> str:
 
 
 def _with_bases(scopes: Scopes, node: Node) -> Iterator[Node]:
-    """Yield a class, and then those that it extends, each once."""
+    """Yield a class, and then its base classes, each once."""
     waiting, seen = [node], {OPAQUE}
     while waiting:
         current = waiting.pop(0)

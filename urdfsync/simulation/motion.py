@@ -1,6 +1,6 @@
-"""A motion from a CSV file: its columns by the inputs of a model, and the Modelica text that follows it.
+"""Reads a motion from a CSV file with the inputs of a model, and writes it as Modelica.
 
-Positions and speeds are joined by a cubic spline, so that they can be differentiated; other inputs by straight lines.
+Positions and speeds follow a cubic spline, which can be differentiated; other inputs follow straight lines.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ _UNITS = {
     "N": {"N": 1.0},
     "s": {"s": 1.0, "ms": 1e-3},
 }
-"""By unit of an input, the units that a column may have, and what they are in that of the input."""
+"""By unit of an input, the possible units of a column, as factors."""
 _SMOOTH = ("rad", "m", "rad/s", "m/s")
 _HEADER = re.compile(r"\s*(?P<name>.*?)\s*(?:\[(?P<unit>[^\[\]\d][^\[\]]*)\])?\s*")
 
@@ -45,7 +45,7 @@ class Motion(msgspec.Struct, frozen=True):
 
 
 def read_motion(file: Path, inputs: Sequence[Input]) -> Motion:
-    """Read a CSV file whose first column is `time` and which has one for each input. Raises SourceError."""
+    """Read a CSV file with a first column `time`, and a column for each input. Raises SourceError."""
     if not inputs:
         _refuse(file, "the model has no inputs that a motion could drive", hint="leave `--input` out")
     (line, header), *rows = _read_rows(file)
@@ -66,7 +66,7 @@ def read_motion(file: Path, inputs: Sequence[Input]) -> Motion:
 
 
 def _read_rows(file: Path) -> list[tuple[int, list[str]]]:
-    """Return the rows that are not empty, with their lines: a header, and two or more."""
+    """Return the rows that are not empty, with their lines: a header, and at least two more."""
     try:
         text = read_unrecorded(file).decode("utf-8-sig")  # waits for no pipe, and reads no device, which may not end
     except OSError as error:
@@ -90,12 +90,12 @@ def _read_rows(file: Path) -> list[tuple[int, list[str]]]:
 
 
 def at_rest(inputs: Sequence[Input], stop: float) -> Motion:
-    """Return a motion in which all inputs stay at 0 until `stop`."""
+    """Return a motion with all inputs at 0 until `stop`."""
     return Motion((0.0, stop), tuple((signal, (0.0, 0.0)) for signal in inputs))
 
 
 def sampled(motion: Motion, times: Sequence[float]) -> dict[str, list[float]]:
-    """Return the value of each input at other times, as the functions of `in_modelica` have it."""
+    """Return the value of each input at other times, by the functions of `in_modelica`."""
     from scipy.interpolate import CubicSpline, make_interp_spline
 
     samples = {}
@@ -108,7 +108,7 @@ def sampled(motion: Motion, times: Sequence[float]) -> dict[str, list[float]]:
 
 
 def _columns(file: Path, line: int, header: Sequence[str], inputs: Sequence[Input]) -> dict[str, float]:
-    """Return the columns in their order, each with what its unit is in that of the input."""
+    """Return the columns in their order, each with the factor of its unit."""
     factors: dict[str, float] = {}
     units = {"time": "s", **{signal.name: signal.unit for signal in inputs}}
     for cell in header:
@@ -200,10 +200,10 @@ class ModelicaMotion(msgspec.Struct, frozen=True):
     """Of a package."""
     declarations: tuple[str, ...] = ()
     equations: tuple[str, ...] = ()
-    """Of a model whose inputs follow the motion."""
+    """Equations of a model whose inputs follow the motion."""
 
     def held(self, motion: Motion, step: float) -> ModelicaMotion:
-        """Return the motion as an FMU for co-simulation gets it, whose inputs change at each step alone."""
+        """Return the motion for an FMU for co-simulation, whose inputs change only at each step."""
         declarations, whens, equations = [], [], []
         for number, (signal, values) in enumerate(motion.values, 1):
             declarations.append(f"discrete Real held{number}(start = {values[0]!r}, fixed = true);")
@@ -234,9 +234,10 @@ def _constant(name: str, values: Sequence[float]) -> str:
 
 
 def second_derivatives(times: Sequence[float], values: Sequence[float]) -> list[float]:
-    """Return the second derivatives of the cubic spline through points that has no seam at its second and last but one.
+    """Return the second derivatives of a cubic spline through points.
 
-    Such a spline is exact for a cubic; through three points it is a parabola, through two a straight line.
+    It has no seam at the second and the last but one. It is exact for a cubic. Through three points it is a parabola,
+    through two a straight line.
     """
     from scipy.interpolate import CubicSpline  # half a second, which no other simulation needs
 

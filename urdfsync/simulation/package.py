@@ -1,4 +1,4 @@
-"""The model that is simulated or exported, with the package of the robot on disk; and the compiler's answers."""
+"""Prepares the simulated or exported model with the robot's package on disk, and runs the compiler."""
 
 from __future__ import annotations
 
@@ -31,20 +31,20 @@ from urdfsync.spelling import nearest
 
 
 class Prepared(msgspec.Struct, frozen=True):
-    """A model, and all that it needs."""
+    """A model with its files and libraries."""
 
     package: RobotPackage
     bench: Bench
-    """Empty if the domain does not say how a package is simulated."""
+    """Empty if the domain has none."""
     model: Model
     needed: libraries.Libraries
     values: Mapping[str, str]
-    """Other values of parameters, in Modelica."""
+    """Changed values of parameters, in Modelica."""
     warnings: tuple[Diagnostic, ...]
 
 
 def prepare(config: Config, robot: RobotConfig, options: SimulateOptions, *, for_export: bool = False) -> Prepared:
-    """Find the model, and read the package. Raises UrdfsyncError for whatever is wrong with these or the compiler."""
+    """Find the model, and read the package. Raises UrdfsyncError for faults of these or of the compiler."""
     _check_compiler(options)
     request = BuildOptions(dry=True, package_paths=options.package_paths, wait=options.wait, jobs=1)
     package = read_package(config, robot, request)
@@ -68,7 +68,7 @@ def prepare(config: Config, robot: RobotConfig, options: SimulateOptions, *, for
 
 
 def _check_compiler(options: SimulateOptions) -> None:
-    """Raise ConfigError for a compiler that can't do this, UrdfsyncError for one that is not there."""
+    """Raise ConfigError for an unsuitable compiler, UrdfsyncError for a missing one."""
     compiler = compilers.COMPILERS[options.tool.name]
     if missing := compilers.find_missing(options.tool):
         raise UrdfsyncError(missing)
@@ -120,9 +120,9 @@ def run_task(
     progress: Callable[[], None],
     changed: Mapping[Path, bytes] | None = None,
 ) -> CompileResult:
-    """Do a task, which is a simulation or an export; `plain` is its text without other values of parameters.
+    """Run a task, a simulation or an export; `plain` is its text without changed parameters.
 
-    For `changed` see `Jobs.run`. Raises UrdfsyncError if the model does not compile, or has no such parameters.
+    For `changed` see `Jobs.run`. Raises UrdfsyncError if the model does not compile, or lacks a parameter.
     """
     package, model = prepared.package, prepared.model
     limits = limits_of(f"the {kind} of `{model.name}`", options.timeout, options.memory)

@@ -1,4 +1,4 @@
-"""Positions, speeds and efforts of joints against their limits, drawn with matplotlib: a column for each six joints."""
+"""Draws positions, speeds and efforts of joints against their limits with matplotlib: a column for each six joints."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ def _columns(joints: Sequence[JointResult]) -> Iterator[Sequence[JointResult]]:
 
 
 def _draw_panel(panel: Any, name: str, joints: Sequence[JointResult], result: SimulateResult) -> None:
-    """Draw one quantity of some joints; limits are dashed in the colour of the joint, as far as they are near."""
+    """Draw one quantity of some joints; near limits are dashed in the colour of the joint."""
     units = []
     times, drawn = result.series["time"], [getattr(joint, name) for joint in joints]
     for joint, quantity, colour in zip(joints, drawn, _COLOURS, strict=False):

@@ -1,4 +1,4 @@
-"""A simulation in words: what was simulated, a row for each joint, and where the results went."""
+"""Reports a simulation: its model, a row for each joint, and the written files."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from urdfsync.simulation.results import JointResult, Range, SimulateResult
 _HEADER = ("joint", "position", "limits", "speed/limit", "effort/limit")
 _WORDS = {"me": "model exchange", "cs": "co-simulation"}
 _NOTHING = 5e-7
-"""Smaller numbers are shown as 0: they come from rounding."""
+"""Smaller numbers are rounding errors and shown as 0."""
 
 
 class Simulation(SimulateResult, frozen=True):
-    """A simulation, to look at as well."""
+    """A simulation with a display for notebooks."""
 
     def _repr_html_(self) -> str:
         return html([*result_lines(self), *findings(self.diagnostics)])

@@ -15,9 +15,9 @@ from urdfsync.diagnostics import Diagnostic
 STOP = 1.0
 """End of a simulation whose model has no `experiment` annotation with one, in s."""
 STEPS = 500
-"""Intervals of results where neither the annotation nor the user says how long they are."""
+"""Number of intervals of results, unless the annotation or the user gives their length."""
 TOLERANCE = 1e-6
-"""Of the integration, where neither the annotation nor the user names one."""
+"""Tolerance of the integration, unless the annotation or the user gives one."""
 
 
 class SimulateOptions(RunOptions, frozen=True):
@@ -31,14 +31,14 @@ class SimulateOptions(RunOptions, frozen=True):
     method: str = ""
     """One of the compiler's methods of integration; empty leaves it to the compiler."""
     values: tuple[str, ...] = ()
-    """Parameters that get another value, `NAME=VALUE`."""
+    """Changed parameters, `NAME=VALUE`."""
     motion: Path | None = None
     """A CSV file with the inputs of the model."""
     variables: tuple[str, ...] = ()
-    """Patterns of further variables whose series are wanted."""
+    """Patterns of further variables for the series."""
     tool: Tool = Tool()
     as_exported: bool = False
-    """Whether it is simulated as its FMU would be: filters of drives stay, inputs change at each step, or stay at 0."""
+    """Simulate like the FMU: filters of drives stay, inputs change at each step, or stay at 0."""
 
 
 class Range(msgspec.Struct, frozen=True):
@@ -61,15 +61,15 @@ class PassedLimit(msgspec.Struct, frozen=True):
     """`position`, `speed`, `effort` or `acceleration`."""
     limit: float
     time: float
-    """The time when it is passed first, in s."""
+    """The time of the first pass, in s."""
     excess: float
-    """By how much at most, in the unit of the quantity."""
+    """The greatest excess, in the unit of the quantity."""
     seconds: float
-    """For how long in all."""
+    """The total time beyond the limit, in s."""
 
 
 class JointResult(msgspec.Struct, frozen=True):
-    """One joint of one robot over a simulation; None for what the model does not have."""
+    """One joint of one robot over a simulation; None for a quantity that the model lacks."""
 
     element: str
     """In the domain's words: `joint elbow`."""
@@ -79,7 +79,7 @@ class JointResult(msgspec.Struct, frozen=True):
     speed: Range | None = None
     effort: Range | None = None
     acceleration: Range | None = None
-    """Its size, below 0 where the joint slows down; None also for a joint without a limit of it."""
+    """Its size, negative where the joint slows down; None also without a limit of it."""
     passed: tuple[PassedLimit, ...] = ()
     is_dependent: bool = False
     """Whether it follows others through loops."""
@@ -116,15 +116,15 @@ class SimulateResult(msgspec.Struct, frozen=True):
     tolerance: float
     joints: tuple[JointResult, ...]
     series: Series
-    """Of `time`, of the joints, of the model's own inputs and outputs, and of what was asked for."""
+    """Series of `time`, the joints, the model's own inputs and outputs, and requested variables."""
     diagnostics: tuple[Diagnostic, ...]
     seconds: float
     """From beginning to end."""
     is_known: bool
-    """Whether it is that of an earlier simulation of the same."""
+    """Whether it is a remembered result."""
     loops: tuple[LoopResult, ...] = ()
     files: Mapping[str, Path] = {}
-    """Those that were written, by the options that named them."""
+    """The written files, by their options."""
 
     @property
     def points(self) -> int:

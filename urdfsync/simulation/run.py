@@ -1,4 +1,4 @@
-"""Simulates one model with the package of one robot, as it is on disk."""
+"""Simulates one model with the package of one robot on disk."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ from urdfsync.simulation.results import STOP, TOLERANCE, JointResult, PassedLimi
 from urdfsync.simulation.values import modifiers
 
 _LATER = 1.5
-"""Seconds until the compiler is at work."""
+"""Seconds until progress names the compiler."""
 _LONGEST_MESSAGE = 200
 _ROUNDING = 1e-9
 """Of a quotient of two times."""
@@ -39,8 +39,7 @@ _OWN = r"[^.]+"
 def simulate(config: Config, robot: RobotConfig, options: SimulateOptions, progress: Progress) -> SimulateResult:
     """Simulate a model with the package of a robot. Writes nothing but the cache.
 
-    Raises UrdfsyncError for whatever is wrong with the model, its inputs or the compiler, OSError for what can't be
-    read.
+    Raises UrdfsyncError for faults of the model, its inputs or the compiler, OSError for unreadable files.
     """
     begin = time.monotonic()
     prepared = prepare(config, robot, options)
@@ -71,7 +70,7 @@ def simulate(config: Config, robot: RobotConfig, options: SimulateOptions, progr
 
 
 def _run(options: SimulateOptions, prepared: Prepared, progress: Progress) -> tuple[SimulationResult, Simulation, bool]:
-    """Return a simulation, its settings, and whether it is that of an earlier one. Raises UrdfsyncError."""
+    """Return a simulation, its settings, and whether it was remembered. Raises UrdfsyncError."""
     cache, begin, package, model = UserCache.default(), time.monotonic(), prepared.package, prepared.model
     task, plain, changed = _task(options, prepared)
     (run,) = task.runs
@@ -100,7 +99,7 @@ def _run(options: SimulateOptions, prepared: Prepared, progress: Progress) -> tu
 
 
 def _until(run: Simulation, simulation: SimulationResult) -> Simulation | None:
-    """Return a run to the last result before one stopped; None if it did not, or does not say when."""
+    """Return a run that ends at the last result of a stopped one; None if it did not stop, or its time is unknown."""
     moment = _TIME.search(simulation.problem)
     if simulation.values or moment is None:
         return None
@@ -109,7 +108,7 @@ def _until(run: Simulation, simulation: SimulationResult) -> Simulation | None:
 
 
 def _task(options: SimulateOptions, prepared: Prepared) -> tuple[CompileTask, str, Mapping[Path, bytes]]:
-    """Return the compiler's task, its text without other values of parameters, and the files that change for it."""
+    """Return the compiler's task, its text without changed parameters, and the files that change for it."""
     robot, model, values = prepared.package.robot, prepared.model, prepared.values
     inputs, changes, changed = model.inputs(), modifiers(values), dict[Path, bytes]()
     stop = options.stop or model.settings.get("StopTime", STOP)
@@ -147,7 +146,7 @@ def _task(options: SimulateOptions, prepared: Prepared) -> tuple[CompileTask, st
 
 
 def _probe(robot: RobotConfig, model: str, course: ModelicaMotion, changes: list[str]) -> str:
-    """Return a package with a model that extends another one; it names the libraries, or rumoca loads none."""
+    """Return a package with a model that extends another one; it names the libraries, since rumoca loads no others."""
     names = dict.fromkeys(("Modelica", robot.target.package.partition(".")[0], model.partition(".")[0]))
     imports = "".join(f"  import {name};\n" for name in names)
     lines = [*course.declarations, *(("equation", *course.equations) if course.equations else ())]
@@ -155,7 +154,7 @@ def _probe(robot: RobotConfig, model: str, course: ModelicaMotion, changes: list
 
 
 def _glob(text: str) -> str:
-    """Return a regular expression for a pattern of variables, in which brackets are those of Modelica."""
+    """Return a regular expression for a pattern of variables with Modelica's brackets."""
     return fnmatch.translate(text.replace("[", "[[]"))
 
 

@@ -1,4 +1,4 @@
-"""Parameters that get other values, `robot.elbow.parameters.dynamics.damping=4`, as modifiers of the model."""
+"""Changes parameters, `robot.elbow.parameters.dynamics.damping=4`, by modifiers of the model."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _SIGNS = frozenset(("{", "}", ",", "-", "true", "false"))
 
 
 def read_values(given: Iterable[str]) -> dict[str, str]:
-    """Return the value of each parameter, in Modelica. Raises ConfigError for what is no parameter or no value."""
+    """Return the value of each parameter, in Modelica. Raises ConfigError for a wrong name or value."""
     values: dict[str, str] = {}
     for assignment in given:
         name, is_assigned, value = (part.strip() for part in assignment.partition("="))
@@ -34,7 +34,7 @@ def read_values(given: Iterable[str]) -> dict[str, str]:
 
 
 def find_unknown(model: str, names: Iterable[str], parameters: Collection[str]) -> list[Diagnostic]:
-    """Return an error for each of some names that is none of the parameters of a model; none if these are not known."""
+    """Return an error for each unknown parameter of a model; none if its parameters are unknown."""
     findings = []
     for name in names if parameters else ():
         if name not in parameters:
@@ -45,9 +45,9 @@ def find_unknown(model: str, names: Iterable[str], parameters: Collection[str]) 
 
 
 def nearest_parameter(name: str, parameters: Iterable[str]) -> str:
-    """Return the parameter that the user may have meant: its name is much like `name`, or its last part is.
+    """Return the parameter that the user may have meant: its name, or its last part, is much like `name`.
 
-    Of several with such a last part it is one that has most of the other parts, the shortest; empty if there is none.
+    Of several with such a last part, it is the shortest with most of the other parts; empty if there is none.
     """
     parameters = list(parameters)
     if near := nearest(name, parameters, _LIKENESS):
@@ -85,7 +85,7 @@ def _modifier(name: str, value: str | dict[str, Any]) -> str:
 
 
 def _is_literal(value: str) -> bool:
-    """Whether a text is made of numbers, truth values and texts alone, or of vectors of them."""
+    """Whether a text is a number, a truth value, a text, or a vector of these."""
     tokens, faults = lex(value)
     words = [token.text for token in tokens[:-1]]
     is_plain = all(word in _SIGNS or word[0] in '0123456789."' for word in words)

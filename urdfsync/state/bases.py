@@ -1,8 +1,8 @@
-"""The bases of one robot, text ↔ value: every text that urdfsync generated last, by its hash, edited since or not.
+"""Reads and writes the bases of one robot: every text that urdfsync generated last, by its hash.
 
 `.urdfsync/bases/<robot>/0` to `f`, which are committed; a text is in the file of its hash's first digit. All sixteen
 are always there, so that git sees no renames. A line has the hash, and the text as a JSON string. Git unites the lines
-of two branches (`merge=union`), and whatever it makes of them does no harm: a line whose text has another hash is none.
+of two branches (`merge=union`). A damaged line is skipped: its hash does not fit its text.
 """
 
 from __future__ import annotations
@@ -21,14 +21,14 @@ _DECODER = msgspec.json.Decoder(str)
 
 
 def dumps(texts: Mapping[str, str]) -> bytes:
-    """Return one file with these texts, which are by their hashes (see `text_digest`)."""
+    """Return one file with these texts, by their hashes (see `text_digest`)."""
     encode = msgspec.json.encode
     return b"".join(b"%s %s\n" % (sha256.encode(), encode(text)) for sha256, text in sorted(texts.items()))
 
 
 @functools.lru_cache(maxsize=2 * len(DIGITS))  # the daemon looks at all of them in each build
 def loads(content: bytes) -> Mapping[str, str]:
-    """Return the texts of one file by their hashes; damaged lines are passed over."""
+    """Return the texts of one file by their hashes; damaged lines are skipped."""
     texts = {}
     for line in content.split(b"\n"):
         sha256, _, encoded = line.partition(b" ")
@@ -43,6 +43,6 @@ def loads(content: bytes) -> Mapping[str, str]:
 
 @functools.lru_cache(maxsize=2 * len(DIGITS))
 def find_damage(content: bytes) -> int:
-    """Return the number of the first line of a file that has no text of its hash; 0 if there is none."""
+    """Return the number of the first damaged line of a file; 0 if there is none."""
     texts, lines = loads(content), enumerate(content.split(b"\n"), 1)
     return next((n for n, line in lines if line and line.partition(b" ")[0].decode(errors="replace") not in texts), 0)

@@ -1,7 +1,7 @@
-"""An expanded source, text ↔ value: `.urdfsync/robots/<robot>.expanded`, which is committed.
+"""Reads and writes an expanded source, `.urdfsync/robots/<robot>.expanded`, which is committed.
 
-It holds the text that xacro made, or a command wrote, and the hashes of all that it was made of. So a build expands
-only what has changed, and a clone needs no xacro. Two versions that git has united are none: their sum does not fit.
+It holds the text of xacro or of a command, and the hashes of all its inputs. So a build expands only a changed source,
+and a clone needs no xacro. If git has united two versions, their sum does not fit, and the file is ignored.
 """
 
 from __future__ import annotations
@@ -18,9 +18,9 @@ _END = "\n}\n"
 
 
 class Expansion(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True, forbid_unknown_fields=True):
-    """A text, and what it was made of.
+    """A text with its inputs.
 
-    Files are named relative to the configuration's folder, as `package://NAME/…` or, if nothing else will do, absolute.
+    Files are named relative to the configuration's folder, as `package://NAME/…`, or else absolute.
     """
 
     format: int = 1
@@ -30,25 +30,26 @@ class Expansion(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True, f
     command: tuple[str, ...] = ()
     """The command that wrote the source; empty for xacro."""
     files: Mapping[str, str | None] = {}
-    """Hashes of the files that were read, by name; None for one that was not there."""
+    """Hashes of the files that were read, by name; None for a missing one."""
     patterns: Mapping[str, str] = {}
     """Hashes of the names that patterns such as `parts/*.xacro` matched."""
     variables: Mapping[str, str | None] = {}
     """Hashes of environment variables; None for one that was not set."""
     unused: tuple[str, ...] = ()
-    """Arguments that the source does not have."""
+    """Arguments that the source lacks."""
     warnings: tuple[str, ...] = ()
     """Messages of xacro."""
     places: str = ""
-    """Where elements come from: for example `12=0:7`, line 12 of the text is from line 7 of the first of `files`, in
-    the order of their names."""
+    """The original places of elements: `12=0:7` means that line 12 of the text is from line 7 of the first of `files`,
+    in the order of their names.
+    """
     sum: str = ""
     """Hash of all else."""
     text: str = ""
 
 
 def dumps(expansion: Expansion) -> bytes:
-    """The expansion as text: the same value gives the same text everywhere."""
+    """Return the expansion as text: the same value gives the same text everywhere."""
     bare = msgspec.structs.replace(expansion, sum="", text="")
     everything = msgspec.json.encode(bare, order="sorted") + expansion.text.encode()
     head = msgspec.json.encode(msgspec.structs.replace(bare, sum=digest(everything)), order="sorted")
@@ -56,7 +57,7 @@ def dumps(expansion: Expansion) -> bytes:
 
 
 def loads(content: bytes) -> Expansion | None:
-    """Read an expansion; None for what is none, such as two versions in one text."""
+    """Read an expansion; None for another text, such as two versions in one."""
     text = content.decode(errors="replace").replace("\r\n", "\n").removeprefix(_HEADER)
     head, _, rest = text.partition(_END)
     try:

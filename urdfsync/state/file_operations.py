@@ -1,8 +1,8 @@
-"""The file operations of a transaction. A crash comes before one of them or after it.
+"""The file operations of a transaction.
 
-Only `write` and `write_bound` can be cut short, and they write under names that nothing reads as a target.
-Tests put kills, errors and saves between any two operations. All raise OSError. No link is followed: files are
-created exclusively, and renaming acts on links themselves.
+A crash happens before or after one of them. Only `write` and `write_bound` can be cut short, and they write under names
+that are no targets. Tests put kills, errors and saves between any two operations. All raise OSError. No link is
+followed: files are created exclusively, and renaming acts on links themselves.
 """
 
 from __future__ import annotations
@@ -20,12 +20,12 @@ import msgspec
 
 _CREATE = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_BINARY", 0)
 _FEW = 32
-"""Up to this many files are synced one by one: for 400 files, one call for the whole machine is ten times faster."""
+"""Up to so many files are synced one by one: for 400 files, one call for the whole machine is ten times faster."""
 
 _HERE, _NOREPLACE, _EXCHANGE = -100, 1, 2
 """AT_FDCWD, RENAME_NOREPLACE and RENAME_EXCHANGE of Linux."""
 _NO_RENAMES = {errno.EINVAL, errno.ENOSYS, errno.ENOTSUP}
-"""Errors of a file system that knows neither of the two."""
+"""Errors of a file system without these two flags."""
 _NO_LINKS = {errno.EPERM, errno.ENOTSUP, errno.EOPNOTSUPP, errno.ENOSYS, errno.EMLINK}
 """Errors of a file system without hard links."""
 
@@ -69,7 +69,7 @@ def write(path: Path, content: bytes, like: Path) -> None:
 
 
 class Bound(msgspec.Struct, frozen=True, kw_only=True):
-    """The content of a JSON file that names the file's own inode and time: no copy has both, nor a clone."""
+    """The content of a JSON file that names the file's own inode and time: no copy and no clone has both."""
 
     inode: int = 0
     written_at: int = 0
@@ -93,12 +93,11 @@ def is_bound(path: Path, content: Bound) -> bool:
 
 
 def exchange(path: Path, target: Path) -> None:
-    """Swap two files of one folder, or do the rest of it if that was cut short.
+    """Swap two files of one folder, or finish an interrupted swap.
 
-    Where the system can't swap, three renames do it, and the target is missing for some microseconds. Replacing the
-    target at once would be shorter, and would lose what somebody saves after the last look at it.
-
-    Raises FileNotFoundError or FileExistsError if somebody got in between.
+    If the system can't swap, three renames do it, and the target is missing for some microseconds. A plain replacement
+    would lose a save after the last look at the target. Raises FileNotFoundError or FileExistsError if somebody got in
+    between.
     """
     if not os.path.lexists(spare(path)):
         if rename(path, target, _EXCHANGE):
@@ -120,7 +119,7 @@ def replace(path: Path, target: Path) -> None:
 
 
 def place(path: Path, target: Path) -> None:
-    """Move a file to a name of its folder that must be free. Raises FileExistsError if it is not."""
+    """Move a file to a free name of its folder. Raises FileExistsError if the name is not free."""
     if rename(path, target, _NOREPLACE):
         return
     try:
@@ -142,7 +141,7 @@ def remove(path: Path) -> None:
 
 
 def sync(paths: Sequence[Path]) -> None:
-    """Bring files and folders to the disk, so that they outlive a power failure."""
+    """Bring files and folders to the disk, so that they survive a power failure."""
     if len(paths) > _FEW and hasattr(os, "sync"):
         os.sync()
         return
@@ -157,7 +156,7 @@ def sync(paths: Sequence[Path]) -> None:
 
 
 def rename(path: Path, target: Path, flag: int) -> bool:
-    """Rename by `renameat2`. Returns False, and does nothing, where the system or the file system can't."""
+    """Rename by `renameat2`. Returns False, and does nothing, if system or file system lack it."""
     number = _renameat2()(os.fsencode(path), os.fsencode(target), flag)
     if number and number not in _NO_RENAMES:
         raise OSError(number, os.strerror(number), str(target))

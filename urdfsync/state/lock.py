@@ -1,4 +1,4 @@
-"""A lock that one process holds. The operating system lets it go when the process ends, however it ends."""
+"""A lock that one process holds. The operating system releases it when the process ends."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ else:
 
 _FLAGS = getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0)
 _LEAST_WAIT = 0.2
-"""Seconds for some attempts: one alone takes a lock file that is deleted meanwhile for one that somebody holds."""
+"""Seconds for some attempts: a single one may meet a lock file that is being deleted."""
 _PAUSE = 0.05
 """Seconds between two attempts."""
 
@@ -33,7 +33,7 @@ class LockedError(UrdfsyncError):
 
 
 class Lock:
-    """A lock file in a state folder. It stays there, and has the number of the process that held the lock last."""
+    """A lock file in a state folder. It stays there, and contains the number of its last holder's process."""
 
     def __init__(self, file: Path, wait: float) -> None:
         """`wait` is in seconds; less than 0.2 is 0.2."""
@@ -41,10 +41,10 @@ class Lock:
         self._descriptor: int | None = None
 
     def acquire(self, waiting: Callable[[], object] = lambda: None) -> None:
-        """Take the lock, unless this object holds it already and the file is still there. Calls `waiting` on and on.
+        """Take the lock, unless this object holds it already and the file is still there.
 
-        Raises LockedError after `wait` seconds, and at once if that has happened before; OutputError if the file can't
-        be locked.
+        Calls `waiting` repeatedly. Raises LockedError after `wait` seconds, the second time at once; OutputError if the
+        file can't be locked.
         """
         if self._descriptor is not None and self._file.exists():
             return
@@ -67,13 +67,13 @@ class Lock:
         self._sign()
 
     def release(self) -> None:
-        """Let the lock go, if it is held."""
+        """Release the lock, if it is held."""
         if self._descriptor is not None:
             os.close(self._descriptor)
             self._descriptor = None
 
     def holder(self) -> str:
-        """The process that has the lock, or had it last, in words."""
+        """The process that holds the lock, or held it last, in words."""
         number = ""
         with contextlib.suppress(OSError), os.fdopen(os.open(self._file, os.O_RDONLY | _FLAGS), "rb") as file:
             number = (file.read(20) or b"").decode(errors="replace").strip()
@@ -86,7 +86,7 @@ class Lock:
         self.release()
 
     def _sign(self) -> None:
-        """Leave the number of this process in the file, for people; not in a hard link of a user's file."""
+        """Write the number of this process into the file, for people; not into a hard link of a user's file."""
         number = b"%d\n" % os.getpid()
         with contextlib.suppress(OSError), os.fdopen(os.open(self._file, os.O_RDWR | _FLAGS), "r+b") as file:
             status = os.fstat(file.fileno())
@@ -99,7 +99,7 @@ class Lock:
 def _lock(file: Path) -> int | None:
     """Lock a file; returns its descriptor, None if another process has locked it. Raises OSError.
 
-    filelock does the same, and takes 20 of the 90 ms of a build with one changed mass to import.
+    filelock does the same, but its import takes 20 of the 90 ms of a build with one changed mass.
     """
     descriptor = os.open(file, os.O_RDWR | os.O_CREAT | _FLAGS, 0o666)
     with contextlib.ExitStack() as stack:
@@ -117,5 +117,5 @@ def _lock(file: Path) -> int | None:
 
 
 def build_lock(state_folder: Path, wait: float) -> Lock:
-    """The lock of all who write below the folder of a configuration."""
+    """Return the lock of all writers below the folder of a configuration."""
     return Lock(state_folder / "lock", wait)

@@ -1,7 +1,7 @@
-"""What this machine knows of its own work on one robot: `.urdfsync/notes/<robot>.json`.
+"""This machine's notes on its own work on one robot, `.urdfsync/notes/<robot>.json`.
 
-Not committed, and safe to lose. Work is skipped by these notes alone, never because of what is committed. They count
-only in the very file that this machine wrote: a copy, such as a committed one, says nothing.
+Not committed, and safe to lose. Only these notes skip work, never the committed state. They hold only in the file that
+this machine wrote: a copy, such as a committed one, is ignored.
 """
 
 from __future__ import annotations
@@ -20,43 +20,43 @@ from urdfsync.state import file_operations
 
 
 class Use(msgspec.Struct, frozen=True):
-    """Names in a user's file that mean another part than when it was saved."""
+    """Names in a user's file that now belong to another part than when it was saved."""
 
     facts: tuple[int, ...]
     """Stat values of the file."""
     names: Mapping[str, str]
-    """The new names of the former parts, by the names that the file has."""
+    """The new names of the former parts, by the names in the file."""
 
 
 class Notes(file_operations.Bound, frozen=True, kw_only=True, omit_defaults=True):
-    """What this machine has made of one robot."""
+    """This machine's work on one robot."""
 
     program: str = ""
-    """Hash of the program and the templates that made the texts and imports; those of another program are made anew."""
+    """Hash of the program and the templates that made the texts and imports; another program makes them anew."""
     texts: Mapping[str, tuple[str, str]] = {}
-    """By path below the package: hash of a template and its data, and hash of the text that they give."""
+    """By path below the package: hash of template and data, and hash of their text."""
     imports: frozenset[str] = frozenset()
-    """Hashes of the imports that were converted here."""
+    """Hashes of the imports that this machine converted."""
     expansion: str = ""
-    """Hash of the source as it was expanded here."""
+    """Hash of the source that this machine expanded."""
     written: frozenset[str] = frozenset()
-    """Hashes of texts and imported files that were generated here, as long as they are recorded."""
+    """Hashes of recorded texts and imported files that this machine generated."""
     renamed: Mapping[str, str] = {}
     """New identifiers by the old ones, of the last build that wrote anything."""
     proposals: Mapping[str, tuple[str, str]] = {}
-    """Hash of each proposed merge and of its two sides, by path; other files of conflicts are a person's."""
+    """Hash of each proposed merge and of its two sides, by path; other files there are a person's."""
     model: str = ""
-    """Hash of the model that was recorded last."""
+    """Hash of the last recorded model."""
     edited: Mapping[str, str] = {}
-    """Hashes of the user's texts of generated files, by key, as the last build saw them."""
+    """Hashes of the user's texts in generated files at the last build, by key."""
     uses: Mapping[str, Use] = {}
     """By absolute path of a user's file."""
     said: frozenset[str] = frozenset()
-    """Hashes of the findings that the last build told."""
+    """Hashes of the findings of the last build."""
 
 
 def load(state_folder: Path, robot: str) -> Notes:
-    """Return the notes on a robot; empty ones if there are none that this machine wrote."""
+    """Return this machine's notes on a robot; empty ones if there are none."""
     file = place(state_folder, robot)
     flags = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOFOLLOW", 0)  # a pipe must not hold it up
     try:
@@ -71,7 +71,10 @@ def load(state_folder: Path, robot: str) -> Notes:
 
 
 def save(state_folder: Path, robot: str, notes: Notes) -> None:
-    """Write the notes on a robot, if there is a state folder. What can't be written is made again by the next build."""
+    """Write the notes on a robot, if there is a state folder.
+
+    If they can't be written, the next build repeats the work.
+    """
     file = place(state_folder, robot)
     temporary = file.with_name(f".{file.name}{TEMPORARY}")
     with contextlib.suppress(OSError):

@@ -1,7 +1,8 @@
-"""The record of a robot: what urdfsync wrote last, so that edits can be told from exports.
+"""The record of a robot: urdfsync's last files, to tell edits from exports.
 
-It is committed, so it is a hint: no text is generated, restored or left out because of it. Its model advances only as
-a whole. A build that ends with a conflict leaves the model as it is, and renews the bases of the files that it wrote.
+It is committed, so it is only a hint: it never decides which text is generated, restored or left out. Its model
+advances only as a whole. A build that ends with a conflict keeps the recorded model, and renews the bases of its
+written files.
 """
 
 from __future__ import annotations
@@ -14,28 +15,28 @@ import msgspec
 from urdfsync.domain import ElementKey, Import, Role, Snapshot
 
 RESOURCES = "Resources/"
-"""Where imported files are, below the package."""
+"""The folder of imported files, below the package."""
 
 
 class FileRecord(msgspec.Struct, frozen=True):
-    """The base of one file: the hash of the generated text that it last took into account.
+    """The base of one file, as a hash.
 
-    Imported files have the hash of their bytes. Where git has united two states, a file may have several hashes until
-    the next complete build.
+    Imported files have the hash of their bytes. If git has united two states, a file may have several hashes until the
+    next complete build.
     """
 
     hashes: tuple[str, ...] = ()
 
     @property
     def is_ambiguous(self) -> bool:
-        """Whether it is not known which text the file last took into account."""
+        """Whether the base is unknown."""
         return len(self.hashes) > 1
 
     def base(self, mine: object, generated: str | None) -> str | None:
         """Return the base to compare with; None if urdfsync never wrote the file.
 
-        A file that nobody edited has any of the hashes. An edited one with an ambiguous base is not kept in silence:
-        its base is none that equals the generated text.
+        An unedited file has any of the hashes. An edited one with an ambiguous base has to conflict: its base differs
+        from the generated text.
         """
         if not self.hashes:
             return None
@@ -59,14 +60,14 @@ class Open(msgspec.Struct, frozen=True):
 
     seen: Snapshot = {}
     renamed: Mapping[ElementKey, str] = {}
-    """Elements of the last complete build and their names in it: other ones, and those that the user has confirmed."""
+    """Elements of the last complete build and their names in it, if they were renamed or confirmed by the user."""
 
 
 class Record(msgspec.Struct, frozen=True, kw_only=True):
-    """What urdfsync wrote last for one robot.
+    """The last files of urdfsync for one robot.
 
-    `files` are by their keys: POSIX paths relative to the configuration's folder, like `folder`, the package's own.
-    What follows from the model is not recorded.
+    Keys of `files` are POSIX paths relative to the configuration's folder, like `folder`, the package's own. Derived
+    values are not recorded.
     """
 
     package: str
@@ -74,20 +75,20 @@ class Record(msgspec.Struct, frozen=True, kw_only=True):
     folder: str
     generator: Generator
     options: Mapping[str, Any] = {}
-    """The domain's options as JSON has them, without those that are None."""
+    """The domain's options in JSON's form, without None."""
     snapshot: Snapshot | None = None
-    """The model of the last complete build; None if there was none, and if git has left an element twice."""
+    """The model of the last complete build; None if there was none, or if git has left an element twice."""
     renamed: Mapping[str, str] = {}
-    """The declared renames that the last complete build has brought: they are not brought again."""
+    """The declared renames that the last complete build has applied: they are not applied again."""
     confirmed: frozenset[str] = frozenset()
-    """Hashes of the user's texts that he has confirmed to be in the right place."""
+    """Hashes of the user's texts in confirmed places."""
     imports: Mapping[str, tuple[Import, ...]] = {}
-    """Several for one file if git has united two states, or if it was renewed since."""
+    """Several for one file if git has united two states, or if it was renewed."""
     files: Mapping[str, FileRecord] = {}
     open: Open | None = None
     """None if the last build was complete."""
     is_united: bool = False
-    """Whether git has united two states, or lines are lost, and no build was complete since."""
+    """Whether git has united two states, or lines are lost, since the last complete build."""
 
     @property
     def hashes(self) -> set[str]:
@@ -96,7 +97,7 @@ class Record(msgspec.Struct, frozen=True, kw_only=True):
 
 
 def role_of(path: str) -> Role:
-    """Return what a recorded file is that nothing generates any more, by its path below the package."""
+    """Return the role of a recorded file that is no longer generated, by its path below the package."""
     if path.startswith(RESOURCES):
         return Role.IMPORT
     return Role.PACKAGE if path.rpartition("/")[2] == "package.mo" else Role.RECORD

@@ -1,8 +1,8 @@
-"""The recorded state of one robot, text ↔ value: `.urdfsync/robots/<robot>.state`, which is committed.
+"""Reads and writes the recorded state of one robot: `.urdfsync/robots/<robot>.state`, which is committed.
 
 Each line stands alone and says one fact; blank lines between them keep neighbours apart. So git unites two states line
-by line (`merge=union`). What then stands twice with different values is ambiguous until the next complete build.
-Nothing in it is an absolute path, a time or a host name. A line that cannot be read is passed over, and told.
+by line (`merge=union`). A fact with two values is ambiguous until the next complete build. The file has no absolute
+path, no time and no host name. An unreadable line is skipped, with a warning.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from urdfsync.state.record import RESOURCES, FileRecord, Generator, Open, Record
 _HEADER = "# What urdfsync built last for this robot. Written by urdfsync: commit it, don't edit it.\n"
 _HASH = re.compile(r"[0-9a-f]{64}")
 _PLAIN = re.compile(r"\w[\w.-]*(?:/\w[\w.-]*)*")
-"""Form of nearly all paths, which can't lead elsewhere."""
+"""Form of nearly all paths; such a path can't lead out of the package."""
 _HINT = "the next build writes it anew; restore it from version control to keep more of it"
 
 _FACTS: Mapping[str, Any] = {
@@ -43,10 +43,10 @@ _FACTS: Mapping[str, Any] = {
     "seen": tuple[str, str | None, Any],
     "renamed": tuple[str, str, str],
 }
-"""The words that lines begin with, and the type of the JSON value behind each. A `file` has its hash and its path."""
+"""The first words of lines, and the type of the JSON value behind each. A `file` has its hash and its path."""
 _DECODERS = {word: msgspec.json.Decoder(kind) for word, kind in _FACTS.items()}
 _SUM = "sum "
-"""Begins the line with the hash of all others. Where git has united two states, it does not fit, or is left out."""
+"""Begins the line with the hash of all others. If git has united two states, it does not fit, or is left out."""
 _PLACE = ("package", "class", "folder")
 _HEADINGS = (*_PLACE, "domain", "release", "templates")
 
@@ -82,7 +82,7 @@ def _facts(record: Record) -> Iterator[tuple[str, object]]:
 
 
 def _elements(snapshot: Snapshot) -> Iterator[tuple[Any, ...]]:
-    """Each element of a model: its kind, its name and itself; without a name what is no mapping of elements."""
+    """Yield each element of a model: its kind, its name and itself; other values without a name."""
     for part, value in snapshot.items():
         if isinstance(value, Mapping) and value:
             yield from ((part, name, element) for name, element in value.items())
@@ -92,10 +92,10 @@ def _elements(snapshot: Snapshot) -> Iterator[tuple[Any, ...]]:
 
 @functools.lru_cache(maxsize=8)  # the daemon reads each state after a build and before the next: 3 of 90 ms
 def loads(text: str, file: str) -> tuple[Record | None, Diagnostic | None]:
-    """Return the record in `text`, None for none, and a warning of the first line that can't be read.
+    """Return the record in `text`, None for none, and a warning of the first unreadable line.
 
-    `file` is how diagnostics call it. Lines that name files outside of the package are passed over. Raises StateError
-    for what a newer urdfsync wrote.
+    `file` is its name in diagnostics. Lines that name files outside of the package are skipped. Raises StateError for
+    the state of a newer urdfsync.
     """
     values: dict[str, list[Any]] = {word: [] for word in (*_FACTS, "file")}
     found: Diagnostic | None = None
@@ -130,7 +130,7 @@ def loads(text: str, file: str) -> tuple[Record | None, Diagnostic | None]:
 
 
 def _line_of(lines: Mapping[str, int], text: str) -> int:
-    """Return the number of the first line that has a text in it; 1 if none has."""
+    """Return the number of the first line with a text; 1 if there is none."""
     return next((number for content, number in lines.items() if text in content), 1)
 
 
@@ -150,7 +150,7 @@ def _parse(content: str) -> tuple[str, Any]:
 
 
 def _record(values: Mapping[str, list[Any]], *, is_whole: bool) -> Record:
-    """Return the record that facts make; of headings that are there twice, the last ones count."""
+    """Return the record from facts; of repeated headings, the last one counts."""
     package, class_, folder, domain, _, templates = (values[word][-1] for word in _HEADINGS)
     is_placed = all(len(values[word]) == 1 for word in _PLACE)
     hashes: dict[str, list[str]] = {}
@@ -182,7 +182,7 @@ def _record(values: Mapping[str, list[Any]], *, is_whole: bool) -> Record:
 
 
 def _snapshot(facts: list[tuple[str, str | None, Any]]) -> Snapshot | None:
-    """Return the model that its elements make; None if there are none, or if one stands twice."""
+    """Return the model from its elements; None if there are none, or if one stands twice."""
     elements = {(part, name): element for part, name, element in facts}
     if not facts or len(elements) < len(facts):
         return None
@@ -203,18 +203,18 @@ def _what_is_wrong(content: str, error: Exception) -> str:
 
 
 def damage(file: str, line: int, message: str) -> Diagnostic:
-    """Return the warning of a line that can't be read."""
+    """Return the warning of an unreadable line."""
     message = f"the recorded state is damaged: {message}"
     return Diagnostic(Severity.WARNING, "broken-state", message, file, line, hint=_HINT)
 
 
 def _belongs(path: str, *, is_import: bool) -> bool:
-    """Return whether a build of a package writes a file of this path: the state may be a stranger's."""
+    """Return whether a build of a package may write a file of this path: the state may be a stranger's."""
     return is_inside(path) and (path.startswith(RESOURCES) or (path.endswith(".mo") and not is_import))
 
 
 def is_inside(path: str) -> bool:
-    """Whether a path from a folder is that of a file below it, hidden ones apart."""
+    """Whether a path from a folder leads to a file below it that is not hidden."""
     return bool(_PLAIN.fullmatch(path)) or (
         _is_normal(path) and not any(part.startswith(".") for part in path.split("/"))
     )

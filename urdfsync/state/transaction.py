@@ -1,4 +1,4 @@
-"""Write a set of files so that a crash, a full disk or somebody's save at any moment loses nothing.
+"""Writes a set of files. A crash, a full disk or a save at any moment loses nothing.
 
 1. The planned hashes are put aside under a temporary name.
 2. All new files are written beside their targets under temporary names, and brought to the disk.
@@ -31,15 +31,15 @@ from urdfsync.files import TEMPORARY, Tree, digest, failure, placed, shown
 from urdfsync.state import file_operations
 
 PLANNED = "planned.json"
-"""The file of the planned hashes. What stands there is of a build that is at work, or was killed."""
+"""The file of the planned hashes: of a build that is at work, or was killed."""
 DRAFT = f".{PLANNED}{TEMPORARY}"
-"""The file's name until all new files are written; nothing has changed as long as it has that."""
+"""The file's name until all new files are written; until then, nothing has changed."""
 _OTHER = "no regular file"
 """Stands for the hash of a folder, a link or a device."""
 
 
 class UnfinishedError(OutputError):
-    """Some files have changed, and the others could not be; the planned hashes stand, and the next build goes on."""
+    """Some files have changed, and others could not be changed. The planned hashes stay, and the next build goes on."""
 
 
 class FileChange(msgspec.Struct, frozen=True):
@@ -49,9 +49,9 @@ class FileChange(msgspec.Struct, frozen=True):
     content: bytes | None
     """None to delete the file."""
     old: str | None
-    """SHA-256 (hex) of the bytes that were there when this was decided; None if there was no file."""
+    """SHA-256 (hex) of the bytes at the time of the plan; None if there was no file."""
     is_moved: bool = False
-    """Whether this is a text of the user's that leaves its old place; it is kept if it can't come here."""
+    """Whether this is a user's text from another place; it is kept if it can't be moved here."""
 
 
 class PlannedFile(msgspec.Struct, frozen=True, omit_defaults=True):
@@ -73,14 +73,14 @@ class PlannedBuild(file_operations.Bound, frozen=True):
     """Part of the temporary files' names: hexadecimal."""
     files: tuple[PlannedFile, ...]
     emptied: tuple[str, ...] = ()
-    """Folders that go if the build leaves them empty, innermost first."""
+    """Folders that are deleted if the build leaves them empty, innermost first."""
 
 
 class Applied(msgspec.Struct, frozen=True):
     """The outcome of a transaction."""
 
     not_done: tuple[Path, ...] = ()
-    """Targets that somebody saved in between, and the recorded state that stays because of it."""
+    """Targets that somebody saved in between, and the recorded state that therefore stays."""
     diagnostics: tuple[Diagnostic, ...] = ()
 
 
@@ -94,10 +94,10 @@ class Transactions:
         self._planned, self._draft = state_folder / PLANNED, state_folder / DRAFT
 
     def apply(self, robot: str, changes: Sequence[FileChange], emptied: Iterable[Path] = ()) -> Applied:
-        """Make all changes. `emptied` are folders to remove if they are empty then.
+        """Make all changes.
 
-        Raises OutputError if a file can't be written: nothing has changed then. Raises UnfinishedError if that shows
-        only when files have changed already; `recover` goes on.
+        `emptied` are folders to remove if they are empty afterwards. Raises OutputError if a file can't be written:
+        then nothing has changed. Raises UnfinishedError if files have already changed; `recover` goes on.
         """
         hashes = (None if change.content is None else digest(change.content) for change in changes)
         files = tuple(
@@ -124,9 +124,9 @@ class Transactions:
             raise
 
     def recover(self) -> tuple[Diagnostic, ...]:
-        """Finish what a run left that was killed; returns what there is to say about it.
+        """Finish a killed build; returns findings about it.
 
-        Raises UnfinishedError if that can't be done, OutputError for links on the way.
+        Raises UnfinishedError if that fails, OutputError for links on the way.
         """
         notes: tuple[Diagnostic, ...] = ()
         try:
@@ -156,8 +156,8 @@ class Transactions:
     def _load(self, file: Path) -> PlannedBuild | None:
         """Return the planned hashes of a file; None if they were not written in this very place.
 
-        A file that a stranger has committed is not believed: what is under temporary names would be taken for
-        urdfsync's. Raises OutputError for links.
+        A stranger may have committed the file: then files under temporary names would count as urdfsync's. Raises
+        OutputError for links.
         """
         content = Tree(self._root).read(file)
         try:
@@ -243,7 +243,7 @@ class Transactions:
         return Diagnostic(Severity.ERROR, "unfinished", message, shown(place), hint="correct that, then build again")
 
     def _targets(self, build: PlannedBuild) -> list[_Target]:
-        """The files to change. Raises OutputError for one outside of the outputs, and for a link on the way."""
+        """Return the files to change. Raises OutputError for a file outside of the outputs, or a link on the way."""
         trees, targets = [Tree(self._root), *map(Tree, self._outputs)], []
         for number, file in enumerate(build.files):
             path = placed(self._prefix, file.path)
@@ -266,15 +266,15 @@ class _Target(msgspec.Struct, frozen=True):
     folder: str
     path: Path
     temporary: Path
-    """Holds the new file before the change, and the old one after it."""
+    """The name of the new file before the change, and of the old one after it."""
     old: str | None
     new: str | None
     is_moved: bool
 
     def change(self) -> bool:
-        """Change the target, unless that is done. Returns False if somebody saved it in between: then it is theirs.
+        """Change the target, unless that is done.
 
-        Raises OSError.
+        Returns False if somebody saved it in between: then the save stays. Raises OSError.
         """
         try:
             if self.old is None:
@@ -284,9 +284,10 @@ class _Target(msgspec.Struct, frozen=True):
             return False  # somebody deleted the file or its folder, or saved a file whose name was free
 
     def clear(self, temporary_files: Collection[str]) -> Iterator[Path]:
-        """Remove what is left under temporary names. What nobody planned with is kept; yields under which name.
+        """Remove files under temporary names.
 
-        So is a text of the user's that was to move here. `left` are the paths of all temporary files.
+        Unplanned contents are kept, and so is a user's text that was to move here; yields their new names. `left` are
+        the paths of all temporary files.
         """
         for path in (self.temporary, file_operations.spare(self.temporary)):
             if str(path) not in temporary_files:
@@ -346,9 +347,9 @@ def is_interrupted(state_folder: Path) -> bool:
 
 
 def save(file: Path, old: bytes, new: bytes) -> None:
-    """Replace a file that no build owns; a link to it stays one, and its permissions stay.
+    """Replace a file that no build owns; a link to it and its permissions stay.
 
-    Raises OutputError if it is not as `old` any more: somebody's save stays. Raises OSError.
+    Raises OutputError if it differs from `old`: somebody's save stays. Raises OSError.
     """
     path = file.resolve()
     temporary = path.with_name(f".{os.urandom(8).hex()}{TEMPORARY}")
@@ -371,7 +372,7 @@ def save(file: Path, old: bytes, new: bytes) -> None:
 
 
 def hash_of(path: Path) -> str | None:
-    """SHA-256 (hex) of a file, None for nothing; a word for what is no regular file. Raises OSError."""
+    """Return the SHA-256 (hex) of a file, None for nothing; a word for anything but a regular file. Raises OSError."""
     try:
         content = file_operations.read(path)
     except IsADirectoryError:
@@ -380,7 +381,7 @@ def hash_of(path: Path) -> str | None:
 
 
 def _temporary_files(folders: Iterable[str]) -> set[str]:
-    """The paths of all temporary files in some folders, `….urdfsync-tmp~` of an exchange of three renames included."""
+    """Return the paths of all temporary files in some folders. Three renames leave `….urdfsync-tmp~`."""
     paths = set[str]()
     for folder in folders:
         with contextlib.suppress(FileNotFoundError, NotADirectoryError):

@@ -51,7 +51,7 @@ def option_for(name: str, snapshot: Snapshot, target: Target, options: Options) 
 
 
 def guess_base(robot: Robot) -> Proposal:
-    """Guess from names whether a robot stands on the ground by itself. The reason has the name that decides."""
+    """Guess from names whether a robot stands on the ground by itself. The reason names the decisive name."""
     root = KinematicTree.of(robot).links[0].name
     if root.lower() == "world":
         return Proposal("base", "fixed", f'its root link is named "{root}"')

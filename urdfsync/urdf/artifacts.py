@@ -1,4 +1,4 @@
-"""The files of a robot's Modelica package: paths, templates and the data that they are rendered with."""
+"""The files of a robot's Modelica package: paths, templates and their data."""
 
 from __future__ import annotations
 
@@ -28,9 +28,9 @@ _EDIT = "This file may be edited: urdfsync then keeps it, and reports when the U
 
 
 def artifacts(robot: Robot, imports: Mapping[str, Import], target: Target, options: Options) -> list[Artifact | Order]:
-    """Return every file of the robot's package but the imported meshes.
+    """Return every file of the robot's package, without imported meshes.
 
-    Raises KeyError or ValueError for a robot that does not pass all checks, or has meshes without their facts.
+    Raises KeyError or ValueError for a robot that fails a check, or has meshes without facts.
     """
     tree, package, folders = _tree(robot, target), target.package, dict[str, list[Artifact]]()
     names, closed = connector_names(tree, options), assembly(tree, options)
@@ -107,7 +107,7 @@ def _classes(files: Sequence[Artifact]) -> tuple[str, ...]:
 def record(robot: Robot, target: Target, options: Options) -> Artifact:
     """Return the record of the whole robot without a package around it; `target` names the record itself.
 
-    Its text is that of the record in a package, if that has the same name and the robot has no mesh.
+    Its text equals the record in a package, if the names are equal and the robot has no mesh.
     """
     robot_target = Target(target.package, target.name.removesuffix(_PARAMETERS) or target.name)
     tree = _tree(robot, robot_target)
@@ -124,7 +124,7 @@ def models(joints: Sequence[Joint], target: Target, options: Options) -> tuple[s
 
 
 def has_bench(joints: Sequence[Joint], options: Options) -> bool:
-    """Return whether there is a bench in which the generic robot reads the record."""
+    """Return whether there is a bench with the generic robot and the record."""
     return "record" in options.approach and not obstacles(joints)
 
 
@@ -138,7 +138,7 @@ def _tree(robot: Robot, target: Target) -> KinematicTree:
 def _of_robot(
     suffix: str, target: Target, options: Options, data: Mapping[str, Any], role: Role = Role.MODEL
 ) -> Artifact:
-    """Return a file of the robot itself, whose name is that of the robot with a suffix."""
+    """Return a file of the robot itself; its name is the robot's name with a suffix."""
     name = target.name
     record_name = f"{name}{suffix if role is Role.RECORD else _PARAMETERS}"
     common = {"within": target.package, "type": name, "title": f"robot {name}", "record": record_name}

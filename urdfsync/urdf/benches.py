@@ -29,7 +29,7 @@ _UNITS: Mapping[Motion, tuple[str, str, str, str]] = {
 }
 
 _FREEDOMS: Mapping[JointType, int] = {"fixed": 0, "planar": 3, "floating": 6}
-"""Degrees of freedom of joints that do not have one."""
+"""Degrees of freedom of joints with none or several."""
 
 
 def bench(snapshot: Snapshot, target: Target, options: Options) -> Bench | None:

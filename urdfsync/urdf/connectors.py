@@ -1,7 +1,7 @@
-"""Names of the components beside links and joints: connectors, couplings, sensors, visuals, variables of Run.
+"""Names the components beside links and joints: connectors, couplings, sensors, visuals, variables of Run.
 
-Such a name is made from the name of its element. Where an element has that name already, the connector gives way,
-with a number; so a new connector never renames an element, whose name is that of a file.
+The name of an element gives the name of its connector. If an element has that name already, the connector gets a
+number. So a new connector never renames an element or its file.
 """
 
 from __future__ import annotations
@@ -71,7 +71,7 @@ class Connectors(msgspec.Struct, frozen=True):
 def connector_names(tree: KinematicTree, options: Options) -> Connectors:
     """Return the names for a robot.
 
-    Names in the option `frames` that are no link are left out: `check_options` reports them.
+    Names in the option `frames` that are no link are skipped: `check_options` reports them.
     """
     taken = taken_names(tree)
     if options.frames == "all":  # with the root, although it has frame_a: a link that becomes the root keeps its frame
@@ -119,7 +119,7 @@ def connector_names(tree: KinematicTree, options: Options) -> Connectors:
 def connector_options(tree: KinematicTree, options: Options) -> dict[str, str]:
     """Return the option that brings each connector, and each variable of Run, that the options leave out.
 
-    An option is a line as the configuration has it.
+    An option is a line of the configuration.
     """
     names, all_names = connector_names(tree, options), every_connector(tree, options)
     named = () if isinstance(options.frames, str) else options.frames

@@ -49,9 +49,10 @@ class UrdfDomain(Domain):
         return options.uses
 
     def read(self, content: bytes, file: str, options: Options) -> Reading:
-        """Read a URDF; warn of one without errors also if it is implausible, or can't be simulated.
+        """Read a URDF.
 
-        Names in options are held against the robot.
+        Without errors, also warn of implausible values, and of robots that can't be simulated. Names in options are
+        checked against the robot.
         """
         robot, diagnostics, lines, unmodelled = read_robot(content, file, options)
         if robot is None:
@@ -86,7 +87,7 @@ class UrdfDomain(Domain):
     def dependencies(
         self, snapshot: Snapshot, places: Lookup, options: Options, lines: Mapping[str, int]
     ) -> Sequence[Dependency]:
-        """Return the meshes of the shapes that something in the package is made of."""
+        """Return the meshes of the shapes that the package uses."""
         if options.meshes != "import":
             return ()
         has_collisions = options.collisions and ("package" in options.approach or options.base == "floating")
@@ -94,7 +95,7 @@ class UrdfDomain(Domain):
         return lookup.dependencies(snapshot["links"], kinds, places, lines, touches=options.base == "floating")
 
     def convert(self, dependency: Dependency, file: Path, content: bytes, others: Mapping[str, bytes]) -> Conversion:
-        """Return a mesh as STL or OBJ, with its bounds and its outermost points, and by its colours."""
+        """Return a mesh as STL or OBJ, split by its colours, with its bounds and its outermost points."""
         from urdfsync.urdf.meshes.convert import convert  # 10 ms, and only new meshes need it
 
         return convert(dependency, file, content, others)
@@ -110,7 +111,7 @@ class UrdfDomain(Domain):
         target: Target,
         options: Options,
     ) -> str | None:
-        """Return the diagram of the robot model, which only the package approach has."""
+        """Return the diagram of the robot model; only the package approach has one."""
         from urdfsync.urdf.diagram.drawing import draw
 
         return draw(from_snapshot(snapshot), target, options) if "package" in options.approach else None

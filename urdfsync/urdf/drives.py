@@ -1,9 +1,9 @@
 """The joints that Run and Test drive.
 
-A joint can be driven if it has one axis and follows no other joint. Some of these are passive, such as casters: joints
-that the source only measures, and where it drives any other joint, continuous ones without a drive and without limit.
-Other joints without a drive are driven all the same, since transmissions are often left out: a joint with a limit was
-meant to be moved by something. A source without any drives has no passive joints.
+A joint can be driven if it has one axis and follows no other joint. Passive are joints that the source only measures.
+If the source drives any joint, continuous joints without a drive and a limit, such as casters, are passive, too. Other
+joints without a drive are driven, since transmissions are often left out. A source without any drives has no passive
+joints.
 
 Loops leave fewer freedoms than joints: then no more of these are driven, see `kinematics.loops.Assembly`.
 """
@@ -20,9 +20,9 @@ from urdfsync.urdf.robot import MOTION_KINDS, Joint
 
 
 def assembly(tree: KinematicTree, options: Options) -> Assembly:
-    """Return how the loops of a robot are closed, and which joints Run and Test drive.
+    """Return the closed loops of a robot, and the joints that Run and Test drive.
 
-    These are the `wanted_joints`, as many of them as loops leave free.
+    These are the `wanted_joints`, as many as loops leave free.
     """
     wanted = wanted_joints(tree.joints, options)
     if not tree.loops:
@@ -38,10 +38,9 @@ def assembly(tree: KinematicTree, options: Options) -> Assembly:
 def wanted_joints(joints: Iterable[Joint], options: Options) -> frozenset[str]:
     """Return the names of the joints to drive: those of the option `driven` if it is set, else all but passive ones.
 
-    A passive joint with a command in the options is driven, too.
-
-    No number of a joint matters, so that a structure without numbers has the same drives. Names in the option that no
-    drivable joint has are left out: `check_options` reports them.
+    A passive joint with a command in the options is driven, too. Numbers of joints do not matter: a structure without
+    numbers has the same drives. Names in the option that no drivable joint has are left out: `check_options` reports
+    them.
     """
     joints = list(joints)
     can = frozenset(joint.name for joint in joints if can_be_driven(joint))
@@ -51,7 +50,7 @@ def wanted_joints(joints: Iterable[Joint], options: Options) -> frozenset[str]:
 
 
 def passive_joints(joints: Iterable[Joint]) -> frozenset[str]:
-    """Return the names of the joints that could be driven, but are not by the source alone."""
+    """Return the names of the joints that can be driven, but that the source does not drive."""
     joints = list(joints)
     has_drives = any(joint.actuated for joint in joints)
 
@@ -70,7 +69,7 @@ def has_motor(joint: Joint, options: Options) -> bool:
 def friction_law(joint: Joint, options: Options) -> FrictionLaw | None:
     """Return the law of the losses of a joint with one axis; None without losses.
 
-    A joint that follows another one has the smooth law: two that are stuck would hold the same motion twice.
+    A joint that follows another one has the smooth law: two stuck joints would hold the same motion twice.
     """
     if joint.dynamics is None:
         return None
@@ -78,12 +77,12 @@ def friction_law(joint: Joint, options: Options) -> FrictionLaw | None:
 
 
 def chosen_law(joint: Joint, options: Options) -> FrictionLaw:
-    """Return the law that the option `friction` means for a joint."""
+    """Return the law of a joint by the option `friction`."""
     return options.friction if isinstance(options.friction, str) else options.friction.get(joint.name, "smooth")
 
 
 def is_chosen(joint: Joint, names: str | tuple[str, ...]) -> bool:
-    """Return whether the option `elastic` or `saturated` means a joint, if that is driven."""
+    """Return whether the option `elastic` or `saturated` selects a driven joint."""
     return names == "all" or (not isinstance(names, str) and joint.name in names)
 
 

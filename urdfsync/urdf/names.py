@@ -1,7 +1,7 @@
-"""URDF names to Modelica identifiers: an element's own name decides, whatever its neighbours are called.
+"""Turns URDF names into Modelica identifiers: only an element's own name decides.
 
-Links and joints of a robot share one namespace, because both become components of the robot model. Only twins know of
-each other: elements whose names differ at most in case and kind. `docs/naming.md` states the rule for users.
+Links and joints of a robot share one namespace, because both become components of the robot model. The exception are
+twins: elements whose names differ at most in case and kind. `docs/naming.md` states the rule for users.
 """
 
 from __future__ import annotations
@@ -27,18 +27,18 @@ GENERATED = frozenset(
     "translationalrange translationalsupport tree turnaxes turning turninginertias turningjoints turninglimits "
     "turninglosses v_start visualizationsetup visuals w_start world".split()
 )
-"""Names, folded to lower case, that models and records of robots use beside those of links and joints."""
+"""Names, in lower case, that models and records of robots use besides those of links and joints."""
 
 LONGEST = 100
-"""A longer spelling is cut, since file systems end at 255 bytes."""
+"""A longer spelling is cut, since file systems allow 255 bytes."""
 
 RESERVED_SUFFIXES = ("parameters", "run", "test")
-"""Endings, folded to lower case, by which class names are made from other class names."""
+"""Endings, in lower case, that make class names from other class names."""
 
 _PLAIN = re.compile(
     r"(?!.*_(?:link|joint|loop|sensor)_[0-9a-f]{6}(?:[0-9a-f]{58})?$)[A-Za-z](?:[_-]?[A-Za-z0-9])*[_-]?"
 )
-"""Names that lose nothing: no two underscores or hyphens in a row, and no ending that twins have."""
+"""Unchanged names: without two underscores or hyphens in a row, and without the ending of twins."""
 _UNFIT = re.compile(r"[^A-Za-z0-9]+")
 _PARTS = re.compile(r"[0-9]+|[^0-9]+")
 _RESERVED = KEYWORDS | {name.lower() for name in FUNCTIONS} | RESERVED_CLASSES | DEVICES
@@ -69,7 +69,7 @@ def is_reserved(spelling: str) -> bool:
 
 
 def spell(name: str, kind: str) -> str:
-    """Return the identifier of an element without a twin: its name, or what is left of that with a hash of the name."""
+    """Return the identifier of an element without a twin: its name, or the rest of its name with a hash."""
     plain = name.replace("-", "__")
     if _PLAIN.fullmatch(name) and len(plain) <= LONGEST and not is_reserved(plain):
         return plain[0].lower() + plain[1:]
@@ -93,7 +93,7 @@ def _hashed(name: str, kind: str, mark: str = "", digits: int = _DIGITS) -> str:
 def natural_key(name: str) -> tuple[tuple[int, int, str, str], ...]:
     """Return a sort key in which `link10` follows `link9`; distinct names have distinct keys.
 
-    Numbers go before words, by their value, however long they are, and then by the zeros that lead them.
+    Numbers go before words, by their value, and then by their leading zeros.
     """
     return tuple(
         (0, len(part.lstrip("0")), part.lstrip("0"), part) if "0" <= part[0] <= "9" else (1, 0, part, part)
@@ -104,8 +104,8 @@ def natural_key(name: str) -> tuple[tuple[int, int, str, str], ...]:
 def identify(names: Iterable[ElementKey], taken: Iterable[str] = ()) -> Mapping[ElementKey, Identifier]:
     """Return identifiers of all links, joints and loops; no two are equal when case is folded, none is in `taken`.
 
-    Each element has three spellings, the last of which no other element can have. It gets the first one that is
-    none of another's: so all twins give way, and what one element was called never means another because that has come.
+    Each element has three spellings; the last one is unique. It gets its first spelling that no other element has. So
+    all twins give way, and a new element never takes another one's former name.
     """
     spelled = {key: spell(key[1], key[0]) for key in names}
     folded, taken = {spelling.lower() for spelling in spelled.values()}, {name.lower() for name in taken}

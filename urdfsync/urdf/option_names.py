@@ -1,8 +1,7 @@
 """Checks of the names in a robot's options: each is the name of a suitable link or joint.
 
-Without a joint in `driven` or a link in `frames`, the robot has no drive or connector that the user counts on. No
-package is right then, so a name that does not exist is an error. A name that an option has twice is a warning: the
-second may have been meant to be another.
+With a wrong name in `driven` or `frames`, the robot lacks a drive or connector that the user expects. So an unknown
+name is an error. A repeated name is a warning: another one may have been meant.
 """
 
 from __future__ import annotations
@@ -31,7 +30,7 @@ _DRIVEN = f"{_DRIVABLE} that Run and Test drive"
 def check_options(tree: KinematicTree, closed: Assembly, options: Options) -> Iterator[tuple[str, Diagnostic]]:
     """Yield diagnostics about a robot's options, each with the name of its option, and without file and line.
 
-    The record approach has no use for most options.
+    The record approach ignores most options.
     """
     links, joints = [link.name for link in tree.links], tree.joints
     ranges = {joint.name: own_range(joint) for joint in joints if can_be_driven(joint)}
@@ -104,7 +103,7 @@ def _named(friction: str | Mapping[str, str]) -> Iterable[str]:
 
 
 def _check_laws(joints: Sequence[Joint], options: Options) -> Iterator[tuple[str, Diagnostic]]:
-    """Yield an error for each joint whose chosen friction and drive make no model."""
+    """Yield an error for each joint whose chosen friction and drive exclude each other."""
     driven, named = wanted_joints(joints, options), _named(options.friction)
     for joint in filter(can_be_driven, joints):
         law, is_dry = chosen_law(joint, options), joint.dynamics is not None and joint.dynamics.friction > 0

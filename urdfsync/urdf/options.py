@@ -10,7 +10,7 @@ import msgspec
 from urdfsync.urdf.robot import Command, LoopKind, Vector
 
 USES = (("Modelica", "4.0.0"), ("UrdfSync", "0.1.0"))
-"""Libraries that all generated packages are written for."""
+"""Libraries that all generated packages need."""
 # No release notes of Visualization2 are public. The version is that of the published URDFModelica_Tutorial.
 _VISUALIZER_USES = {"visualization2": ("Visualization2", "1.1")}
 """Further library of the packages for a visualizer."""
@@ -18,7 +18,7 @@ _VISUALIZER_USES = {"visualization2": ("Visualization2", "1.1")}
 
 FrictionLaw: TypeAlias = Literal["smooth", "stiction", "lugre"]
 LeftOut: TypeAlias = Literal["loop-joint", "stray-inertial"]
-"""Codes of errors about what moves with the robot and can't be in its model."""
+"""Codes of errors about moving parts that can't be in the robot's model."""
 
 
 class LoopFrame(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -35,7 +35,7 @@ class LoopOption(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     name: Annotated[str, msgspec.Meta(pattern=r"\S")]
     kind: LoopKind
     frames: tuple[str | LoopFrame, str | LoopFrame]
-    """That of the parent, and that of the child."""
+    """The parent's and the child's."""
     axis: Vector = (0.0, 0.0, 1.0)
     """Axis of a revolute joint in both frames, or the first one of a universal joint, in the frame of the parent."""
     child_axis: Vector = (1.0, 0.0, 0.0)
@@ -48,7 +48,7 @@ class Options(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     base: Literal["fixed", "floating"] = "fixed"
     """`fixed`: the root link is bolted down; `floating`: a mobile robot that moves freely and touches the ground."""
     visualizer: Literal["standard", "visualization2"] = "standard"
-    """Whose shapes the links show: the Modelica Standard Library's or those of the DLR Visualization 2 library."""
+    """The library of shapes: the Modelica Standard Library or the DLR Visualization 2 library."""
     collisions: bool = True
     """Whether links have their collision shapes."""
     meshes: Literal["import", "skip"] = "import"
@@ -56,13 +56,13 @@ class Options(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     approach: Annotated[tuple[Literal["package", "record"], ...], msgspec.Meta(min_length=1)] = ("package",)
     """`package`: a model per link and joint; `record`: a bench for the generic robot. Both have the robot's record."""
     driven: tuple[str, ...] | None = None
-    """URDF names of the joints that Run and Test drive; None to go by the source: see `urdfsync.urdf.drives`."""
+    """URDF names of the joints that Run and Test drive; None leaves it to the source: see `urdfsync.urdf.drives`."""
     commands: Mapping[str, Command] = {}
-    """The quantity by which Run drives a joint, by URDF names of joints; others go by the source."""
+    """The quantity by which Run drives a joint, by URDF names of joints; the source decides on others."""
     start: Mapping[str, float] = {}
-    """Positions at which simulations begin, in rad or m, by URDF names of joints; others go by the source."""
+    """Positions at which simulations begin, in rad or m, by URDF names of joints; the source decides on others."""
     friction: FrictionLaw | Mapping[str, FrictionLaw] = "smooth"
-    """The law of dry friction: of all joints that have it and follow no other one, or by URDF names of joints."""
+    """The law of dry friction: for all joints, or by URDF names of joints."""
     elastic: Literal["none", "all"] | tuple[str, ...] = "none"
     """URDF names of driven joints with a spring and a damper between drive and joint."""
     saturated: Literal["none", "all"] | tuple[str, ...] = "none"
@@ -70,14 +70,14 @@ class Options(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     drives: Literal["joint", "motor"] = "joint"
     """`motor`: the robot model has a flange at the motor's side of each gear, too."""
     frames: Literal["leaves", "all"] | tuple[str, ...] = "leaves"
-    """URDF names of the links that have a frame in the robot model beside the leaves, which always have one."""
+    """URDF names of links with a frame in the robot model; leaves always have one."""
     inputs: Literal["names", "vector"] = "names"
     """`names`: Run has a position input per driven joint; `vector`: one for all, in the order of the chain."""
 
     loops: tuple[LoopOption, ...] = ()
     """Joints that close loops, beside those of the source."""
     allow: tuple[LeftOut, ...] = ()
-    """Errors that are warnings: what they are about is left out."""
+    """Errors that become warnings: their parts are left out."""
 
     @property
     def uses(self) -> tuple[tuple[str, str], ...]:

@@ -1,4 +1,4 @@
-"""Legal but hardly meant parts of a URDF: no inertia, numbers in another unit, a shape far outside of its link.
+"""Finds legal but implausible parts of a URDF: no inertia, numbers in another unit, a shape far outside of its link.
 
 The bounds leave a wide margin, since a warning about a sound robot is worse than none.
 """
@@ -26,11 +26,14 @@ from urdfsync.urdf.robot import (
 from urdfsync.urdf.validate import Finding
 
 _DENSEST = 10_000
-"""In kg/m³, of a cube as large as the robot; steel has 7,900."""
+"""Density of a cube as large as the robot, in kg/m³; steel has 7,900."""
 _HEAVY = 500
 """In kg: lighter robots may be smaller than their known parts."""
 _GYRATION = 3
-"""Radius of gyration in relation to the farthest point of a body, which can't be above 1. Shapes may be simplified."""
+"""Radius of gyration, relative to the farthest point of a body.
+
+Real bodies have at most 1, but shapes may be simplified.
+"""
 _MARKER = 0.002
 """In m: a shape that reaches no farther only marks a place, so that the size of the body is unknown."""
 _UNKNOWN_GYRATION, _UNKNOWN_SIZE = 10, 0.5
@@ -45,7 +48,7 @@ _LIGHT = 0.05
 
 
 def find_implausible(tree: KinematicTree) -> Iterator[Finding]:
-    """Yield a warning for each part that is hardly meant in a robot that passed all checks."""
+    """Yield a warning for each implausible part of a robot that passed all checks."""
     own_masses = {link.name: link.inertial.mass if link.inertial else 0.0 for link in tree.links}
     distances, masses = {tree.links[0].name: 0.0}, dict(own_masses)
     for joint in tree.joints:
@@ -86,7 +89,7 @@ def _check_masses(tree: KinematicTree, masses: Mapping[str, float], length: floa
 
 
 def _check_inertia(link: Link, inertial: Inertial, length: float) -> Iterator[Finding]:
-    """Check that a body as large as the link can have its radius of gyration; the link has a mass."""
+    """Check that a body of the link's size can have its radius of gyration; the link has a mass."""
     gyration, radius, place = _gyration(inertial), _radius(link), f"link {link.name} / inertial"
     if gyration == 0 and radius and inertial.mass > _LIGHT:
         message = f"{place}: a body of {inertial.mass:g} kg that has a shape has no inertia"
@@ -114,9 +117,9 @@ def _check_shapes(link: Link, length: float) -> Iterator[Finding]:
 
 
 def _check_limits(joint: Joint, length: float, mass: float) -> Iterator[Finding]:
-    """Check that the place of a joint and its limits are as small as they are in SI units.
+    """Check that place and limits of a joint are plausible in SI units.
 
-    `mass` is that of the child link: without one, the joint may be one of those that let a robot go anywhere.
+    `mass` is the child link's: a joint without mass may let a robot go anywhere.
     """
     path, away = f"joint {joint.name}", math.hypot(*joint.origin.xyz)
     if away > _LONG_JOINT:

@@ -1,12 +1,11 @@
 """A robot as its URDF describes it: frozen values in SI units, source order kept.
 
-Lengths are in metres, angles in radians, masses in kilograms, inertias in kg·m². `rpy` are the
-fixed-axis roll, pitch and yaw angles of URDF. What a URDF leaves out and its specification gives no
-number for stays None; all other defaults are those of ROS's urdfdom. A field that is new defaults to None: else each
-robot that was recorded before would have changed.
+Lengths are in metres, angles in radians, masses in kilograms, inertias in kg·m². `rpy` are the fixed-axis roll, pitch
+and yaw angles of URDF. A missing value without a default in the specification is None; all other defaults are those of
+ROS's urdfdom. A new field defaults to None: otherwise each recorded robot would have changed.
 
 These values refer to each other in one direction only, so Python need not search them for reference cycles
-(`gc=False`): that would take a third of the time that the daemon has for a changed mass of 1,000 links.
+(`gc=False`): with 1,000 links that would take a third of the daemon's time for a changed mass.
 """
 
 from __future__ import annotations
@@ -24,7 +23,7 @@ class Unit(NamedTuple):
 
     name: str
     sliding: str | None = None
-    """That of a sliding joint, if `name` is that of a turning one; a joint of another kind has none."""
+    """The unit for a sliding joint, if `name` is the one for a turning joint; other joints have none."""
 
 
 _LENGTH, _ANGLE, _INERTIA = Unit("m"), Unit("rad"), Unit("kg·m²")
@@ -45,9 +44,9 @@ class JointKind(msgspec.Struct, frozen=True):
     does: str
     """Its motion in words, for the documentation of generated models."""
     motion: Motion | None = None
-    """Kind of motion of a joint with one degree of freedom: these alone have flanges, mimic and are mimicked."""
+    """Kind of motion of a joint with one degree of freedom: only these have flanges, mimic, and are mimicked."""
     has_axis: bool = False
-    """Whether it has an axis; damping and friction have an effect then, too."""
+    """Whether it has an axis: then damping and friction have an effect."""
     has_limits: bool = False
     """Whether its position has limits."""
 
@@ -172,7 +171,7 @@ class Link(msgspec.Struct, frozen=True, gc=False):
 
 
 class Limit(msgspec.Struct, frozen=True, gc=False):
-    """Limits of a joint. A position limit that is left out is 0, as in urdfdom; None is no limit."""
+    """Limits of a joint. A missing position limit is 0, as in urdfdom; None is no limit."""
 
     lower: Annotated[float, _POSITION] = 0.0
     upper: Annotated[float, _POSITION] = 0.0
@@ -180,7 +179,7 @@ class Limit(msgspec.Struct, frozen=True, gc=False):
     velocity: Annotated[float | None, Unit("rad/s", "m/s")] = None
     acceleration: Annotated[float | None, _ACCELERATION] = None
     deceleration: Annotated[float | None, _ACCELERATION] = None
-    """None if it is that of `acceleration`."""
+    """None if it equals `acceleration`."""
     jerk: Annotated[float | None, Unit("rad/s³", "m/s³")] = None
 
 
@@ -245,11 +244,11 @@ class Joint(msgspec.Struct, frozen=True, gc=False):
     measured: bool = False
     """Whether these only measure it."""
     transmission: Transmission | None = None
-    """None if there is no gear: neither reduction nor offset nor rotor."""
+    """None without a gear: neither reduction nor offset nor rotor."""
     command: Command = "position"
     """Quantity by which the source commands the joint."""
     start: Annotated[float | None, _POSITION] = None
-    """Position at which a simulation begins; None to go by the limits: see `kinematics.poses.start_positions`."""
+    """Position at which a simulation begins; None: by the limits, see `kinematics.poses.start_positions`."""
 
 
 class Loop(msgspec.Struct, frozen=True, gc=False):
@@ -265,15 +264,15 @@ class Loop(msgspec.Struct, frozen=True, gc=False):
     origin: Origin = Origin()
     """Pose of the frame in the parent link."""
     child_origin: Origin = Origin()
-    """Pose of the frame in the child link; a loop is closed where both frames have one origin."""
+    """Pose of the frame in the child link; in a closed loop both frames have one origin."""
     axis: Vector = (0.0, 0.0, 1.0)
-    """Unit vector, in both frames, about which a revolute one turns; the first axis of a universal one, in `origin`."""
+    """Axis of a revolute joint, in both frames, as unit vector; the first axis of a universal one, in `origin`."""
     child_axis: Vector = (1.0, 0.0, 0.0)
     """The second axis of a universal one, in `child_origin`; the joint holds it perpendicular to the first."""
 
 
 def reflected_inertia(joint: Joint) -> float | None:
-    """Return the inertia that the drive adds about or along the axis; None if the source has no number of it."""
+    """Return the inertia that the drive adds about or along the axis; None if the source has none."""
     armature = joint.dynamics.armature if joint.dynamics else None
     rotor = joint.transmission.rotor_inertia if joint.transmission else None
     if joint.transmission is None or rotor is None:
@@ -282,7 +281,7 @@ def reflected_inertia(joint: Joint) -> float | None:
 
 
 def effective(joint: Joint) -> Joint:
-    """Return the joint without the numbers that have no effect on one of its type. Records are made from this."""
+    """Return the joint without numbers that have no effect on its type. Records are made from this."""
     kind = JOINT_KINDS[joint.type]
     limit, dynamics = joint.limit if kind.motion else None, joint.dynamics if kind.has_axis else None
     if limit is not None and not kind.has_limits:
@@ -304,14 +303,14 @@ def effective(joint: Joint) -> Joint:
 
 
 def structure(joint: Joint) -> Joint:
-    """Return what the model of the robot says of a joint; `model.joint` has what its own model says."""
+    """Return the data of a joint in the robot model; `model.joint` has those of its own model."""
     mimic = None if joint.mimic is None else Mimic(joint.mimic.joint)
     start = None if joint.start is None else 0.0
     return Joint(joint.name, joint.type, joint.parent, joint.child, mimic=mimic, start=start)
 
 
 def limits_acceleration(joint: Joint) -> bool:
-    """Return whether an effective joint has a limit of acceleration or deceleration, which its model checks."""
+    """Return whether the model of an effective joint checks a limit of acceleration or deceleration."""
     limit = joint.limit
     return limit is not None and (limit.acceleration is not None or limit.deceleration is not None)
 
@@ -340,7 +339,7 @@ class Lidar(msgspec.Struct, frozen=True, gc=False):
 
 
 class Sensor(msgspec.Struct, frozen=True, gc=False):
-    """A sensor on the link `at`, or for force and torque in the joint of that name; `origin` is its place on the link.
+    """A sensor on the link `at`, or a force-torque sensor in the joint of that name; `origin` is its place on the link.
 
     The wrench is about the origin of the joint.
     """
@@ -354,16 +353,15 @@ class Sensor(msgspec.Struct, frozen=True, gc=False):
     camera: Camera | None = None
     lidar: Lidar | None = None
     in_parent: bool = False
-    """Whether the wrench is in the axes of the parent link, not of the child."""
+    """Whether the wrench is in the axes of the parent link, not the child."""
     on_child: bool = False
-    """Whether the wrench is that of the parent on the child, not the other way round."""
+    """Whether the wrench acts from the parent on the child, not the other way round."""
 
 
 class Extension(msgspec.Struct, frozen=True, gc=False):
     """An element that urdfsync keeps but does not model: for example transmission, gazebo or sensor.
 
-    `owner` says where it stands (`""` for the robot, `link wheel`, `joint elbow`), `text` is its
-    XML in canonical form.
+    `owner` is its parent (`""` for the robot, `link wheel`, `joint elbow`), `text` is its XML in canonical form.
     """
 
     owner: str

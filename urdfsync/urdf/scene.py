@@ -22,7 +22,7 @@ from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS, Joint, Link, Loop, Me
 from urdfsync.urdf.snapshot import from_snapshot
 
 _NO_FACTS = {"bounds": (), "hull": ()}
-"""Of a mesh that is too large for the package: a picture needs none."""
+"""Facts of a mesh that is too large for the package: a picture needs none."""
 
 
 def triangles(path: str, content: bytes, key: str, most: int) -> Triangles | str:

@@ -1,4 +1,4 @@
-"""Robot to snapshot and back: the model as plain data that JSON keeps, and that reads well as a diff.
+"""Turns a robot into a snapshot and back: plain data that JSON keeps, and that gives readable diffs.
 
     {"name": …,
      "links": {name: {"inertial": {…}, "visuals": [{…}], "collisions": [{…}]}},
@@ -7,9 +7,9 @@
      "sensors": {name: {"kind": …, "at": …, "origin": {…}, …}},   if there are any
      "loops": {name: {"kind": …, "parent": …, "child": …, "origin": {…}, "child_origin": {…}, …}}}   if there are any
 
-Elements are sorted by name, so their order in the file makes no difference; visuals and collisions keep theirs.
-A part that the model does not have is left out: inertial, limit, colour, drive. So a diff shows its coming and going as
-one block. Every number is written, defaults too, so that its change is one changed line.
+Elements are sorted by name, so their order in the file makes no difference; visuals and collisions keep theirs. A
+missing part is left out: inertial, limit, colour, drive. So a diff shows an added or removed part as one block. Every
+number is written, even a default, so that its change is one changed line.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from urdfsync.urdf.robot import Joint, Link, Loop, Robot, Sensor
 
 
 def to_snapshot(robot: Robot) -> Snapshot:
-    """Return the robot as plain data, as it would come back from JSON; names of links, and of joints, are unique."""
+    """Return the robot as plain data of JSON's types; names of links, and of joints, are unique."""
     extensions: dict[str, dict[str, list[str]]] = {}
     for extension in sorted(robot.extensions, key=msgspec.structs.astuple):
         extensions.setdefault(extension.owner, {}).setdefault(extension.tag, []).append(extension.text)
@@ -41,7 +41,7 @@ def to_snapshot(robot: Robot) -> Snapshot:
 
 
 def _plain(element: Link | Joint | Sensor | Loop) -> Mapping[str, Any]:
-    """Return an element as plain data but for its name."""
+    """Return an element as plain data, without its name."""
     data = _without_none(msgspec.json.decode(msgspec.json.encode(element, order="sorted")))
     del data["name"]
     for key, default in (("actuated", False), ("measured", False), ("command", "position")):

@@ -1,4 +1,4 @@
-"""Findings about joints that a simulation of the package or of the generic robot can't move."""
+"""Finds joints that a simulation of the package or of the generic robot can't move."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from urdfsync.urdf.validate import Finding
 
 
 def find_unsimulated(tree: KinematicTree, closed: Assembly, options: Options) -> Iterator[Finding]:
-    """Yield what the chosen approaches can't simulate."""
+    """Yield the joints that the chosen approaches can't simulate."""
     if "record" in options.approach:
         yield from out_of_scope(tree)
     if "package" not in options.approach:
@@ -33,7 +33,7 @@ def find_unsimulated(tree: KinematicTree, closed: Assembly, options: Options) ->
 
 
 def out_of_scope(tree: KinematicTree) -> Iterator[Finding]:
-    """Yield each joint that leaves the record without tables, or else those that can't move freely."""
+    """Yield each joint for which the record has no tables, or else joints that can't move freely."""
     if tree.loops:
         message = "the generic robot has no loops, and is open in the record"
         yield Finding("loops-not-in-record", f"loop {tree.loops[0].name}", message)

@@ -1,6 +1,6 @@
-"""The diagnostics about a URDF by their codes, and the checks of a robot, whatever it was read from.
+"""The diagnostics about a URDF by their codes, and the checks of a robot from any source.
 
-A finding is an error where no right model exists, and a warning where one does. docs/findings.md explains the codes.
+A finding is an error if no right model exists, and a warning otherwise. docs/findings.md explains the codes.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ _MAGNITUDES = (
     ("negative-inertia", "dynamics", ("armature",)),
     ("negative-inertia", "transmission", ("rotor_inertia",)),
 )
-"""Codes for numbers below zero, by their blocks of a joint."""
+"""Codes of negative numbers, by their blocks of a joint."""
 
 _Element = TypeVar("_Element", Link, Joint)
 
@@ -190,7 +190,7 @@ class Finding(NamedTuple):
     path: str
     message: str
     hint: str = ""
-    """Better advice than that of the table."""
+    """A better hint than that of the table."""
 
 
 def diagnostic(
@@ -202,9 +202,9 @@ def diagnostic(
 
 
 def check(robot: Robot, *, complete: bool = True) -> Iterator[Finding]:
-    """Check a robot whose axes still are as written.
+    """Check a robot with its written axes.
 
-    `complete` is false if faulty joints or links had to be left out: the number of roots means nothing then.
+    `complete` is false if faulty joints or links were left out: then the number of roots has no meaning.
     """
     links, joints = _with_paths("link", robot.links), _with_paths("joint", robot.joints)
     yield from _check_names("link", links)
@@ -227,7 +227,7 @@ def _check_names(kind: str, elements: Iterable[tuple[str, Link | Joint]]) -> Ite
 
 
 def check_loops(loops: Sequence[Loop], links: Collection[str]) -> Iterator[Finding]:
-    """Check that loops have names of their own, frames on two links that exist, and axes; one fault for each."""
+    """Check that loops have unique names, frames on two existing links, and axes; one fault for each."""
     seen: dict[Loop, str] = {}
     for path, loop in zip(element_paths("loop", (loop.name for loop in loops)), loops, strict=True):
         same = msgspec.structs.replace(loop, name="")
@@ -248,9 +248,9 @@ def check_loops(loops: Sequence[Loop], links: Collection[str]) -> Iterator[Findi
 
 
 def perhaps(name: str, names: Collection[str], likeness: float = 0.7) -> str:
-    """Return the advice to write the one of `names` that is most like `name`; nothing if there is none.
+    """Return the hint with the one of `names` most like `name`; empty without one.
 
-    Of more than 500 names none is compared: that would take longer than the rest of the reading.
+    More than 500 names are not compared: that would take longer than the rest of the reading.
     """
     meant = spelling.nearest(name, names, likeness) if len(names) <= _COMPARED else ""
     return f"perhaps {meant!r} is meant" if meant else ""
@@ -271,7 +271,7 @@ def _with_paths(kind: str, elements: Sequence[_Element]) -> list[tuple[str, _Ele
 
 
 def unit_vector(axis: Vector) -> Vector:
-    """Return the unit vector along `axis`, which stays bit by bit if it is one but for 1e-12; x for a zero vector."""
+    """Return the unit vector along `axis`, unchanged if its length is 1 up to 1e-12; x for a zero vector."""
     largest = max(map(abs, axis))
     if largest == 0:
         return (1.0, 0.0, 0.0)
@@ -327,7 +327,7 @@ def _cycles(names: Iterable[str], successor: Mapping[str, str]) -> Iterator[list
 
 
 def _check_link(path: str, link: Link) -> Iterator[Finding]:
-    """Check that a body can have the mass properties of the link, and that its shapes are not empty."""
+    """Check that a body can have the link's mass properties, and that its shapes are not empty."""
     if link.inertial is not None:
         mass, place = link.inertial.mass, f"{path} / inertial"
         if mass < 0:
@@ -352,8 +352,8 @@ def _check_link(path: str, link: Link) -> Iterator[Finding]:
 def principal_moments(inertia: Inertia) -> Vector:
     """Return the eigenvalues of the inertia tensor in ascending order, in kg·m².
 
-    By the trigonometric solution of the characteristic equation, to eight digits or more. Loading numpy for it would
-    take longer than a whole build of a small robot.
+    Uses the trigonometric solution of the characteristic equation, to eight digits or more. The import of numpy would
+    take longer than a build of a small robot.
     """
     values = msgspec.structs.astuple(inertia)
     scale = max(map(abs, values)) or 1.0  # else squares of large numbers overflow
@@ -370,7 +370,7 @@ def principal_moments(inertia: Inertia) -> Vector:
 
 
 def _is_empty(geometry: Geometry) -> bool:
-    """Return whether a size is not positive; but spheres may be points of contact, and a mesh may be mirrored."""
+    """Return whether a size is not positive; spheres may be points of contact, and meshes may be mirrored."""
     match geometry:
         case Box(size=size):
             return min(size) <= 0

@@ -1,7 +1,7 @@
-"""Compare sources with the last build, or with another version of them. Writes nothing, and locks nothing for writing.
+"""Compares sources with the last build, or with another version. Writes nothing, and takes no lock.
 
-Against the last build the answer is that of a dry run: its changes, its plan. Another version is read as the
-source itself is, with the files that it refers to as they are in that version.
+Against the last build the answer is a dry run: its changes, its plan. Another version is read like the source, with its
+files in that version.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ from urdfsync.state import expansion
 from urdfsync.state.store import Store
 
 _DOMAIN = "urdf"
-"""Domain of a source that no robot of the configuration has."""
+"""Domain of a source without a robot in the configuration."""
 
 
 Contents: TypeAlias = tuple[Version, Mapping[str, bytes]]
@@ -50,26 +50,26 @@ Contents: TypeAlias = tuple[Version, Mapping[str, bytes]]
 
 
 class Comparison(msgspec.Struct, frozen=True):
-    """A source as it is now, compared with an older version of it."""
+    """The comparison of a source with an older version."""
 
     KEYS = ("source", "against", "in_step", "summary", "effects", "result")
 
     result: Result
-    """Result of a dry run; against another version than the last build, an action for each file that differs."""
+    """Result of a dry run; with `against`, an action for each different file."""
     source: str
-    """The source, as people see it."""
+    """The source's name for people."""
     against: str | None = None
-    """The other version, as the user named it; None for the last build."""
+    """The user's name of the other version; None for the last build."""
     missing: str = ""
-    """Why there is no older version to compare with; empty if there is one."""
+    """Why there is no older version; empty if there is one."""
     effects: tuple[Effect, ...] = ()
-    """Properties of the model as a whole that the changes concern."""
+    """Properties of the whole model that the changes concern."""
     versions: tuple[Contents, ...] = ()
-    """The older version and the new one; none of a last build, or an error."""
+    """The older version and the new one; none for the last build, or after an error."""
 
     @property
     def diagnostics(self) -> tuple[Diagnostic, ...]:
-        """The findings, without those that the effects tell."""
+        """The findings, without those in the effects."""
         return tuple(finding for finding in self.result.diagnostics if finding.code != CONNECTORS)
 
     @property
@@ -80,7 +80,7 @@ class Comparison(msgspec.Struct, frozen=True):
 
     @property
     def summary(self) -> str:
-        """What changed since the older version, as the rest of a line that names the robot."""
+        """The changes since the older version, as the rest of a line that names the robot."""
         if self.result.failed:
             return f"{error_count(self.result.diagnostics)}, so nothing can be compared"
         if self.missing:
@@ -93,7 +93,7 @@ class Comparison(msgspec.Struct, frozen=True):
 
 
 def exit_code(comparisons: Sequence[Comparison]) -> Exit:
-    """Return the worst of all: an error, a lock, being out of step; a conflict is no more than that."""
+    """Return the worst of all: an error, a lock, being out of step; a conflict counts as out of step."""
     code = exit_code_of(comparison.result for comparison in comparisons)
     if code in (Exit.ERROR, Exit.LOCKED):
         return code
@@ -103,7 +103,7 @@ def exit_code(comparisons: Sequence[Comparison]) -> Exit:
 def select_sources(
     sources: Sequence[str], against: str | None, config: Config | None, folder: Path
 ) -> Iterator[tuple[Config | None, Sequence[RobotConfig]]]:
-    """Yield the robots that the arguments mean, and robots for sources that none of them has. Raises ConfigError."""
+    """Yield the robots for the arguments, and new robots for other sources. Raises ConfigError."""
     if config is None and against is None:
         place = f"{folder} or a folder above it"
         message = f"no {FILE_NAME} in {place}, so there is no last build to compare with"
@@ -129,7 +129,7 @@ def select_sources(
 
 
 def robot_of_file(path: Path) -> RobotConfig:
-    """Return a robot for a source that is in no configuration, with default settings; what can be left out is."""
+    """Return a robot for a source outside of the configuration, with default settings; it allows left-out parts."""
     name = class_name(path.name.partition(".")[0])
     options = permissive_options(registry.domain(_DOMAIN))
     return RobotConfig(
@@ -148,7 +148,7 @@ def compare_sources(
 ) -> Iterator[Comparison]:
     """Compare each source with the last build, or with `against`: a git revision, or a file, counted from `folder`.
 
-    One that fails does not stop the others. Without a configuration there has to be another version.
+    A failure does not stop the others. Without a configuration, `against` is required.
     """
     for count, robot in enumerate(robots):
         options.progress(robot.name, count, len(robots))
@@ -163,7 +163,7 @@ def compare_sources(
 
 
 def _result(robot: RobotConfig, config: Config | None) -> Result:
-    """Return an empty result; the paths of a robot that is in no configuration count from its package."""
+    """Return an empty result; paths of a robot outside of the configuration count from its package."""
     if config is None:
         return Result(robot.name, robot.target.package, Path(), Path(), dry=True)
     return Result(robot.name, robot.target.package, robot.folder, config.root, dry=True)
@@ -187,7 +187,7 @@ def _with_last_build(robot: RobotConfig, config: Config, options: BuildOptions) 
 def _is_file(against: str, source: Path, folder: Path) -> bool:
     """Return whether `against` names a file: as a path, or because git has no revision of that name.
 
-    Raises SourceError if git can't tell.
+    Raises SourceError if git fails.
     """
     if not (folder / against).is_file():
         return False
@@ -207,16 +207,16 @@ class _VersionedSource(NamedTuple):
 
     text: Source
     places: tuple[Path, ...]
-    """The files from which references count, best first; absolute."""
+    """The files to which references are relative, best first; absolute."""
     revision: Revision | None = None
     scratch: Path = Path()
-    """With a revision: a folder for other files of it."""
+    """With a revision: a folder for its other files."""
 
 
 def _with_version(
     robot: RobotConfig, against: str, config: Config | None, options: BuildOptions, folder: Path
 ) -> Comparison:
-    """Compare a source with another version of it; the actions are those of a package that nobody edited."""
+    """Compare a source with another version of it; actions are those of an unedited package."""
     domain, result = registry.domain(robot.domain), _result(robot, config)
     with tempfile.TemporaryDirectory(prefix="urdfsync-") as scratch:
         source = robot.source
@@ -263,7 +263,7 @@ def _with_version(
 
 
 def _in_revision(revision: Revision, robot: RobotConfig, config: Config | None) -> Source:
-    """Return a source in a revision; that of xacro as it was expanded then. Raises SourceError."""
+    """Return a source in a revision; xacro with its expansion at that time. Raises SourceError."""
     label = revision.label(robot.source)
     # the source may have had another name then, its expansion has that of the robot
     if config is None or not (robot.arguments is not None or source_files.is_xacro(robot.source, b"")):
@@ -305,9 +305,9 @@ def _effects(
 def _read(
     domain: Domain, robot: RobotConfig, version: _VersionedSource, known: imports.Imported, options: BuildOptions
 ) -> tuple[Version, imports.Imported, tuple[Diagnostic, ...]]:
-    """Read a version and the files that it refers to; imports that are `known` are not converted again.
+    """Read a version and the files that it refers to; `known` imports are not converted again.
 
-    Raises SourceError for a source that can't be read.
+    Raises SourceError for an unreadable source.
     """
     text = version.text
     with text.locating():

@@ -1,4 +1,4 @@
-"""What changed between two versions: lines for people, and a section."""
+"""Reports the changes between two versions: as lines for people, and as a section."""
 
 from __future__ import annotations
 
@@ -20,16 +20,16 @@ from urdfsync.spelling import counted
 from urdfsync.versions.comparison import Comparison
 
 _CHANGES, _FILES, _EFFECTS = 60, 12, 8
-"""So many lines of changes, files and effects are listed at most, without --verbose."""
+"""The most lines of changes, files and effects without --verbose."""
 _DOUBTS = 6
-"""So many elements that may be other parts are named."""
+"""The most named elements that may be other parts."""
 _SILENT = frozenset({Reason.UNCHANGED, Reason.KEEP, Reason.FORGET})
 _EDITED = USERS | {Reason.MOVED_AWAY}
-"""Actions on files that the user edited: these are always named."""
+"""Actions on edited files: these are always named."""
 
 
 def to_section(compared: Comparison) -> Section:
-    """Return a comparison for a comment; only one with the last build judges the package."""
+    """Return a comparison for a comment; only a comparison with the last build judges the package."""
     result, section = compared.result, build_section(compared.result)
     points, tables = change_parts(result.changes)
     points = [point for point in points if point not in compared.summary]
@@ -42,7 +42,7 @@ def to_section(compared: Comparison) -> Section:
 
 
 def robot_lines(compared: Comparison, *, verbose: bool = False) -> Iterator[StyledLine]:
-    """Yield what changed in a source, without findings: by element, effects on the model, files; of many the first."""
+    """Yield the changes in a source, without findings: by element, effects on the model, files; of many the first."""
     head, changes = compared.summary, compared.result.changes
     yield headline(compared.result, head, is_fine=compared.in_step)
     told = [text for text in change_lines(changes, everything=verbose) if text not in head] if changes else []
@@ -55,7 +55,7 @@ def robot_lines(compared: Comparison, *, verbose: bool = False) -> Iterator[Styl
 
 
 def _doubts(compared: Comparison) -> Iterator[StyledLine]:
-    """Yield the elements that may be other parts, and lines for the configuration that say so."""
+    """Yield the elements that may be other parts, and their lines for the configuration."""
     doubts = compared.result.changes.doubts if compared.result.changes else ()
     yield from (line((f"  {describe_doubt(doubt)}", "yellow")) for doubt in doubts[:_DOUBTS])
     if len(doubts) > _DOUBTS:
@@ -68,7 +68,7 @@ def _doubts(compared: Comparison) -> Iterator[StyledLine]:
 
 
 def _files(compared: Comparison, verbose: bool) -> Iterator[StyledLine]:
-    """Yield the files that are concerned, and why if it is one that the user edited; these come first."""
+    """Yield the concerned files; edited ones come first, with a reason."""
     result = compared.result
     actions = [action for action in result.actions if action.reason not in _SILENT]
     if compared.in_step or not actions:

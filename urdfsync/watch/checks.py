@@ -17,7 +17,7 @@ from urdfsync.engine.result import Checked
 from urdfsync.watch import events
 
 _PATIENCE = 10.0
-"""Seconds that a check gets to end when the daemon does; a compiler that is left ends with the process."""
+"""Seconds that a check has at the daemon's end; a remaining compiler ends with the process."""
 
 
 class CheckJob(msgspec.Struct, frozen=True, eq=False):
@@ -25,7 +25,7 @@ class CheckJob(msgspec.Struct, frozen=True, eq=False):
 
     robot: RobotConfig
     key: str | None
-    """Of all that the check rests on; None if some of it can't be read."""
+    """The key of the check's inputs; None if one can't be read."""
 
 
 class CheckEnded(msgspec.Struct, frozen=True):
@@ -36,7 +36,7 @@ class CheckEnded(msgspec.Struct, frozen=True):
 
 
 class CancelledError(Exception):
-    """A newer check has taken the place of this one."""
+    """A newer check replaced this one."""
 
 
 class CheckQueue:
@@ -49,9 +49,9 @@ class CheckQueue:
         self._queue, self._options = queue, options
         self._checker: BuildChecker
         self._jobs: dict[str, CheckJob] = {}
-        """By robot; the first one may run."""
+        """The checks by robot; the first one may be running."""
         self._thread: threading.Thread | None = None
-        """The check that runs, cancelled or not."""
+        """The running check, also a cancelled one."""
         self._last: dict[str, Checked] = {}
         self._told: set[Diagnostic] = set()
 
@@ -70,7 +70,7 @@ class CheckQueue:
         self._last.clear()
 
     def check(self, robot: RobotConfig) -> Sequence[events.Event]:
-        """Check the package of a robot as it is now, unless such a check runs, or found it right."""
+        """Check the present package of a robot, unless such a check runs, or found it right."""
         if robot.on_build != "check":
             return ()
         key, job = self._checker.key(robot), self._jobs.get(robot.name)
@@ -87,7 +87,7 @@ class CheckQueue:
         return () if was_right and earlier.checked is Checked.RIGHT else (event,)
 
     def finish(self, ended: CheckEnded) -> Sequence[events.Event]:
-        """Take note of the end of a check, and start the next."""
+        """Record the end of a check, and start the next."""
         self._thread = None
         robot = ended.job.robot
         if ended.result is None or self._jobs.get(robot.name) is not ended.job:
@@ -119,7 +119,7 @@ class CheckQueue:
             self._queue.put(CheckEnded(job, result))
 
     def _note(self, robot: RobotConfig, result: BuildCheck) -> events.CheckDone:
-        """Return the event of a check that has ended; findings about the machine are told once."""
+        """Return the event of a finished check; findings about the machine are reported once."""
         new = tuple(finding for finding in robot.without_ignored(result.diagnostics) if finding not in self._told)
         self._told.update(filter(is_general, new))
         self._last[robot.name] = result.checked

@@ -1,8 +1,8 @@
 """The daemon: one thread that waits for events, lets files settle, and builds.
 
-1. Wait for an event, or for the next look that is due. An event only says where to look: at what the last build has
-   read. What is built is decided by the files on disk, so an event too many or too few costs time and nothing else.
-2. The robots of which something has changed have to settle: no event for some time, and two looks that show the same.
+1. Wait for an event, or for the next due look. An event only says where to look: at inputs of the
+   last build. The files on disk decide about builds, so a wrong or lost event costs only time.
+2. The robots with a change have to settle: no event for some time, and two equal looks.
 3. All that have settled are built together. An exporter may still be writing an invalid source: it is an error only if
    it stays as it is.
 4. A build that wrote something, or during which a file was saved, is followed by another one once the files have
@@ -38,9 +38,9 @@ from urdfsync.watch.paths import find_watched_folders
 from urdfsync.watch.robot import WatchedRobot, look_at
 
 _REST = 3.0
-"""So much longer than the last look takes, the daemon waits with the next one."""
+"""Factor of the pause after a look, by the duration of the look."""
 _PAUSE = 0.25
-"""Seconds between two looks whether pre-commit has ended."""
+"""Seconds between two checks for the end of pre-commit."""
 
 
 class WatchOptions(msgspec.Struct, frozen=True):
@@ -53,7 +53,7 @@ class WatchOptions(msgspec.Struct, frozen=True):
     settle: float = 0.3
     """The time without an event before a build."""
     sample: float = 0.2
-    """The time between the two looks that have to show the same; with 0 there is one look."""
+    """The time between the two looks that have to be equal; 0 means one look."""
     give_up_after: float = 30.0
     """The time until an invalid source is an error."""
     rescan: float = 30.0
@@ -81,20 +81,21 @@ class Daemon:
         self._unwatched: tuple[Diagnostic, ...] = ()
         self._stop_signal = ""
         self._building: Sequence[str] = ()
-        """Robots that are built, until the user was told for whom they wait."""
+        """Robots in the present build, until the user knows for whom they wait."""
         self._is_working = True
         self._is_paused = False
         self._next_rescan = 0.0
         self._next_look = math.inf
-        """When to look at all files, since something has happened in a folder."""
+        """When to look at all files, after an event in a folder."""
         self._earliest_look = 0.0
-        """When the next look may be: events without end must not keep the daemon looking."""
+        """The earliest time of the next look: endless events must not keep the daemon looking."""
         self._has_new_places = False
 
     def stop(self, signal: str) -> None:
-        """End when the build in hand is finished, or given up if it has not begun to write. For signal handlers.
+        """End after the present build, which is given up if it has not begun to write.
 
-        Called again, it raises KeyboardInterrupt while there is work, but not while a check is cleared away.
+        For signal handlers. The second call raises KeyboardInterrupt during work, but not during the clean-up of a
+        check.
         """
         if self._stop_signal and self._is_working:
             raise KeyboardInterrupt
@@ -102,9 +103,10 @@ class Daemon:
         self._queue.put(None)
 
     def run(self) -> None:
-        """Watch until `stop` is called. Raises ConfigError for a configuration that can't be used at the start.
+        """Watch until `stop` is called.
 
-        Raises LockedError if another daemon watches it, OutputError if the lock can't be written.
+        Raises ConfigError for an invalid configuration at the start, LockedError if another daemon watches it,
+        OutputError if the lock can't be written.
         """
         loaded = config.load(self._options.file)
         try:
@@ -145,7 +147,7 @@ class Daemon:
                 watched.due = time.monotonic() + _PAUSE
 
     def _acquire(self, lock: Lock) -> None:
-        """Take the daemon's lock; again if its file was deleted, since another daemon could not see it."""
+        """Take the daemon's lock; repeat it if its file was deleted, since another daemon would not see it."""
         try:
             lock.acquire()
         except LockedError:
@@ -159,7 +161,7 @@ class Daemon:
             self._listener(events.Noted(diagnostics))
 
     def _progress(self, what: str, _done: int, _total: int) -> None:
-        """Give up the build under way, which has come to a place for that; or say whom it waits for."""
+        """Give up the present build at this place, if the daemon stops; or report for whom it waits."""
         if self._stop_signal:
             raise KeyboardInterrupt
         if what.startswith(WAITING):
@@ -169,7 +171,7 @@ class Daemon:
     # The configuration
 
     def _use(self, loaded: Config, again: bool = False) -> None:
-        """Put a configuration in force, and build all. Raises ConfigError for robots that it lacks."""
+        """Use a configuration from now on, and build all robots. Raises ConfigError for robots that it lacks."""
         robots = loaded.select(self._options.robots)
         self._config = loaded
         self._checks.use(loaded)
@@ -185,7 +187,7 @@ class Daemon:
         self._watch_folders()
 
     def _reload_config(self) -> bool:
-        """Read the configuration again if it has changed; while it is invalid, the last valid one stays in force."""
+        """Read the configuration again if it has changed; while it is invalid, keep the last valid one."""
         before, self._config_hash = self._config_hash, look_at(self._config_file)
         if before == self._config_hash:
             return False
@@ -199,7 +201,7 @@ class Daemon:
     # Events and looks
 
     def _receive(self) -> None:
-        """Wait until something happens or is due."""
+        """Wait for a message, or until a look is due."""
         with contextlib.suppress(Empty):  # the first `get` waits; the others take what has come meanwhile
             message = self._queue.get(timeout=self._seconds_until_due())
             while True:
@@ -220,7 +222,7 @@ class Daemon:
         return max(min(due) - now, 0.0)
 
     def _look(self) -> None:
-        """Look at all files after events; the robots of which one is other than at the last look have to settle."""
+        """Look at all files after events; robots with a changed file have to settle."""
         begin = time.monotonic()
         self._next_look, has_new_places, self._has_new_places = math.inf, self._has_new_places, False
         if has_new_places:
@@ -230,7 +232,7 @@ class Daemon:
         self._earliest_look = time.monotonic() + _REST * (time.monotonic() - begin)
 
     def _touch(self, robots: Sequence[WatchedRobot]) -> None:
-        """Let robots settle, since something changed; all from the same moment, so that they are built together.
+        """Let changed robots settle, all from the same moment, so that they are built together.
 
         If only names in folders have changed, the user is not told: they hardly ever matter.
         """
@@ -260,7 +262,7 @@ class Daemon:
         self._look()
 
     def _find_settled(self, *, has_looked: bool) -> list[WatchedRobot]:
-        """Look at the robots that are due, unless that was just done; return those that are as at the look before."""
+        """Look at the due robots, unless that was just done; return those that did not change since the look before."""
         now, settled = time.monotonic(), []
         for watched in self._robots.values():
             if watched.due > now:
@@ -279,7 +281,7 @@ class Daemon:
     # Builds
 
     def _has_to_be_built(self, watched: WatchedRobot) -> bool:
-        """Whether anything is other than after the last build; if not, the robot rests."""
+        """Whether anything changed since the last build; if not, the robot rests."""
         # a build that failed may work now, whatever it failed of
         if watched.failure is not None or not watched.is_confirmed or watched.has_changed:
             return True
@@ -289,7 +291,7 @@ class Daemon:
         return False
 
     def _update_pause(self) -> None:
-        """Find out whether nothing must be built now, since pre-commit has stashed changes away."""
+        """Pause builds while pre-commit has stashed changes."""
         stash = precommit.find_stash(self._config.root)
         if stash and not self._is_paused:
             reason = f"pre-commit (process {stash[1]}) has stashed unstaged changes away"
@@ -299,7 +301,7 @@ class Daemon:
         self._is_paused = stash is not None
 
     def _build(self, robots: Sequence[WatchedRobot]) -> None:
-        """Build robots. One that has written, or of which a file was saved meanwhile, has to settle again."""
+        """Build robots. A robot has to settle again if it wrote files, or if a file was saved meanwhile."""
         self._building = [watched.name for watched in robots if watched.is_told]
         self._show_all(list(map(events.Building, self._building)))
         has_other_entries = False
@@ -329,7 +331,7 @@ class Daemon:
                 watched.settle(time.monotonic() + self._options.settle, is_told=False)
 
     def _rest(self, watched: WatchedRobot) -> None:
-        """Leave a robot alone until something changes, or for a while if it failed; check its package otherwise."""
+        """Leave a robot alone until a change, or for a while if it failed; otherwise check its package."""
         if watched.failure is None:
             watched.settle(math.inf, is_told=False)
             self._show_all(self._checks.check(watched.robot))
@@ -337,7 +339,7 @@ class Daemon:
             watched.settle(time.monotonic() + self._options.rescan, is_told=False)
 
     def _take_failure(self, watched: WatchedRobot, result: Result) -> None:
-        """Wait for the exporter, who may be at work on an invalid source; after some time that is an error, too."""
+        """Wait for the exporter, which may be writing an invalid source; after some time it is an error."""
         again, error = watched.failure == result.diagnostics, result.source_error
         if error is not None and not (again or watched.invalid_until):
             reason = f"waiting for the exporter of {shown(watched.robot.source)}"

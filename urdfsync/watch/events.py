@@ -1,8 +1,8 @@
 """The events of `urdfsync watch` as values; `--format json` writes them with the tag as the event's name.
 
 Events of one robot come in this order: `Settling` when one of its files changed, `Building` when it has settled,
-`Waiting` if its source is not valid (yet), and `Built` or `Failed`; or `Unchanged` if nothing differs after all.
-Checks go on beside that: `Checking`, and `CheckDone` for the last one of several that begin while a robot changes.
+`Waiting` if its source is invalid, and `Built` or `Failed`; or `Unchanged` if its files have their former content.
+Checks have their own events: `Checking`, and `CheckDone` for the last one of several.
 """
 
 from __future__ import annotations
@@ -33,20 +33,20 @@ class Started(Event, frozen=True):
     config: Path
     robots: tuple[str, ...]
     again: bool = False
-    """Whether it was read before: then it has changed, or is valid again."""
+    """Whether it was read before; then it has changed, or is valid again."""
 
 
 class Viewing(Event, frozen=True):
-    """Pages of the robots are at this address, until the daemon ends; before all other events."""
+    """Pages of the robots are at this address, until the daemon ends; the first event."""
 
     address: str
 
 
 class Settling(RobotEvent, frozen=True):
-    """A file of the robot changed; the robot is built when nothing changes any more."""
+    """A file of the robot changed; the robot is built once its files have settled."""
 
     file: str = ""
-    """A file that changed, as people see it; empty if none is known."""
+    """A changed file, for people; empty if unknown."""
 
 
 class Unchanged(RobotEvent, frozen=True, tag="calm"):
@@ -56,8 +56,8 @@ class Unchanged(RobotEvent, frozen=True, tag="calm"):
 class Waiting(RobotEvent, frozen=True):
     """The build of the robot waits.
 
-    Another process may be building. Or the source is invalid (see `diagnostics`), which an exporter may be about to
-    change; `Failed` follows if that lasts.
+    Another process builds, or an exporter may be writing the invalid source (see `diagnostics`). If the source stays
+    invalid, `Failed` follows.
     """
 
     reason: str
@@ -80,11 +80,11 @@ class Built(Event, frozen=True):
 
 
 class Failed(Event, frozen=True):
-    """The robot can't be built. It is tried again at each rescan, and `Built` follows when that works."""
+    """The robot can't be built. The daemon tries again at each rescan, and `Built` follows a success."""
 
     result: Result
     again: bool = False
-    """Whether the last build failed for the same reason, and the user changed something since."""
+    """Whether the last build failed for the same reason, although a file changed since."""
 
 
 class Checking(RobotEvent, frozen=True):
@@ -92,23 +92,23 @@ class Checking(RobotEvent, frozen=True):
 
 
 class CheckDone(RobotEvent, frozen=True, tag="checked"):
-    """The robot's package was checked as the last build left it."""
+    """The check of the robot's package has ended."""
 
     checked: Checked
     seconds: float = 0.0
-    """How long that took; 0 if the result is that of an earlier check."""
+    """Duration of the check; 0 for a remembered result."""
     diagnostics: tuple[Diagnostic, ...] = ()
     """Faults of the package, and reasons why it could not be checked."""
 
 
 class Noted(Event, frozen=True):
-    """Findings about no robot; told once, until they are over and happen again."""
+    """Findings about no robot; reported once, until they end and come again."""
 
     diagnostics: tuple[Diagnostic, ...]
 
 
 class Paused(Event, frozen=True):
-    """Nothing is built for now, for example because pre-commit has stashed changes away."""
+    """Builds pause, for example because pre-commit has stashed changes."""
 
     reason: str
 

@@ -28,11 +28,11 @@ class CommandEnded(msgspec.Struct, frozen=True):
     robot: str
     code: int
     problem: str
-    """The failure, in words that follow `the command`; empty if the command succeeded."""
+    """The failure, in words that follow `the command`; empty after a success."""
 
 
 class CommandRunner:
-    """The command, and for which robots it runs and has to run again. Both methods yield events to be shown at once."""
+    """The command, and the robots for which it runs or has to run again. Both methods yield events for display."""
 
     def __init__(self, queue: SimpleQueue[object], command: str, folder: Path) -> None:
         self._queue, self._command, self._folder = queue, command, folder
@@ -40,9 +40,9 @@ class CommandRunner:
         self._waiting: dict[str, tuple[RobotConfig, tuple[Path, ...]]] = {}
 
     def run(self, robot: RobotConfig, files: Sequence[Path]) -> Iterator[events.Event]:
-        """Run the command for a robot of which these files changed, once the one that runs for it has ended.
+        """Run the command for a robot with these changed files, after a running one has ended.
 
-        Several changes in that time are one more run. `CommandEnded` is put into the queue at the end.
+        Several changes in the meantime make one more run. `CommandEnded` is put into the queue at the end.
         """
         if not self._command:
             return
@@ -55,7 +55,7 @@ class CommandRunner:
         threading.Thread(target=self._run, args=(robot, files), daemon=True).start()
 
     def finish(self, ended: CommandEnded) -> Iterator[events.Event]:
-        """Take note of the end of a command, and run it again if more files have changed."""
+        """Record the end of a command, and run it again if more files have changed."""
         self._running.discard(ended.robot)
         yield events.Ran(ended.robot, ended.code)
         if ended.problem:

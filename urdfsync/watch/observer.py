@@ -43,14 +43,14 @@ logging.getLogger("watchdog").addHandler(logging.NullHandler())
 
 
 class FileEvent(NamedTuple):
-    """Something has happened to a file or folder."""
+    """An event about a file or folder."""
 
     is_place: bool
     """Whether a folder or a link may have been replaced."""
 
 
 class Observer(events.FileSystemEventHandler):
-    """Puts a message into a queue for each event in a folder that is watched, until it is closed."""
+    """Puts a message into a queue for each event in a watched folder, until it is closed."""
 
     def __init__(self, queue: SimpleQueue[object]) -> None:
         self._queue = queue
@@ -59,14 +59,14 @@ class Observer(events.FileSystemEventHandler):
         """By folder, whether folders below are watched, too, and the numbers of device and file."""
 
     def dispatch(self, event: events.FileSystemEvent) -> None:
-        """Tell of an event."""
+        """Put an event into the queue."""
         paths = (os.fsdecode(path) for path in (event.src_path, event.dest_path) if path)
         self._queue.put(FileEvent(event.is_directory or any(map(os.path.islink, paths))))
 
     def watch_folders(self, folders: WatchedFolders) -> tuple[Diagnostic, ...]:
-        """Watch exactly these folders; one that was replaced since the last call is watched anew.
+        """Watch exactly these folders; a folder that was replaced since the last call is watched anew.
 
-        Returns one finding for each reason for which folders can't be watched.
+        Returns one finding for each reason why folders can't be watched.
         """
         problems: dict[int | None, Diagnostic] = {}
         try:
@@ -98,7 +98,7 @@ class Observer(events.FileSystemEventHandler):
         return tuple(problems.values())
 
     def close(self) -> None:
-        """Watch nothing any more."""
+        """Stop watching."""
         if self._backend is not None:
             self._backend.stop()
             self._backend.join()

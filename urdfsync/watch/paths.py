@@ -1,4 +1,4 @@
-"""In which folders changes of all that robots depend on show. Paths are strings: there are thousands of them."""
+"""Finds the folders to watch for the inputs of robots. Paths are strings: there are thousands of them."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from urdfsync.config import Config
 from urdfsync.facts import LISTINGS, Entry
 
 _MAX_STEPS = 1000
-"""Folders and links on the way to a file: links may lead in a circle."""
+"""The most folders and links on the way to a file: links may lead in a circle."""
 _FEW = 16
-"""So many folders are watched one by one, each of which takes threads; more by a folder around them."""
+"""The most folders that are watched one by one, since each takes threads; more are watched by a folder around them."""
 
 
 class WatchedFolders(msgspec.Struct, frozen=True):
@@ -30,7 +30,7 @@ class WatchedFolders(msgspec.Struct, frozen=True):
 def find_watched_folders(
     config: Config, entries: Iterable[Entry], package_paths: Sequence[Path] = ()
 ) -> WatchedFolders:
-    """Return the folders in which changes of entries show, and of each folder and link on the way to one.
+    """Return the folders to watch for changes of entries, and of each folder and link on the way to one.
 
     Folders above the configuration's are not watched, but for the one nearest to a file that is found outside.
     """
@@ -63,7 +63,7 @@ def find_watched_folders(
 
 
 def _shows(place: str, above: set[str]) -> bool:
-    """Return whether a change is looked for in the folder of a place: not the root, nor above if nothing is there."""
+    """Return whether to watch the folder of a place: not the root, and not above a missing folder."""
     folder = os.path.dirname(place)  # noqa: PTH120
     return os.path.dirname(folder) != folder and (folder not in above or os.path.exists(place))  # noqa: PTH110, PTH120
 
@@ -77,7 +77,7 @@ def _resolved(path: Path) -> str:
 
 
 def _way_to(path: str) -> list[str]:
-    """Return each folder and link on the way to a path, with the targets of links; at last the path without links."""
+    """Return each folder and link on the way to a path, with the targets of links, and last the path without links."""
     *parts, place = reversed(Path(path).parts)
     way = [place]
     while parts and len(way) < _MAX_STEPS:

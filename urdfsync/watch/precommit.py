@@ -1,4 +1,4 @@
-"""Whether pre-commit has stashed unstaged changes away: then files are not what their users think they are.
+"""Finds out whether pre-commit has stashed unstaged changes: then files lack the user's changes.
 
 While its hooks run, pre-commit keeps these changes in a file of its store named `patch<time>-<process>`. It never
 deletes the file, so only a patch of a running process counts.
@@ -12,13 +12,13 @@ from pathlib import Path
 
 _PATCH = re.compile(r"patch(\d+)-(\d+)")
 _SLACK = 2.0
-"""Seconds by which the system's word for the start of a process and the time in a file name may differ."""
+"""Seconds by which the system's start time of a process may differ from the time in a file name."""
 
 
 def find_stash(root: Path) -> tuple[Path, int] | None:
-    """Return the patch that has the stashed changes of the repository around `root`, and the process that made it.
+    """Return the patch with the stashed changes of the repository around `root`, and its process.
 
-    None if nothing is stashed. A process whose folder the system does not tell counts for every repository.
+    None if nothing is stashed. A process with an unknown folder counts for every repository.
     """
     home = Path(os.path.expanduser("~"))  # noqa: PTH111 - Path.home() raises where there is none
     cache = Path(os.environ.get("XDG_CACHE_HOME") or home / ".cache")

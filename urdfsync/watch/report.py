@@ -1,4 +1,4 @@
-"""The output of `urdfsync watch`: for people lines above the status of each robot, for programs JSON, a line per event.
+"""The output of `urdfsync watch`: lines and a status for people, a line of JSON per event for programs.
 
 Lines scroll: one per build with its changes, errors and conflicts as `build` shows them. Conflicts, warnings and
 orphans of a robot's last build are not shown again by the next one.
@@ -38,16 +38,16 @@ from urdfsync.watch import events
 from urdfsync.watch.terminal import StatusArea
 
 _NAME_WIDTH = 24
-"""Columns of the robots' names at most."""
+"""The most columns of the robots' names."""
 _FEW = 2
-"""So many changes of a model are spelled out, in at most so many characters; more are counted."""
+"""The most changes of a model that are spelled out, and their most characters; more changes are counted."""
 _MAX_LENGTH = 100
 _SPACED = 4
-"""Rows of the status from which an empty one stands above it."""
+"""From so many rows of the terminal on, an empty row stands above the status."""
 
 
 class Activity(enum.StrEnum):
-    """The activity of a robot in words; those that need the user's attention come first."""
+    """The activity of a robot in words; the most urgent ones come first."""
 
     ERROR = "error"
     CONFLICT = "conflict"
@@ -83,7 +83,7 @@ _STEPS: dict[type[events.Event], tuple[str, Activity | None]] = {
     events.Resumed: ("building again", None),
     events.Stopping: ("stopped by {0.signal}", None),
 }
-"""Events that are one line, all but the last one with `--verbose` alone; and the robot's activity after them."""
+"""Events of one line, all but the last one only with `--verbose`; and the robot's activity after them."""
 
 
 class RobotStatus(NamedTuple):
@@ -107,7 +107,7 @@ def now() -> datetime.datetime:
 
 
 def event_values(event: events.Event, time: datetime.datetime) -> dict[str, Any]:
-    """Return an event as JSON values; of a result's files those are left out that are just unchanged."""
+    """Return an event as JSON values, without unchanged files of a result."""
     head = {"version": JSON_VERSION, "event": event.__struct_config__.tag, "time": time.isoformat()}
     values: dict[str, Any] = head | plain(event)
     if isinstance(event, events.Built | events.Failed):
@@ -119,7 +119,7 @@ def event_values(event: events.Event, time: datetime.datetime) -> dict[str, Any]
 
 
 def show_json(event: events.Event) -> None:
-    """Print an event as one line of JSON, which is passed on at once."""
+    """Print an event as one line of JSON, without buffering."""
     sys.stdout.write(json.dumps(event_values(event, now())) + "\n")
     sys.stdout.flush()
 
@@ -133,22 +133,22 @@ class Report:
         self._area = StatusArea(sys.stdout) if has_status else None
         self._column = 0
         self._told: dict[tuple[str, str], set[Hashable]] = {}
-        """The findings that were shown of a robot's last build, by robot and topic."""
+        """The shown findings of a robot's last build, by robot and topic."""
         self._results: dict[str, RobotStatus] = {}
-        """By robots, in the order of the configuration: after the last build."""
+        """Results of the last builds by robots, in the order of the configuration."""
         self._builds: dict[str, RobotStatus] = {}
-        """Between the first event and the end of a build."""
+        """Robots between the first event and the end of a build."""
         self._checks: dict[str, RobotStatus] = {}
         self._commands: set[str] = set()
         """Robots for which a command of `--exec` runs."""
         self._pause = ""
-        """Why nothing is built for now; empty if robots are built."""
+        """Why builds pause; empty if they do not."""
 
     def __enter__(self) -> Self:
         return self
 
     def __exit__(self, *_: object) -> None:
-        """Take the status away; what scrolled stays."""
+        """Remove the status; the lines above stay."""
         if self._area:
             self._area.write((), ())
 
@@ -168,7 +168,7 @@ class Report:
             self._area.write([line.text.__rich__() for line in lines], [row.__rich__() for row in rows])
 
     def take(self, event: events.Event, clock: str) -> Iterator[LogLine]:
-        """Take note of an event that happened at this time of day; yield its lines."""
+        """Record an event at this time of day; yield its lines."""
         match event:
             case events.Started(file, robots, again):
                 starting = RobotStatus(Activity.STARTING, Activity.STARTING)
@@ -198,7 +198,7 @@ class Report:
                 yield from self._step(event, clock)
 
     def _step(self, event: events.Event, clock: str) -> Iterator[LogLine]:
-        """Take note of an event between two results."""
+        """Record an event between two results."""
         words, activity = _STEPS[type(event)]
         words = words.format(event).removesuffix(": ")
         robot: str = getattr(event, "robot", "")
@@ -222,7 +222,7 @@ class Report:
             yield from self._findings(diagnostics)
 
     def _built(self, event: events.Built, clock: str) -> Iterator[LogLine]:
-        """Yield the line of a build that did or found anything, below its new findings and above its new conflicts."""
+        """Yield the line of a build that wrote or found anything, between its new findings and its new conflicts."""
         result, robot, verbose = event.result, event.result.robot, self._console.verbose
         was_in_step = not (self._told.get((robot, "broken")) or self._told.get((robot, "conflicts")))
         errors = [finding for finding in result.diagnostics if finding.severity is Severity.ERROR]
@@ -258,7 +258,7 @@ class Report:
             yield from map(LogLine, conflict_lines(result, self._console))
 
     def _checked(self, event: events.CheckDone, clock: str) -> Iterator[LogLine]:
-        """Yield the line of a check, and its findings unless they are those of the last one."""
+        """Yield the line of a check, and its findings unless they equal the last ones."""
         is_wrong = event.checked is Checked.WRONG
         self._checks.pop(event.robot, None)
         if is_wrong:
@@ -272,13 +272,13 @@ class Report:
         yield from self._findings(event.diagnostics if new or self._console.verbose else ())
 
     def _new(self, robot: str, topic: str, keys: Iterable[Hashable]) -> set[Hashable]:
-        """Return what was not told of the robot's last build, and remember all that is told now."""
+        """Return the findings that the robot's last build did not show, and remember the present ones."""
         before = self._told.get((robot, topic), set())
         self._told[robot, topic] = set(keys)
         return self._told[robot, topic] - before
 
     def _findings(self, diagnostics: Sequence[Diagnostic], clock: str = "") -> Iterator[LogLine]:
-        """Yield findings as all commands show them; with a time of day if there is no line of a build above them."""
+        """Yield findings in the form of all commands; with a time of day if there is no line of a build above them."""
         for finding in findings(diagnostics, quiet=self._console.quiet, verbose=self._console.verbose):
             yield LogLine(StyledLine(((f"{clock}  " if clock else "", "dim"), *finding.parts)), error=True)
 
@@ -289,7 +289,7 @@ class Report:
     # The status of each robot
 
     def _finish(self, result: Result, clock: str) -> None:
-        """Note what a build came to."""
+        """Record the result of a build."""
         self._builds.pop(result.robot, None)
         before = self._results.get(result.robot)
         if result.failed or result.is_broken:
@@ -308,7 +308,7 @@ class Report:
 
     @property
     def rows(self) -> Mapping[str, RobotStatus]:
-        """The status of each robot in the order of the configuration; of build and check that which matters more."""
+        """The status of each robot in the order of the configuration: the more urgent one of build and check."""
         rows = {}
         for robot, result in self._results.items():
             at_rest = min(result, self._checks.get(robot, result), key=lambda status: _RANKS.index(status.activity))
@@ -316,9 +316,9 @@ class Report:
         return rows
 
     def status_lines(self, room: int, *, marks: bool) -> Iterator[StyledLine]:
-        """Yield a line for each robot for which there is room, and one for all others.
+        """Yield a line for each robot that has room, and one for all others.
 
-        If there are too many robots, those that need attention are shown.
+        If there are too many robots, the most urgent ones are shown.
         """
         rows = self.rows
         if rows and room >= _SPACED:
@@ -342,7 +342,7 @@ class Report:
 
 
 def _key(finding: Diagnostic) -> Hashable:
-    """Return what identifies a finding: not its line, which changes with the lines above it."""
+    """Return the identity of a finding: without its line, which changes with the lines above it."""
     return finding.code, finding.message, finding.file
 
 

@@ -1,4 +1,4 @@
-"""A robot that the daemon watches: what its last build read, and whether that has changed or settled since."""
+"""A watched robot: the files of its last build, and whether they have changed or settled since."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from urdfsync.engine.package_files import note_state, unchanged_state
 from urdfsync.facts import CONTENTS, LSTAT, STAT, STAT_TYPE, VARIABLE, Entry, check_path, read_unrecorded
 
 _TOLD = (STAT, STAT_TYPE, LSTAT)
-"""Checks of which a change is told, an input before outputs: not names in a folder, nor states of other robots."""
+"""Checks whose changes are reported, an input before outputs: no names in a folder, no states of other robots."""
 
 Looks: TypeAlias = dict[Entry, "str | tuple[int, ...]"]
-"""What is seen at each entry: the hash of a file's content, whatever its times are; facts of all else."""
+"""The state of each entry: the hash of a file's content, without its times; facts of all else."""
 
 
 def look_at(entry: Entry, facts: tuple[int, ...] | None = None) -> str | tuple[int, ...]:
-    """Return what is at an entry that has these facts; by default, those that it has now."""
+    """Return the state of an entry with these facts; by default, with its present ones."""
     facts = check_path(*entry) if facts is None else facts
     if entry[0] not in CONTENTS:
         return facts
@@ -37,7 +37,7 @@ def look_at(entry: Entry, facts: tuple[int, ...] | None = None) -> str | tuple[i
 
 
 def _recall(reads: Dependencies, entry: Entry, facts: tuple[int, ...]) -> str | tuple[int, ...]:
-    """Return what a build saw at an entry; of a file that has changed since, and is not known, its facts."""
+    """Return the state of an entry during a build; of an unknown file that has changed since, its facts."""
     known = unchanged_state(entry[1], facts)
     if sha256 := reads.hashes.get(entry) or (known and known.sha256):
         return sha256
@@ -46,29 +46,29 @@ def _recall(reads: Dependencies, entry: Entry, facts: tuple[int, ...]) -> str | 
 
 
 class WatchedRobot(msgspec.Struct):
-    """One robot, as long as the configuration has one of its name; and what the daemon is about to do with it."""
+    """One configured robot, and the daemon's plans for it."""
 
     robot: RobotConfig
     built: Looks = {}
-    """What the last build has read, and written."""
+    """The state of all files that the last build has read or written."""
     seen: Looks = {}
-    """The same at the last look."""
+    """The state at the last look."""
     due: float = math.inf
     """When to look at the files next, in seconds of a monotonic clock; infinite at rest."""
     is_told: bool = False
-    """Whether the user was told that the robot is under way; not of looks after the daemon's own builds."""
+    """Whether the user was told that the robot is settling; looks after the daemon's own builds are silent."""
     sample: Looks | None = None
-    """The look before, since the last event; None if there was none. Two that are the same mean: settled."""
+    """The look before, since the last event; None if there was none. Two equal looks mean: settled."""
     invalid_until: float = 0.0
-    """Until when the exporter of an invalid source may be at work; 0 if it is valid, or known to stay invalid."""
+    """The time until which the exporter of an invalid source may be at work; 0 if it is valid, or stays invalid."""
     is_confirmed: bool = False
-    """Whether the last build had nothing to write, and is that of the configuration now."""
+    """Whether the last build had nothing to write, with the present configuration."""
     failure: tuple[Diagnostic, ...] | None = None
     """Why the last build failed; None if it did not."""
     left_alone: frozenset[tuple[str, str]] = frozenset()
-    """Files that the last build did not write although they differ, each with the kind of its action; and misfits."""
+    """Different files that the last build did not write, each with the kind of its action; and misfits."""
     pending: tuple[Path, ...] = ()
-    """Files that were written while the package is broken: the command of `--exec` waits until it is not."""
+    """Files that were written while the package is broken: the command of `--exec` waits for its repair."""
 
     @property
     def name(self) -> str:
@@ -80,7 +80,7 @@ class WatchedRobot(msgspec.Struct):
         self.due, self.is_told, self.sample, self.invalid_until = due, is_told, None, 0.0
 
     def take(self, reads: Dependencies, config: Looks) -> bool:
-        """Take what a build has read, with what it was configured by; returns whether these are other entries."""
+        """Take the entries and the configuration of a build; returns whether the entries differ from the last ones."""
         before, entries = self.built.keys(), reads.entries
         if not entries:  # it met a bug, and is not to meet it again and again
             self.built = {entry: look_at(entry) for entry in before} | config
@@ -91,17 +91,17 @@ class WatchedRobot(msgspec.Struct):
         return before != self.built.keys()
 
     def look(self) -> bool:
-        """Look at all entries; returns whether something is other than at the last look."""
+        """Look at all entries; returns whether one changed since the last look."""
         before, self.seen = self.seen, {entry: look_at(entry) for entry in self.built}
         return self.seen != before
 
     @property
     def has_changed(self) -> bool:
-        """Whether something was other at the last look than the last build left it."""
+        """Whether an entry changed between the last build and the last look."""
         return self.seen != self.built
 
     @property
     def changed_file(self) -> str:
-        """The file that has changed, an input before outputs; empty if none has that is told."""
+        """The changed file, an input before outputs; empty if no reported one has changed."""
         changed = (entry for entry in self.built if entry[0] in _TOLD and self.seen[entry] != self.built[entry])
         return min(changed, key=lambda entry: (_TOLD.index(entry[0]), entry[1]), default=("", ""))[1]

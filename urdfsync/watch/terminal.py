@@ -15,7 +15,7 @@ from rich.text import Text
 from urdfsync.output.console import rich_console
 
 _WIDEST = 79
-"""Columns of the status at most: lines that fill a wide terminal would be broken when it gets narrower."""
+"""The most columns of the status: longer lines would be broken in a narrowed terminal."""
 
 
 class StatusArea:
@@ -25,16 +25,16 @@ class StatusArea:
         self.console = rich_console(stream)
         self._stream = stream
         self._live: Live | None = None
-        """Not there while the status is empty, or the terminal is a shell's."""
+        """None while the status is empty, or a shell has the terminal."""
 
     @property
     def room(self) -> int:
-        """Rows that the status may take: a third of the terminal, but four if there are five."""
+        """The most rows of the status: a third of the terminal, but four if there are five."""
         height = self.console.height
         return max(min(4, height - 1), height // 3)
 
     def write(self, lines: Sequence[Text], status: Sequence[Text]) -> None:
-        """Write lines; the terminal breaks those that are too long. `status` is what stands below from now on."""
+        """Write lines; the terminal breaks long ones. `status` is shown below from now on."""
         with self.console:  # all of it is written at once
             is_shown = bool(status) and self._is_foreground()
             if not is_shown and self._live is not None:
@@ -59,7 +59,7 @@ class StatusArea:
                 self._live.update(Constrain(Group(*status), _WIDEST), refresh=True)
 
     def _is_foreground(self) -> bool:
-        """Whether the terminal is the program's: a shell that has put it into the background writes there, too."""
+        """Whether the program is in the foreground: otherwise a shell writes to the terminal, too."""
         if sys.platform == "win32":
             return True
         try:

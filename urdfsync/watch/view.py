@@ -1,7 +1,7 @@
 """The pages of watched robots for browsers on this machine, which follow the builds by server-sent events.
 
-Only the loopback is listened to. Pages of other sites can't ask: their requests have another `Origin`, or another
-`Host` if a name of theirs leads here.
+The server listens only on the loopback. Pages of other sites are refused: their requests have another `Origin`, or
+another `Host` if their name leads here.
 """
 
 from __future__ import annotations
@@ -28,20 +28,20 @@ from urdfsync.watch import events
 from urdfsync.watch.daemon import WatchOptions
 
 _ALIVE = 10.0
-"""Seconds after which something is sent, by which a browser that has gone is noticed."""
+"""Seconds between messages, by which the server notices that a browser has gone."""
 _MOST = 50
-"""Connections at a time; each page that is open has one."""
+"""The most connections at a time; each open page has one."""
 _IDLE = 15.0
-"""Seconds that a connection may take for its request, or for taking an answer."""
+"""Seconds that a connection may take for its request, or for an answer."""
 _HEADERS = {"Cache-Control": "no-store", "X-Content-Type-Options": "nosniff", "X-Frame-Options": "DENY"}
 
 
 class _Robot(msgspec.Struct):
-    """One robot. `build` counts builds and checks, `page_build` is the one that the page shows."""
+    """One robot. `build` counts builds and checks, `page_build` is the number on the page."""
 
     build: int = 0
     problem: str = ""
-    """Why the source can't be built as it is."""
+    """Why the source can't be built."""
     page: bytes = b""
     page_build: int = -1
     shown: tuple[Contents, ...] = ()
@@ -52,7 +52,7 @@ class View:
     """The server. The daemon's thread calls `take`; each request has a thread of its own."""
 
     def __init__(self, options: WatchOptions, port: int) -> None:
-        """Listen on a port; 0 is any that is free. Raises OutputError if it can't be had."""
+        """Listen on a port; 0 is any free one. Raises OutputError if the port is not available."""
         self._file, self.robots = options.file, dict[str, _Robot]()
         self._options = msgspec.structs.replace(options.build, progress=no_progress)
         self._news, self._making, self._is_closed = threading.Condition(), threading.Lock(), False
@@ -73,7 +73,7 @@ class View:
         self._server.server_close()
 
     def take(self, event: events.Event) -> None:
-        """Take note of an event, and tell the pages."""
+        """Record an event, and notify the pages."""
         with self._news:
             match event:
                 case events.Started(robots=names):
@@ -89,7 +89,7 @@ class View:
             self._news.notify_all()
 
     def page(self, name: str) -> bytes:
-        """Return the page of a robot as it is, else the last one; empty if there never was one."""
+        """Return the present page of a robot, else the last one; empty if there never was one."""
         robot = self.robots[name]
         with self._making:
             if (build := robot.build) == robot.page_build:
@@ -108,7 +108,7 @@ class View:
         return robot.page
 
     def messages(self, name: str) -> Iterator[bytes]:
-        """Yield what a page has to know, at once and whenever it changes."""
+        """Yield messages for a page, at once and at each change."""
         told = b""
         while not self._is_closed and (state := self._state(name)):
             yield b"data: %b\n\n" % state if state != told else b":\n\n"
@@ -123,7 +123,7 @@ class View:
 
 
 class _Server(ThreadingHTTPServer):
-    """Has a thread for each connection, and refuses those that are too many."""
+    """Has a thread for each connection, and refuses too many."""
 
     request_queue_size = _MOST
 
@@ -165,7 +165,7 @@ class _Handler(BaseHTTPRequestHandler):
             super().handle()
 
     def do_GET(self) -> None:
-        """Answer a request for a page, or for what it follows."""
+        """Answer a request for a page, or for its messages."""
         view, host = self._view, self.headers.get("Host")
         name, _, rest = self.path.removeprefix("/").partition("/")
         if host not in view.hosts or self.headers.get("Origin") not in (None, f"http://{host}"):

@@ -24,15 +24,15 @@ COMPILERS: Mapping[str, Compiler] = {
 }
 """By the value of `--tool`, the default first."""
 BOTH = "both"
-"""The value of `--tool` that means two compilers, which are held against each other."""
+"""The value of `--tool` that compares two compilers."""
 _BOTH = ("rumoca", "omc")
 
 
 def choose(config: Config, name: str | None = None, *, trusted: bool = False) -> tuple[Tool, ...]:
-    """Return the compilers that are meant by `--tool` (None: by the configuration), one or both.
+    """Return the compilers that `--tool` chooses, one or both; None: that the configuration chooses.
 
-    `trusted` says whether the user trusts the configuration, which may choose a compiler by which models start
-    programs, or name its program. Who gives `--tool omc` has chosen it himself.
+    `trusted` says whether the user trusts the configuration: it may name a program, or a compiler by which models start
+    programs. `--tool omc` is the user's own choice.
     """
     chosen = name or config.check.tool
     if chosen not in {*COMPILERS, BOTH}:
@@ -55,7 +55,7 @@ def _tool(config: Config, name: str, *, is_trusted: bool) -> Tool:
 
 
 def find_missing(tool: Tool) -> Diagnostic | None:
-    """Return why a compiler can't be started, with what to do; None if all is there."""
+    """Return why a compiler can't be started, with a hint; None if it can."""
     compiler = COMPILERS[tool.name]
     for module in compiler.MODULES:
         if importlib.util.find_spec(module) is None:
@@ -67,9 +67,9 @@ def find_missing(tool: Tool) -> Diagnostic | None:
 
 
 def state(tool: Tool) -> list[str]:
-    """Return what changes whenever a compiler does: hashes of its files, and the version that it says; or why not.
+    """Return a compiler's state: hashes of its files, and its stated version; or a problem.
 
-    Raises OSError if that can't be known.
+    Raises OSError for unreadable files.
     """
     if missing := find_missing(tool):
         return [tool.name, str(missing)]

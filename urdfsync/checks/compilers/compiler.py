@@ -22,7 +22,7 @@ class Tool(msgspec.Struct, frozen=True):
     program: str = ""
     """The program to start, as a path or a name on the PATH; empty to look for it."""
     problem: Diagnostic | None = None
-    """Why that may not be started."""
+    """Why the program may not be started; empty if it may."""
 
 
 class Simulation(msgspec.Struct, frozen=True):
@@ -52,18 +52,18 @@ class Export(msgspec.Struct, frozen=True):
 class CompileTask(msgspec.Struct, frozen=True):
     """A model to compile, which is in the text `source`; then to simulate, if there are `runs`.
 
-    A compiler that can't do what a task asks for says so in the problem of its result, or of each run.
+    If a compiler can't do a task, the problem of the result, or of each run, says so.
     """
 
     model: str
     source: str
     runs: tuple[Simulation, ...] = ()
     values: tuple[str, ...] = ()
-    """Variables of which each run hands back a series."""
+    """Variables whose series each run returns."""
     pattern: str = ""
-    """A regular expression: variables and parameters whose whole name it matches are handed back as well."""
+    """A regular expression for whole names: matching variables and parameters are returned as well."""
     parameters: tuple[str, ...] = ()
-    """Parameters that the text sets: a task is done only if there are such, and if something depends on them."""
+    """Parameters that the text sets. The task fails if one is missing, or if nothing depends on it."""
     title: str = ""
     """The name of the model in messages."""
     export: Export | None = None
@@ -71,14 +71,14 @@ class CompileTask(msgspec.Struct, frozen=True):
 
 
 class SimulationResult(msgspec.Struct, frozen=True):
-    """A trajectory: a number per instant for `time` and for each value; and why there is none."""
+    """A trajectory: a number per instant for `time` and for each value; or a problem."""
 
     values: Mapping[str, tuple[float, ...]] = {}
     problem: str = ""
     termination: str = ""
     """Why the model ended the simulation itself, in its words."""
     parameters: Mapping[str, float] = {}
-    """The values of parameters that `CompileTask.pattern` matches, as far as the compiler knows them."""
+    """The known values of parameters that `CompileTask.pattern` matches."""
 
 
 class CompileResult(msgspec.Struct, frozen=True):
@@ -93,11 +93,11 @@ class CompileResult(msgspec.Struct, frozen=True):
     runs: tuple[SimulationResult, ...] = ()
     """One for each of the task's, in order, unless there is a `problem`."""
     parameters: tuple[str, ...] = ()
-    """All parameters of the model, if one that the task sets is not among them."""
+    """All parameters of the model, if it lacks one that the task sets."""
     without_effect: tuple[str, ...] = ()
     """Parameters that the task sets and on which nothing in the compiled model depends."""
     version: str = ""
-    """The version of the compiler, as it says itself."""
+    """The version that the compiler states."""
     seconds: float = 0.0
     """CPU time that the task took; 0 if the compiler does not tell it of one task."""
     fmu: bytes = b""
@@ -114,7 +114,7 @@ class CompileJob(msgspec.Struct, frozen=True):
 
 
 class Complaint(msgspec.Struct, frozen=True):
-    """One thing that a compiler does not like."""
+    """One error or warning of a compiler."""
 
     message: str
     file: str = ""
@@ -122,7 +122,7 @@ class Complaint(msgspec.Struct, frozen=True):
     line: int = 0
     column: int = 0
     code: str = "does-not-compile"
-    """Of the diagnostic; another one than this is a warning."""
+    """Code of the diagnostic; any other code than the default is a warning."""
 
 
 class CompilerError(UrdfsyncError):
@@ -141,9 +141,9 @@ class Compiler(Protocol):
     METHODS: tuple[str, ...]
     """Methods of integration."""
     HAS_STANDARD_LIBRARY: bool
-    """Whether it finds the Modelica Standard Library by its own means."""
+    """Whether the compiler finds the Modelica Standard Library itself."""
     STARTS_PROGRAMS: bool
-    """Whether models can start programs by it: then the user has to trust who chose it."""
+    """Whether models can start programs by it. Then the user has to trust the configuration that chooses it."""
 
     def program(self, named: str) -> str | None:
         """Return the path of the program to start, empty if it needs none; None if it is missing.
@@ -153,10 +153,9 @@ class Compiler(Protocol):
         ...
 
     def state(self, named: str) -> tuple[str, list[Path]]:
-        """Return the version that the compiler says itself, and the files and folders that it is made of.
+        """Return the compiler's stated version, its files and folders, and the libraries that it finds itself.
 
-        That is for the keys of results, which rest on it; libraries that it finds by its own means are part of it. It
-        is there. Raises OSError if it does not answer.
+        Keys of results contain them. The compiler is installed. Raises OSError if it does not answer.
         """
         ...
 
@@ -169,12 +168,12 @@ class Compiler(Protocol):
         ...
 
     def complaints(self, problem: str) -> list[Complaint]:
-        """Return what the text of `CompileResult.problem` complains about, in its order."""
+        """Return the complaints in the text of `CompileResult.problem`, in its order."""
         ...
 
 
 def one_line(text: str) -> str:
-    """Return a text with each run of blanks and line ends as one blank."""
+    """Replace each run of blanks and line ends by one blank."""
     return " ".join(text.split())
 
 

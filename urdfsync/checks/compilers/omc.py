@@ -63,7 +63,7 @@ _FOLLOWS = re.compile(
     r"|Internal error Failed to move",
     re.IGNORECASE,
 )
-"""Messages that only follow from another one: something could not be read."""
+"""Messages that only follow from another one."""
 _ASSERTION = re.compile(
     r"\[(?P<file>[^\n]*?):(?P<line>\d+):\d+-\d+:\d+:\w+\]\n[^\n]*violated at time (?P<time>[-+.\deE]*\d)\n"
     r"[^\n]* --> \"(?P<text>.*?)\"$",
@@ -82,7 +82,7 @@ class _Answer(NamedTuple):
 
 
 def program(named: str) -> str | None:
-    """See `Compiler`: as it is named, else below OPENMODELICAHOME, else on the PATH."""
+    """See `Compiler`: the named program, else the one below OPENMODELICAHOME, else the one on the PATH."""
     if named:
         return shutil.which(named)
     home = os.environ.get("OPENMODELICAHOME")
@@ -92,7 +92,7 @@ def program(named: str) -> str | None:
 def state(named: str) -> tuple[str, list[Path]]:
     """See `Compiler`: the program, its shared libraries, and the Modelica Standard Library that comes with it.
 
-    The program may be a script that starts something else, so it is asked as well.
+    The program may be a script that starts another one, so its version is asked for as well.
     """
     file = Path(program(named) or "omc").resolve()
     with tempfile.TemporaryDirectory(prefix="urdfsync-", ignore_cleanup_errors=True) as folder:
@@ -112,9 +112,10 @@ def environment(cache: str, folder: str) -> dict[str, str]:  # noqa: ARG001 - se
 
 
 def complaints(problem: str) -> list[Complaint]:
-    """See `Compiler`. Each message goes on to the beginning of the next one; notifications do not count.
+    """See `Compiler`.
 
-    Of an error in a library that has two places, the first one counts, which a notification tells.
+    A message ends where the next one begins; notifications do not count. If an error in a library has two places, the
+    first one counts; a notification tells it.
     """
     result, origin = list[Complaint](), Complaint("")
     messages = list(_MESSAGE.finditer(problem))
@@ -216,7 +217,7 @@ def _ask(job: CompileJob, folder: Path, calls: Sequence[str], seconds: float | N
 
 
 def read_answers(printed: str) -> tuple[list[_Answer], str]:
-    """Return the answers in what OpenModelica printed, two values for each call, and the rest, which is none."""
+    """Return the answers in OpenModelica's output, two values for each call, and the rest of the output."""
     values, end = list[str](), 0
     while match := _VALUE.match(printed, end):
         values.append(match["record"] or match["word"] or _text(match["text"]))
@@ -225,7 +226,7 @@ def read_answers(printed: str) -> tuple[list[_Answer], str]:
 
 
 def _problem(answer: _Answer) -> str:
-    """Return what is wrong with something that was to be loaded; empty if it is there."""
+    """Return why a file or library could not be loaded; empty if it could."""
     if answer.value == "true":
         return ""
     return answer.messages.strip() or "OpenModelica can't load it and gives no reason"
@@ -289,10 +290,10 @@ def _simulated(task: CompileTask, answers: Sequence[_Answer], folder: Path) -> C
 
 
 def _read_results(file: Path, task: CompileTask) -> SimulationResult:
-    """Read a trajectory in MATLAB's format 4, which has parameters as well; one file has all, CSV lacks them.
+    """Read a trajectory in MATLAB's format 4. It has parameters as well; CSV lacks them.
 
-    Two tables have the numbers: `data_1` what never changes, at the beginning and at the end, `data_2` a column for
-    each instant. `dataInfo` says for each name which table, and which row of it, from 1 on; below 0 it is negated.
+    Two tables have the numbers: `data_1` constants, at the beginning and at the end; `data_2` a column for each
+    instant. `dataInfo` has the table and the row of each name, from 1 on; a negative row is negated.
     """
     import numpy as np  # scipy brings it along
     from scipy.io import loadmat
@@ -324,9 +325,9 @@ def _read_results(file: Path, task: CompileTask) -> SimulationResult:
 
 
 def _package_files(job: CompileJob) -> list[Path]:
-    """Return the files that load all roots, which are packages or folders of packages.
+    """Return the files that load all roots: packages, or folders of packages.
 
-    The standard library is OpenModelica's own, which goes with it.
+    The standard library is OpenModelica's own.
     """
     files: list[Path] = []
     for root in map(Path, job.roots):

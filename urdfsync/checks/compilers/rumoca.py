@@ -1,7 +1,7 @@
 """rumoca, the embedded compiler: jobs done with it, and its messages.
 
-rumoca says everything in one text: complaints in lines or after semicolons, some with a place in brackets, some drawn
-with a frame around the source.
+rumoca puts all complaints into one text: in lines or after semicolons, with a place in brackets, or with a frame around
+the source.
 """
 
 from __future__ import annotations
@@ -44,11 +44,11 @@ _STUCK = (
     "rumoca finds no state of joints with the friction law stiction that slide together, {}: "
     'choose `friction = "lugre"`, or OpenModelica with `--tool`'
 )
-"""In place of what rumoca 0.10.2 says of two such joints."""
+"""Replaces the message of rumoca 0.10.2 about two such joints."""
 _SPAN = re.compile(r" @ Span \{.*?\) \}")
 
 _SHADOW = "variability violation: "
-"""rumoca 0.10.2 says this of sound models of the Modelica Standard Library as soon as something else is wrong."""
+"""If anything else is wrong, rumoca 0.10.2 also reports this about sound models of the Modelica Standard Library."""
 _COLOURS = re.compile(r"\x1b\[[0-9;]*m")
 _FRAMED = re.compile(r"×(?P<words>[^╭]*?)\n\s*╭─+\[(?P<file>[^\n]*?):(?P<line>\d+):(?P<column>\d+)\]")
 _PIECES = re.compile(r"\n|; (?=\S)")
@@ -70,7 +70,7 @@ def state(named: str) -> tuple[str, list[Path]]:  # noqa: ARG001 - see `Compiler
 
 
 def environment(cache: str, folder: str) -> dict[str, str]:  # noqa: ARG001 - see `Compiler`
-    """See `Compiler`. rumoca looks at MODELICAPATH for whatever the roots do not have, so that goes."""
+    """See `Compiler`. rumoca would look for missing classes on MODELICAPATH, so the variable is removed."""
     return {"XDG_CACHE_HOME": str(Path(cache).parent), "MODELICAPATH": ""}  # it adds its own name to the first
 
 
@@ -148,7 +148,7 @@ class _Storage(msgspec.Struct):
 
 
 class _Equations(msgspec.Struct):
-    """A part of the compiler's own form of a model: its variables, and where expressions mention them."""
+    """The compiler's equations of a model: its variables, and the expressions that mention them."""
 
     storage: _Storage
 
@@ -161,9 +161,9 @@ def _unknowns(model: rumoca.Model) -> int:
 
 
 def _without_effect(model: rumoca.Model, names: tuple[str, ...]) -> tuple[str, ...]:
-    """Return the parameters among `names` that no equation uses, neither directly nor through what is bound to them.
+    """Return the parameters among `names` that no equation uses, neither directly nor through a binding.
 
-    rumoca 0.10.2 takes a modifier of a part of a record that is handed down as a whole, and then uses the whole.
+    rumoca 0.10.2 accepts such a modifier of a record that is handed down as a whole, and ignores it.
     """
     if not names:
         return ()
@@ -191,7 +191,7 @@ def _without_effect(model: rumoca.Model, names: tuple[str, ...]) -> tuple[str, .
 
 
 def _simulate(model: rumoca.Model, run: Simulation, task: CompileTask) -> SimulationResult:
-    """Simulate a compiled model. rumoca hands back nothing of a run that stops."""
+    """Simulate a compiled model. If a run stops, rumoca returns no results."""
     import rumoca
 
     tolerance, method = run.tolerance, run.method or None

@@ -1,4 +1,4 @@
-"""Draw the robot model's diagram as SVG: the text refers to no other file, and a robot always gives the same one."""
+"""Draws the robot model's diagram as SVG: the text refers to no other file, and is the same everywhere."""
 
 from __future__ import annotations
 
@@ -109,12 +109,12 @@ def _parts(tree: KinematicTree, names: Connectors) -> Iterator[tuple[str, _Part]
 
 
 def _rounded(value: float) -> str:
-    """Return three digits; from a thousand on, the others are zeros rather than an exponent."""
+    """Return three digits; from a thousand on with zeros, not with an exponent."""
     return f"{float(f'{value:.3g}'):g}"
 
 
 def _lines(diagram: Diagram) -> Mapping[str, list[str]]:
-    """Return the paths of all lines by their style: one path of a style, so that a shared trunk is painted once."""
+    """Return the paths of all lines by their style: one path for each style, so that a shared trunk is painted once."""
     styles = defaultdict[str, list[str]](list)
     for (start, _), (kind, points) in diagram.lines.items():
         style = kind + (" support" if start.endswith(".support") else "")
@@ -159,7 +159,7 @@ def _junctions(diagram: Diagram) -> list[tuple[LineKind, Point]]:
 
 
 def _legend(kinds: Collection[Kind], start: Point, right: float) -> tuple[list[_Entry], int]:
-    """Return the entries of the legend, in as many rows as it takes, and where it ends below."""
+    """Return the entries of the legend, in as many rows as needed, and its lower end."""
     entries: list[_Entry] = []
     x, y = float(start[0]), start[1]
     for kind, text in _LEGENDS.items():
@@ -187,5 +187,5 @@ def _width(text: str, size: float) -> float:
 
 
 def _printable(text: str) -> str:
-    """Make spaces of characters that can't be printed, since XML forbids some of them."""
+    """Replace unprintable characters by spaces, since XML forbids some of them."""
     return "".join(char if char.isprintable() else " " for char in text)

@@ -17,7 +17,7 @@ from urdfsync.urdf.robot import Vector
 from urdfsync.urdf.snapshot import from_snapshot
 
 _JUMP = 9.99
-"""Ratio of two masses that is no change of the design: a factor of 10, which rounding may have made smaller."""
+"""Ratio of two masses that is likely a mistake: a factor of 10, less rounding."""
 _DRIVE = {
     "axis": "axis",
     "support": "support",
@@ -33,8 +33,7 @@ _INPUT = "input of Run"
 def effects(old: Version, new: Version) -> Sequence[Effect]:
     """Return mass and centre of mass of both versions.
 
-    The centre of mass is in metres, in the frame of the root link, with all joints at zero; it is None for a robot
-    without mass.
+    The centre is in metres, in the frame of the root link, with all joints at zero; None without mass.
     """
     before, after = (KinematicTree.of(from_snapshot(snapshot)) for snapshot in (old.snapshot, new.snapshot))
     (old_mass, old_centre), (new_mass, new_centre) = _mass(before), _mass(after)
@@ -45,7 +44,7 @@ def effects(old: Version, new: Version) -> Sequence[Effect]:
 
 
 def _mass(tree: KinematicTree) -> tuple[float, Vector | None]:
-    """Return total mass and centre of mass; summed exactly, so that names and order make no difference."""
+    """Return total mass and centre of mass; the exact sum does not depend on names and order."""
     poses = link_poses(tree, {})
     masses, moments = [], []
     for link in tree.links:
@@ -78,10 +77,10 @@ def find_doubtful(old: Version, new: Version, renames: Mapping[ElementKey, str])
 def interface(
     old: Version, new: Version, renames: Mapping[ElementKey, str], target: Target, options: Options
 ) -> Sequence[Effect]:
-    """Return the connectors and the variables of Run that go or have another name, then those that come.
+    """Return removed and renamed connectors and variables of Run, then new ones.
 
-    If Run has its inputs in one vector, their order is an effect, too. `options` are those of the new version, and of
-    the old one unless it has its own.
+    If Run has its inputs in one vector, their order is an effect, too. `options` belong to the new version, and to the
+    old one unless it has its own.
     """
     earlier = old.options if isinstance(old.options, Options) else options
     if "package" not in earlier.approach:
@@ -118,7 +117,7 @@ def interface(
 
 
 def _names(connectors: Connectors, options: Options) -> dict[tuple[str, str, str], str]:
-    """Return the names that users may connect to, by kind and name of the element, and by the part of it."""
+    """Return the names of connectors and variables, by kind and name of the element, and by its part."""
     names = {("link", link, "frame"): frame for link, frame in connectors.frames.items()}
     for joint, drive in connectors.drives.items():
         names |= {("joint", joint, part): name for field, part in _DRIVE.items() if (name := getattr(drive, field))}

@@ -1,7 +1,7 @@
-"""Classify the differences of two robots, and name them in the words of URDF.
+"""Classifies the differences of two robots, and names them in the words of URDF.
 
-The class of a difference follows from the data of templates, with this value alone exchanged. It is structural if data
-of models differ then, a parameter if only data of records do, and else unmodelled.
+To classify a difference, only this value is exchanged in the data of templates. It is structural if data of models
+differ then, a parameter if only data of records do, and else unmodelled.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ _Fields: TypeAlias = Sequence[str | int]
 
 _SHAPES = ("visuals", "collisions")
 _STRUCTURE = ("kind", "at", "in_parent", "on_child", "parent", "child")
-"""Fields of sensors and loops that models say."""
+"""Fields of sensors and loops in models."""
 _UNSCALED = lookup.key(Mesh(""))
 """End of the key of a mesh without a scale."""
 
@@ -34,7 +34,7 @@ _UNSCALED = lookup.key(Mesh(""))
 def describe(
     differences: Sequence[Difference], old: Version, new: Version, options: Options
 ) -> Sequence[Meaning | None]:
-    """Return the meaning of each difference of two comparable versions; None for one that others explain."""
+    """Return the meaning of each difference of two comparable versions; None for one that another explains."""
     return [_describe(difference, old, new, options) for difference in differences]
 
 
@@ -79,7 +79,7 @@ def _describe(difference: Difference, old: Version, new: Version, options: Optio
 
 
 def _path(words: _Fields) -> tuple[str, ...]:
-    """Return a path as people read it: an index goes with its list."""
+    """Return a path for people: an index stands behind its list."""
     path: list[str] = []
     for word in words:
         if isinstance(word, int):
@@ -91,7 +91,7 @@ def _path(words: _Fields) -> tuple[str, ...]:
 
 @functools.cache
 def _unit_of(field: str) -> Unit | None:
-    """Return the unit of a field: no two structs have other units for a field of one name."""
+    """Return the unit of a field: all structs have the same unit for a field of one name."""
     structs = (one for one in vars(robot).values() if isinstance(one, type) and issubclass(one, msgspec.Struct))
     # only what has the field is asked for its types: those of all structs take 4 of 220 ms of a build
     asked = (
@@ -111,9 +111,9 @@ def _unit(fields: _Fields, motion: str | None = None) -> str:
 
 
 def _joint_unit(name: str, joints: Mapping[str, Any], fields: _Fields) -> str:
-    """Return the unit of a number of a joint; `joints` are all of the version: a multiplier depends on its leader.
+    """Return the unit of a joint's number. `joints` are all joints of the version: a multiplier depends on its leader.
 
-    Losses of a planar joint have none: one number stands for sliding and turning.
+    Losses of a planar joint have no unit: one number stands for sliding and turning.
     """
     motion = MOTION_KINDS.get(joints[name]["type"])
     if fields[-1] != "multiplier":
@@ -127,7 +127,7 @@ def _joint_unit(name: str, joints: Mapping[str, Any], fields: _Fields) -> str:
 def _reach(
     kind: type[Link | Joint], difference: Difference, old: Version, new: Version, options: Options
 ) -> ChangeClass:
-    """Return how far a change inside of a link or joint reaches, by exchanging this value alone."""
+    """Return how far a change inside of a link or joint reaches, by an exchange of this value alone."""
     part, name, *fields = difference.path
     if fields[0] == "contact":  # as a whole: its entries have other names than the fields of `Contact`
         fields = ["contact"]
@@ -145,7 +145,7 @@ def _reach(
 
 
 def _exchanged(value: Any, other: Any, fields: _Fields) -> Any:
-    """Return `value` with a part of `other`: the smallest part around the place `fields` that both have."""
+    """Return `value` with a part of `other`: the smallest common part around the place `fields`."""
     if not fields or type(value) is not type(other):
         return other
     field, *inside = fields
@@ -179,9 +179,9 @@ def _mesh_keys(link: Link) -> set[str]:
 
 
 def _of_import(key: str, old: Version, new: Version, options: Options) -> Meaning | None:
-    """Return the meaning of another content of a mesh; None if no link has it in both versions.
+    """Return the meaning of a changed content of a mesh; None if no link has it in both versions.
 
-    A further file of a mesh goes with its first one.
+    A further file of a mesh belongs to its first one.
     """
     imports = {name: file for name, file in (old.imports or {}).items() if not name.startswith(key)}
     imports |= {name: file for name, file in (new.imports or {}).items() if name.startswith(key)}

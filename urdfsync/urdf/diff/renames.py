@@ -1,4 +1,4 @@
-"""What links, joints and loops are found again by, and snapshots under new names."""
+"""Features by which links, joints and loops are found again, and snapshots under new names."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from urdfsync.urdf.drives import can_be_driven, passive_joints
 from urdfsync.urdf.snapshot import joints_of
 
 _NAMES = frozenset({"parent", "child", "joint", "actuated", "measured", "drive", "transmission", "command", "start"})
-"""Entries of joints and loops that are names, or follow from names elsewhere, such as those of the configuration."""
+"""Entries of joints and loops that are names, or follow from names, such as in the configuration."""
 _PLACE = frozenset({"type", "kind", "origin", "child_origin", "axis", "child_axis"})
 
 
@@ -44,10 +44,10 @@ def _without_names(value: Any) -> Any:
 
 
 def comparable(snapshot: Snapshot, renames: Mapping[ElementKey, str]) -> Snapshot:
-    """Return the snapshot with those links, joints and loops renamed wherever it mentions them, and extensions keyed.
+    """Return the snapshot with these links, joints and loops renamed everywhere, and extensions keyed.
 
-    Each joint that can be driven has an entry `drive` in place of `actuated` and `measured`: `driven` or `passive`, as
-    the source has it. One transmission more or less can change it for joints that the transmission does not name.
+    Each joint that can be driven has an entry `drive` in place of `actuated` and `measured`: `driven` or `passive`, by
+    the source. A transmission can change it for joints that the transmission does not name.
     """
     displaced_elements = displaced(renames)
 
@@ -94,7 +94,7 @@ def comparable(snapshot: Snapshot, renames: Mapping[ElementKey, str]) -> Snapsho
 
 
 def _keyed(tags: Mapping[str, Sequence[str]]) -> Mapping[str, Any]:
-    """Return texts of extensions by `tag name`, with a number from 2 on where that is not enough."""
+    """Return texts of extensions by `tag name`, with a number from 2 on for repeated keys."""
     result: dict[str, str] = {}
     counts: Counter[str] = Counter()
     for tag, texts in tags.items():

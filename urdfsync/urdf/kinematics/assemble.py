@@ -1,8 +1,8 @@
-"""Close the loops of a robot: its start pose, its freedoms, and the equations and states of its model.
+"""Closes the loops of a robot: finds its start pose, its freedoms, and the equations and states of its model.
 
-Generic poses are closed ones that small motions of all joints lead to: only there is the rank of the constraints that
-of the mechanism. Numbers are compared without units: lengths of a loop are divided by its size. What is chosen by them
-is chosen in a fixed order by one tolerance, and the start is refined in decimals: it is the same on every machine.
+Generic poses are closed poses near the start, reached by small motions of all joints: only there the rank of the
+constraints is that of the mechanism. Numbers are compared without units: lengths of a loop are divided by its size.
+Choices have a fixed order and one tolerance, and the start is refined in decimals: all machines give the same result.
 """
 
 from __future__ import annotations
@@ -35,12 +35,15 @@ from urdfsync.urdf.validate import Finding
 _PARALLEL = 1e-4
 """Angle between axes that are meant to be parallel, in rad: exporters write 1.5708."""
 _INDEPENDENT = 1e-3
-"""Part of a row or column without units that others must not cancel. It is above what `_PARALLEL` leaves of one."""
+"""Least part of a row or column, without units, that others do not cancel.
+
+It is above the part that `_PARALLEL` leaves.
+"""
 _CLOSED = 1e-4
-"""Gap of a closed loop, in m, that the equations of its model leave."""
+"""Greatest gap of a closed loop, in m."""
 _CLOSED_ANGLE = 1e-3
 _AMPLITUDES = (0.4, 0.2, 0.1, 0.05)
-"""Motions to generic poses, in rad; the first that can be closed counts."""
+"""Motions to generic poses, in rad; the first closable one counts."""
 _POSES = 3
 _STEPS = 16
 """Steps of the way along which Test moves the driven joints."""
@@ -49,11 +52,11 @@ _SWEEP = {"rotational": 1.0, "translational": 0.1}
 _SWEEP_MARGIN, _SWEEP_PERIOD = 0.9, 10.0
 _MOST_LOOPS, _MOST_JOINTS = 200, 1000
 _MOST_WORK = 6 * 10**10
-"""Products of matrices, in multiplications, that closing all loops may take: ten seconds. 110 four-bars take 10¹⁰."""
+"""The most multiplications to close all loops: ten seconds. 110 four-bars take 10¹⁰."""
 
 
 class _Problem(Mechanism):
-    """A mechanism whose loops are to be closed, without units: lengths of a loop are divided by its size."""
+    """A mechanism with open loops, without units: lengths of a loop are divided by its size."""
 
     def __init__(self, tree: KinematicTree) -> None:
         super().__init__(tree)
@@ -73,7 +76,7 @@ class _Problem(Mechanism):
         self.work = 0
 
     def scaled(self, q: Array, rows: Rows) -> tuple[Array, Array]:
-        """Return what the equations leave, and the derivatives of that, without units."""
+        """Return the residuals of the equations and their derivatives, without units."""
         gaps, jacobian = self.evaluate(q, rows)
         scales = np.where(rows.v[:, 3] == 1, self.sizes[rows.loops], 1.0)
         return gaps / scales, jacobian * self.units / scales[:, None]
@@ -83,9 +86,10 @@ class _Problem(Mechanism):
         return self.scaled(q, rows)[1]
 
     def close(self, start: Array, rows: Rows, free: Array | None = None, *, bounded: bool = True) -> Array:
-        """Return where the equations leave least near a start, by Levenberg's method with the free joints.
+        """Return the pose with the least residuals near a start, by Levenberg's method with the free joints.
 
-        Directions in which those of the kinds are dependent count for nothing: what inexact numbers leave there stays.
+        Directions in which the equations of the kinds are dependent do not count: residuals of inexact numbers stay
+        there.
         """
         least = _INDEPENDENT**2 if rows is self.whole else 1e-12  # chosen ones are independent
         q, caution, lower, upper = start, 1.0, self.lower, self.upper
@@ -119,7 +123,7 @@ class _Problem(Mechanism):
         return q
 
     def openness(self, q: Array) -> float:
-        """Return the largest of what the equations of the kinds leave."""
+        """Return the largest residual of the equations of the kinds."""
         return float(np.abs(self.scaled(q, self.whole)[0]).max())
 
 
@@ -133,10 +137,10 @@ class _UnclosableError(Exception):
 # A build asks ten times, for two versions, and one takes 40 ms.
 @functools.lru_cache(maxsize=2)
 def assemble(tree: KinematicTree, wanted: frozenset[str], named: frozenset[str]) -> Assembly:
-    """Close all loops of a robot that has any, near its start, or say why that is impossible.
+    """Close all loops of a robot near its start, or report why that is impossible.
 
-    `wanted` joints are to be driven; of these the source or the options name `named` as drives. If none of these is in
-    a loop, the first wanted ones that are independent are driven.
+    `wanted` joints shall be driven; the source or the options name `named` of them as drives. If none of these is in a
+    loop, the first independent wanted ones are driven.
     """
     try:
         with np.errstate(all="ignore"):  # absurd numbers overflow: what is not a number is not closed
@@ -199,14 +203,14 @@ def _assemble(tree: KinematicTree, wanted: frozenset[str], named: frozenset[str]
 
 
 def _given_limits(limits: tuple[float, float]) -> tuple[float, float]:
-    """Return limits, and none if they are equal: exporters leave them out, which then are both zero."""
+    """Return limits, and none if they are equal: both are zero if an exporter leaves them out."""
     return (-math.inf, math.inf) if limits[0] == limits[1] else limits
 
 
 def _spectrum(matrix: Array) -> tuple[Array, Array]:
-    """Return the squares of the singular values, smallest first, and the directions of columns that they belong to.
+    """Return the squares of the singular values, smallest first, and their directions of columns.
 
-    `numpy.linalg.svd` takes 50 ms for 40 joints on a busy machine, by its threads, and this half of one.
+    For 40 joints on a busy machine, `numpy.linalg.svd` takes 50 ms, by its threads, and this half a millisecond.
     """
     squares, directions = np.linalg.eigh(matrix.T @ matrix)
     return squares, directions
@@ -233,12 +237,12 @@ def _rest(row: Array, basis: Array) -> Array:
 
 
 def _null_space(matrix: Array) -> Array:
-    """Return the directions that independent equations leave, as columns."""
+    """Return the directions that independent equations leave free, as columns."""
     return _spectrum(matrix)[1][:, : matrix.shape[1] - len(matrix)]
 
 
 def _with_others(space: Array, states: Sequence[int]) -> list[int]:
-    """Return states and further ones, until nothing else can move; each moves nearly as freely as any that is left."""
+    """Return states and further ones, until nothing else can move; each moves nearly as freely as any other one."""
     states = list(states)
     while len(states) < space.shape[1]:
         held = space[states]
@@ -264,7 +268,7 @@ def _normal(mechanism: Mechanism, loop: int) -> Vector | None:
 
 
 def _equations(loop: Loop, normal: Vector | None) -> list[Equation]:
-    """Return the equations of the kind of a loop; those of its plane come first."""
+    """Return the equations of a loop's kind; those of its plane come first."""
     x, y, z = (*across(normal), normal) if normal else AXES
     pairs: Sequence[tuple[Vector, Vector]] = ()
     if loop.kind == "revolute":
@@ -300,7 +304,7 @@ def _motions(count: int) -> list[Array]:
 
 
 def _closed_near(problem: _Problem, held: Array) -> Array:
-    """Return a closed pose near the start. Where that is possible, some joints stay there."""
+    """Return a closed pose near the start. If possible, some joints stay there."""
     start, tried, whole = problem.start, list[Array](), problem.whole
     for motion in (np.zeros(len(start)), *_motions(len(start))):
         near = np.clip(start + 0.8 * motion * problem.units, problem.lower, problem.upper)
@@ -319,7 +323,7 @@ def _closed_near(problem: _Problem, held: Array) -> Array:
 
 
 def _generic_poses(problem: _Problem, closed: Array) -> list[Array]:
-    """Return closed poses around one, limits aside; that one if there are no others."""
+    """Return closed poses around one, without regard to limits; this one if there are no others."""
     motions = [size * motion * problem.units for size in _AMPLITUDES for motion in _motions(len(closed))]
     poses = (problem.close(closed + motion, problem.whole, bounded=False) for motion in motions)
     near = (q for q in poses if problem.openness(q) < 3 * _CLOSED_ANGLE)
@@ -327,7 +331,7 @@ def _generic_poses(problem: _Problem, closed: Array) -> list[Array]:
 
 
 def _refine(tree: KinematicTree, problem: _Problem, q: Array, rows: Rows, free: Array) -> Array:
-    """Return the positions with twelve digits that do not depend on how a machine rounds."""
+    """Return the positions with twelve digits that do not depend on a machine's rounding."""
     exact, at = Mechanism(tree, object), array_of(q, object)
     exact_rows = rows.take(range(len(rows.loops)), object)
     inverse = np.linalg.inv(problem.evaluate(q, rows)[1][:, free])
@@ -337,7 +341,7 @@ def _refine(tree: KinematicTree, problem: _Problem, q: Array, rows: Rows, free: 
 
 
 def _reach(problem: _Problem, q: Array, rows: Rows, driven: Sequence[int], free: Array) -> Mapping[str, float]:
-    """Return the longest ways of the driven joints, by following the loops along the way that Test takes."""
+    """Return the longest ways of the driven joints, along the way that Test takes."""
     joints = problem.independent
     reach = {k: _SWEEP[MOTION_KINDS[joints[k].type]] for k in driven}
     while True:  # until no joint turns to its other side, which each does once at most
@@ -359,7 +363,7 @@ def _way(joint: Joint, start: float, reach: float) -> float:
 
 
 def _follow(problem: _Problem, q: Array, rows: Rows, ways: Mapping[int, float], free: Array) -> int:
-    """Return the number of steps along the ways up to which the loops are closed, regular and within limits."""
+    """Return the number of steps along the ways with closed, regular loops within limits."""
     way, start, at = np.zeros(len(q)), q, q
     for k, value in ways.items():
         way[k] = value
@@ -379,7 +383,7 @@ def _least(matrix: Array) -> float:
 
 
 def _check_joints(mechanism: Mechanism) -> None:
-    """Raise an error for loops that nothing moves, and those with joints that have more than one freedom."""
+    """Raise an error for loops that nothing moves, and for joints in loops with more than one freedom."""
     faults = []
     for loop, path, moves in zip(mechanism.loops, mechanism.paths, mechanism.moves, strict=True):
         free = [j for j in mechanism.joints if j.name in path and j.type in ("planar", "floating")]
@@ -401,7 +405,7 @@ def _open_loops(problem: _Problem, q: Array) -> Iterator[tuple[Loop, Gap]]:
 
 
 def _check_closed(problem: _Problem, q: Array, hint: str = "") -> None:
-    """Raise an error for the loops that are not closed."""
+    """Raise an error for open loops."""
     faults = []
     starts = dict(zip(problem.loops, problem.gaps(problem.start), strict=True))
     for loop, gap in _open_loops(problem, q):

@@ -1,4 +1,4 @@
-"""How the loops of a robot are closed: its start pose, its freedoms, and the equations and states of its model."""
+"""The closed loops of a robot: its start pose, its freedoms, and the equations and states of its model."""
 
 from __future__ import annotations
 
@@ -13,19 +13,19 @@ from urdfsync.urdf.robot import Vector
 from urdfsync.urdf.validate import Finding
 
 _NOTABLE = 1e-5
-"""Gap in m and rad from which on the start of the source is told not to close a loop: above rounding in exports."""
+"""Least reported gap of the source's start, in m and rad: above rounding in exports."""
 
 
 class Gap(msgspec.Struct, frozen=True):
-    """How far a pose is from closing a loop."""
+    """The gap of a loop in a pose."""
 
     distance: float
     """Between the origins of both frames, in m."""
     angle: float
-    """Between what the kind of the loop holds together, in rad."""
+    """Between the axes that the loop's kind holds together, in rad."""
 
     def __str__(self) -> str:
-        """Return the gap as people read it."""
+        """Return the gap in words."""
         return f"{1000 * self.distance:.3g} mm and {math.degrees(self.angle):.3g}°"
 
 
@@ -39,22 +39,23 @@ class Closure(msgspec.Struct, frozen=True):
     planar: Vector | None = None
     """Normal of the plane in the frame of the parent, if there are two translations in a plane and no rotations."""
     weaker: str | None = None
-    """The reason for fewer equations than those of the kind; None for a planar loop, too."""
+    """The reason for fewer equations than the kind has; None also for a planar loop."""
 
 
 class Assembly(msgspec.Struct, frozen=True, kw_only=True):
-    """A robot whose loops are closed, or why they can't be; a robot without loops has the drives alone."""
+    """A robot with closed loops, or the faults of its loops; a robot without loops has only drives."""
 
     tree: KinematicTree
-    """The robot; joints that move a loop begin where it is closed, at the start of the source if that closes it."""
+    """The robot; joints that move a loop begin in a closed pose: at the start of the source, if that is closed."""
     driven: frozenset[str]
     """All joints of the robot that are driven."""
     joints: tuple[str, ...] = ()
     """Joints whose motion the loops restrict, with the leaders of followers, in canonical order."""
     states: tuple[str, ...] = ()
-    """Of `joints`, one for each freedom: driven ones, then others. All else follows from them.
+    """Of `joints`, one for each freedom: driven ones, then others.
 
-    There are as many as joints without followers, less the rank of the constraints at generic poses.
+    All others follow from them. Their number is that of joints without followers, less the rank of the constraints at
+    generic poses.
     """
     excess: tuple[str, ...] = ()
     """Named drives that are not driven, since others move the loops already."""
@@ -64,7 +65,7 @@ class Assembly(msgspec.Struct, frozen=True, kw_only=True):
     gaps: Mapping[str, Gap] = {}
     """Of the start of the source."""
     faults: tuple[Finding, ...] = ()
-    """Why the loops can't be closed: then there is no more than the robot as it was, and the drives."""
+    """Why the loops can't be closed: then there are only the unchanged robot and the drives."""
 
     @property
     def dependent(self) -> frozenset[str]:
@@ -73,7 +74,7 @@ class Assembly(msgspec.Struct, frozen=True, kw_only=True):
 
 
 def find_loop_findings(closed: Assembly) -> Iterator[Finding]:
-    """Yield why loops have no model, or else what their model has that the source does not say."""
+    """Yield why loops have no model, or else how their model differs from the source."""
     yield from closed.faults
     for name, gap in closed.gaps.items():
         if max(gap.distance, gap.angle) > _NOTABLE:

@@ -1,4 +1,4 @@
-"""Find joints that move no mass where each joint is at its start: nothing defines their motion in a simulation."""
+"""Finds joints that move no mass at the start: nothing defines their motion in a simulation."""
 
 from __future__ import annotations
 
@@ -23,13 +23,13 @@ class _Axis(msgspec.Struct, frozen=True):
     direction: Vector
 
     def is_same(self, other: _Axis) -> bool:
-        """Return whether two joints move in the same way: about one line, or in one direction."""
+        """Return whether two joints move alike: about one line, or in one direction."""
         if self.motion != other.motion or math.hypot(*_cross(self.direction, other.direction)) > _ROUNDING:
             return False
         return self.motion == "translational" or not self._is_off(other.point)
 
     def moves(self, link: Link, at: Pose) -> bool:
-        """Return whether the link, which is at that pose, has a mass or inertia that the joint has to move."""
+        """Return whether the joint has to move a mass or inertia of the link at this pose."""
         inertial = link.inertial
         if inertial is None:
             return False
@@ -51,8 +51,8 @@ def find_massless_joints(tree: KinematicTree, passive: AbstractSet[str] | None =
     """Return the names of the joints that move no mass, in canonical order.
 
     `passive` are joints without a drive; None for all. A joint is massless if no link below it has inertia about its
-    axis, and its drive adds none. Links below a passive joint on the same axis do not count: that joint lets them stand
-    still. The links that a follower moves count for its leader; followers are not in the result.
+    axis, and its drive adds none. Links below a passive joint on the same axis do not count: they can stand still. The
+    links that a follower moves count for its leader; followers are not in the result.
     """
     poses, children = link_poses(tree, start_positions(tree)), tree.children()
     links = {link.name: link for link in tree.links}

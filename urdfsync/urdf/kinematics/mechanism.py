@@ -1,4 +1,4 @@
-"""The joints of a robot's loops in numpy, and the equations that close these, for all loops at once."""
+"""The joints of a robot's loops in numpy, and the equations of all loops at once."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _TAU = Decimal("6.283185307179586476925286766559005768394")
 
 
 class Rows(NamedTuple):
-    """Equations: u·(T·v) = product, with u in the frame of the parent, v in that of the child, and the pose T of this.
+    """Equations u·(T·v) = product: u is in the frame of the parent, v in the frame of the child, T is the child's pose.
 
     The vector v has four numbers: a direction and 0, or the origin and 1, for a translation along u.
     """
@@ -52,8 +52,7 @@ class Rows(NamedTuple):
 class Mechanism:
     """The joints between the root and the frames of all loops; `dtype` is float, or object for decimals.
 
-    Poses of the mechanism are given by the positions of its `independent` joints: those that move a loop, and do not
-    follow another one.
+    The positions of the `independent` joints give the poses: these joints move a loop, and follow no other joint.
     """
 
     def __init__(self, tree: KinematicTree, dtype: type = float) -> None:
@@ -108,17 +107,17 @@ class Mechanism:
         return a, b
 
     def twists(self, poses: Array) -> tuple[Array, Array]:
-        """Return for each joint how fast it turns all that it moves, and moves what is at the origin of the root."""
+        """Return for each joint its angular velocity, and the velocity of a moved point at the origin of the root."""
         axes = (poses[1:, :3, :3] @ self._axes[:, :, None])[:, :, 0]
         turns = axes * self.turns
         return turns, axes * self.slides + _cross(poses[1:, :3, 3], turns)
 
     def left(self, q: Array, rows: Rows) -> Array:
-        """Return what the equations leave, in m and without unit."""
+        """Return the residuals of the equations, in m and without unit."""
         return self._left(self.poses(q), rows)[0]
 
     def evaluate(self, q: Array, rows: Rows) -> tuple[Array, Array]:
-        """Return what the equations leave, and the derivatives of that by positions."""
+        """Return the residuals of the equations, and their derivatives by positions."""
         poses = self.poses(q)
         left, u, w = self._left(poses, rows)
         turns, moves = self.twists(poses)
@@ -126,14 +125,14 @@ class Mechanism:
         return left, derivatives @ self._gears
 
     def _left(self, poses: Array, rows: Rows) -> tuple[Array, Array, Array]:
-        """Return what the equations leave, and the vectors u and T·v of each in the frame of the root."""
+        """Return the residuals of the equations, and their vectors u and T·v in the frame of the root."""
         a, b = self.frames(poses)
         u = (a[rows.loops, :3, :3] @ rows.u[:, :, None])[:, :, 0]
         w = (b[rows.loops, :3] @ rows.v[:, :, None])[:, :, 0]
         return (u * (w - rows.v[:, 3:] * a[rows.loops, :3, 3])).sum(axis=1) - rows.products, u, w
 
     def gaps(self, q: Array) -> list[Gap]:
-        """Return how far a pose is from closing each loop as its kind demands."""
+        """Return the gap of each loop in a pose, by its kind."""
         gaps, left = [], self.left(q, self.whole)
         for k, loop in enumerate(self.loops):
             x, y, z, *chords = left[self.whole.loops == k]
@@ -144,7 +143,10 @@ class Mechanism:
 
 
 def _whole(loop: Loop) -> list[Equation]:
-    """Return more equations than are independent: they leave most where a loop is closed the wrong way round."""
+    """Return more equations than the independent ones.
+
+    A loop that is closed the wrong way round has their largest residuals.
+    """
     equations: list[Equation] = [(u, ORIGIN, 0.0) for u in AXES]
     if loop.kind == "universal":
         equations.append((loop.axis, (*loop.child_axis, 0.0), 0.0))
@@ -159,7 +161,7 @@ def array_of(values: Any, dtype: type) -> Array:
 
 
 def _cross(a: Array, b: Array) -> Array:
-    """Return the vector products of rows; numpy's own takes five times as long, and had most of the time."""
+    """Return the vector products of rows; numpy's own takes five times as long, and took most of the time."""
     crossed: Array = a[:, [1, 2, 0]] * b[:, [2, 0, 1]] - a[:, [2, 0, 1]] * b[:, [1, 2, 0]]
     return crossed
 
@@ -213,7 +215,7 @@ def _path(by_child: Mapping[str, Joint], link: str) -> Iterator[str]:
 
 
 def _roots(tree: KinematicTree) -> Mapping[str, tuple[str, float, float]]:
-    """Return for each joint the joint that it follows in the end, with multiplier and offset; itself if it does not."""
+    """Return for each joint its final leader, with multiplier and offset; itself if it follows none."""
     roots: dict[str, tuple[str, float, float]] = {}
     for joint in tree.leaders_first():
         roots[joint.name] = joint.name, 1.0, 0.0

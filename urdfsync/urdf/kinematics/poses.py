@@ -46,7 +46,7 @@ def roll_pitch_yaw(quaternion: Sequence[float]) -> Vector:
 
 
 def compose(outer: Pose, inner: Pose) -> Pose:
-    """Return the pose of `inner`, which is given in `outer`, in the frame that `outer` is given in."""
+    """Return `inner`, a pose in the frame `outer`, in the frame around `outer`."""
     (rotation, translation), columns = outer, tuple(zip(*inner[0], strict=True))
     turned = tuple(tuple(dot(row, column) for column in columns) for row in rotation)
     moved = tuple(p + dot(row, inner[1]) for p, row in zip(translation, rotation, strict=True))
@@ -92,7 +92,7 @@ def position_ranges(tree: KinematicTree) -> Mapping[str, tuple[float, float]]:
 
 
 def start_positions(tree: KinematicTree) -> Mapping[str, float]:
-    """Return where each joint starts: at its `start`, else as close to zero as all limits allow."""
+    """Return the start position of each joint: its `start`, else as close to zero as all limits allow."""
     ranges = position_ranges(tree)
     positions: dict[str, float] = {}
     for joint in tree.leaders_first():
@@ -108,7 +108,7 @@ def start_positions(tree: KinematicTree) -> Mapping[str, float]:
 
 
 def own_range(joint: Joint) -> tuple[float, float]:
-    """Return the smallest and largest position of one joint by itself."""
+    """Return the smallest and largest position of one joint by its own limits."""
     if joint.type not in MOTION_KINDS:
         return 0.0, 0.0
     if joint.type == "continuous" or joint.limit is None:
@@ -121,7 +121,7 @@ def _near(position: float) -> float:
 
 
 def across(axis: Vector) -> tuple[Vector, Vector]:
-    """Return two unit vectors that complete a unit vector to a frame: the other two axes, if it is one."""
+    """Return two unit vectors that complete a unit vector to a frame; for a coordinate axis the two others."""
     sizes = [abs(value) for value in axis]
     k = sizes.index(min(sizes))
     x, y, z = ((1.0 if i == k else 0.0) - axis[k] * value for i, value in enumerate(axis))

@@ -32,7 +32,7 @@ from urdfsync.urdf.robot import (
 class KinematicTree(msgspec.Struct, frozen=True):
     """Links and joints in canonical order; joint `k` leads to link `k + 1`, link 0 is the root.
 
-    Joints are `effective`: only one that follows another has a `mimic`.
+    Joints are `effective`: only a joint that follows another has a `mimic`.
     """
 
     links: tuple[Link, ...]
@@ -51,7 +51,7 @@ class KinematicTree(msgspec.Struct, frozen=True):
     def of(cls, robot: Robot, taken: Iterable[str] = ()) -> KinematicTree:
         """Return the tree of a robot that passed all checks; `taken` names are not given to any element.
 
-        Raises KeyError or ValueError for a robot that passes none.
+        Raises KeyError or ValueError for another robot.
         """
         links = {link.name: link for link in robot.links}
         if len({joint.child for joint in robot.joints}) < len(robot.joints):
@@ -108,15 +108,15 @@ class KinematicTree(msgspec.Struct, frozen=True):
         return tuple(link for link in self.links if link.name not in parents)
 
     def axes(self, motion: Motion) -> tuple[Joint, ...]:
-        """Return the joints of that kind of motion that can be driven: all but those that follow another one."""
+        """Return the drivable joints of this kind of motion: those that follow no other joint."""
         return tuple(j for j in self.joints if MOTION_KINDS.get(j.type) == motion and j.mimic is None)
 
     def starts(self) -> tuple[Joint, ...]:
-        """Return the joints for which the source or the configuration says where they begin."""
+        """Return the joints with a start position of the source or the configuration."""
         return tuple(joint for joint in self.joints if joint.start is not None)
 
     def followers(self) -> Iterator[tuple[Joint, Mimic]]:
-        """Yield the joints that follow another joint, each with its relation to that."""
+        """Yield the joints that follow another joint, each with its relation."""
         return ((joint, joint.mimic) for joint in self.joints if joint.mimic is not None)
 
     def followers_by_leader(self) -> Mapping[str, tuple[tuple[Joint, Mimic], ...]]:

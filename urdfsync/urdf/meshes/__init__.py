@@ -1,1 +1,1 @@
-"""Mesh files: where they are, and how they come into the package."""
+"""Mesh files: finds, reads and converts them."""

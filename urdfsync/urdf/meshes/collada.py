@@ -1,9 +1,9 @@
 """The triangles of a COLLADA file (.dae), placed by its scene, in metres.
 
-Of the metadata, `<unit>` is applied and `<up_axis>` is not. RViz treats the meshes of a URDF so
-(ros-visualization/rviz issue 1045 and `getMeshUnitRescale`). Neither MoveIt nor Gazebo classic turns them
-(moveit/geometric_shapes pull request 52, gazebosim/gazebo-classic issue 1305), and exporters count on that. The
-transformations of the scene's nodes are applied.
+Of the metadata, `<unit>` is applied and `<up_axis>` is not. RViz treats the meshes of a URDF so (ros-visualization/rviz
+issue 1045 and `getMeshUnitRescale`). Neither MoveIt nor Gazebo classic turns them (moveit/geometric_shapes pull request
+52, gazebosim/gazebo-classic issue 1305), and exporters count on that. The transformations of the scene's nodes are
+applied.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ _NO_SHAPE = (
     "instance_light",
     "linestrips",
 )
-"""Elements without influence on the shape. They are removed: a fault in one of them is none of the mesh."""
+"""Elements without influence on the shape. They are removed, so that their faults do not matter."""
 _MATERIALS = ("library_effects", "library_materials", "bind_material")
 _NOT_READ = {"skew": "skewed nodes", "ph": "polygons with holes"}
 _NONE = (0, 0, 0, 0)
@@ -43,7 +43,7 @@ _MOVES = ("lookat", "matrix", "rotate", "scale", "translate")
 def collada_parts(
     content: bytes, others: Mapping[str, bytes] | None = None
 ) -> Iterator[tuple[Color | None, Triangles]]:
-    """Yield the triangles of each geometry where the scene has it, in metres. Raises MeshError.
+    """Yield the triangles of each geometry at its places in the scene, in metres. Raises MeshError.
 
     The triangles have their colours if `others` has the textures.
     """
@@ -72,9 +72,9 @@ def collada_parts(
 
 
 def _leave_plain_colors(root: etree._Element, textures: Mapping[str, bytes]) -> None:
-    """Reduce each effect to its colour, and remove references to effects and materials that do not exist.
+    """Reduce each effect to its colour, and remove references to missing effects and materials.
 
-    A fault in the rest of an effect is none of the mesh. An effect without a colour becomes transparent.
+    Other faults of an effect do not matter. An effect without a colour becomes transparent.
     """
     space = str(root.tag).removesuffix("COLLADA")
     images = {image.get("id", ""): image for image in root.iterfind("{*}library_images/{*}image")}
@@ -113,7 +113,7 @@ def _parse(content: bytes) -> etree._Element:
 
 
 def _unit(root: etree._Element) -> float:
-    """Return the metres of one unit of length, 1 unless the file names another number."""
+    """Return the metres of one unit of length; 1 without a number in the file."""
     node = root.find("{*}asset/{*}unit")
     text = "1" if node is None else node.get("meter", "1")
     try:
@@ -126,7 +126,7 @@ def _unit(root: etree._Element) -> float:
 
 
 def _place_skins(root: etree._Element) -> None:
-    """Put the geometry of each skin where it is bound: trimesh passes over skins."""
+    """Put the geometry of each skin to its place: trimesh ignores skins."""
     skins = {f"#{skin.get('id')}": skin[0] for skin in root.iterfind("{*}library_controllers/{*}controller")}
     for instance in list(root.iter("{*}instance_controller")):
         skin = skins[instance.get("url", "")]

@@ -1,4 +1,4 @@
-"""A mesh file as the package needs it: STL and OBJ in metres, with the facts that models need of the shape."""
+"""Converts a mesh file for the package: to STL and OBJ in metres, with facts of the shape for models."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _process = MeshProcess()
 
 
 def convert(dependency: Dependency, file: Path, content: bytes, others: Mapping[str, bytes]) -> Conversion:
-    """Return the imported form of a mesh at `file`, and its facts; they depend on contents, URI and scale alone.
+    """Return the imported form of a mesh at `file`, and its facts. Both depend only on contents, URI and scale.
 
     `others` has the libraries of materials and the textures that it names.
 
@@ -48,9 +48,9 @@ def convert(dependency: Dependency, file: Path, content: bytes, others: Mapping[
 
 
 def triangles(path: str, content: bytes, key: str, most: int) -> Triangles | str:
-    """Return at `most` so many triangles of a mesh, or about that; or why there are none.
+    """Return about `most` triangles of a mesh, or why there are none.
 
-    It is an imported file at `path`, or what the dependency `key` has, if that is too large to be imported.
+    The mesh is an imported file at `path`, or that of the dependency `key`, if it is too large to be imported.
     """
     mesh = lookup.mesh(key) if key else Mesh(path)
     try:

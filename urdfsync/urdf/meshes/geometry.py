@@ -1,4 +1,4 @@
-"""Triangles as arrays: moved, measured, written as STL, and the few points on which such a body stands or rolls."""
+"""Moves, measures and writes triangles, as arrays, and finds the few points on which a body stands or rolls."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ Array: TypeAlias = npt.NDArray[np.float64]
 Indices: TypeAlias = npt.NDArray[np.int64]
 
 MAX_TRIANGLES = 1_000_000
-"""Most triangles of one mesh, each counted wherever the scene has it; so many have 50 MB as binary STL."""
+"""The most triangles of one mesh, counted at each place in the scene; so many take 50 MB as binary STL."""
 
 _FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 _HEADER = b"binary STL, written by urdfsync".ljust(80)
@@ -31,7 +31,7 @@ _DIGITS = 6
 
 
 class Triangles(NamedTuple):
-    """Triangles whose outer side is the one from which their corners are counter-clockwise."""
+    """Triangles; seen from outside, their corners are counter-clockwise."""
 
     points: Array
     """n × 3."""
@@ -40,7 +40,7 @@ class Triangles(NamedTuple):
 
 
 def placed(mesh: Triangles, pose: Array) -> Triangles:
-    """Move triangles by an affine transformation (4 × 4); one that mirrors keeps their outer sides."""
+    """Move triangles by an affine transformation (4 × 4); a mirroring one keeps their outer sides."""
     if np.array_equal(pose, np.identity(4)):
         return mesh
     points = np.empty(mesh.points.shape)
@@ -52,7 +52,7 @@ def placed(mesh: Triangles, pose: Array) -> Triangles:
 
 
 def joined(parts: Sequence[Triangles], most: float = MAX_TRIANGLES) -> Triangles:
-    """Return all triangles as one mesh. Raises MeshError for none or too many, and for a corner that is no point."""
+    """Return all triangles as one mesh. Raises MeshError for none or too many, and for a corner without a point."""
     triangles = sum(len(part.faces) for part in parts)
     if not triangles:
         raise MeshError("it has no triangles")
@@ -124,9 +124,9 @@ def bounds(points: Array) -> list[list[float]]:
 def support_points(points: Array) -> list[list[float]]:
     """Return some points of the convex hull of `points` (n × 3, metres): rounded to 1e-6 m, sorted, each once.
 
-    They are the extreme points along 122 fixed directions: three great circles normal to the
-    coordinate axes in steps of 10°, and the faces, edges and corners of a cube. Where a whole edge or
-    face is extreme, its own extreme points count, so that a wheel keeps the rims of both sides.
+    They are the extreme points along 122 fixed directions: three great circles normal to the coordinate axes in steps
+    of 10°, and the faces, edges and corners of a cube. If a whole edge or face is extreme, its own extreme points
+    count, so that a wheel keeps the rims of both sides.
     """
     size = float(np.ptp(points, axis=0).max())
     near = _nearly_extreme(points, _DIRECTIONS, size)
@@ -169,7 +169,7 @@ def _nearly_extreme(points: Array, directions: Array, size: float) -> Array:
 
 
 def _corners(tied: Array, number: int, size: float) -> Array:
-    """Return the extreme points along all other directions of points in a plane normal to one; two where these tie."""
+    """Return the extreme points along the other directions, of points in a plane normal to one; two for a tie."""
     others, along = _DIRECTIONS[_CROSSING[number]], _NORMALS[number][_CROSSING[number]]
     tied = np.unique(_nearly_extreme(tied, others, size), axis=0)
     heights, positions = _products(tied, others), _products(tied, along)

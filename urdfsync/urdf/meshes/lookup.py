@@ -1,9 +1,9 @@
-"""Which mesh files a robot refers to, where they may be, and their names in the package. Pure: nothing is looked for.
+"""Lists a robot's mesh files, their possible places, and their names in the package. Pure: reads no file.
 
-The URI as written and the scale identify a mesh, since the imported file has the scale applied. URIs are resolved as by
-ROS, and beyond that as real URDF files need it. These have `package://` and `model://` with search paths, `$(find …)`
-that no xacro has expanded, `modelica://`, and `file:` in all its spellings. They also have relative paths, backslashes
-and percent-encoding. Other schemes are not looked up: a build doesn't use the network.
+The URI as written and the scale identify a mesh, since the imported file has the scale applied. URIs are resolved as in
+ROS, and in further ways that real URDF files need: `package://` and `model://` with search paths, unexpanded `$(find
+…)`, `modelica://`, `file:` in all its spellings, relative paths, backslashes and percent-encoding. Other schemes are
+not looked up: a build doesn't use the network.
 """
 
 from __future__ import annotations
@@ -27,17 +27,17 @@ UNIT_SCALE: Vector = (1.0, 1.0, 1.0)
 BOUNDS, HULL = "bounds", "hull"
 """Names of facts: all models need the first one, ground contacts the other as well."""
 PARTS, COLORS, TEXTURED, COLORLESS = "parts", "colors", "textured", "colorless"
-"""Names of facts of meshes whose own colours are drawn.
+"""Names of facts of meshes with their own colours.
 
-`parts` has the colours of the files that a mesh becomes. `colors` has those of the files that it becomes beside the
-whole mesh, which another shape needs. A single colour is that of the whole. `textured` tells whether textures were
-found, `colorless` which colours were not, in words.
+`parts` has the colours of the files of a mesh. `colors` has those of the files beside the whole mesh, if another shape
+needs the whole. `color` is the single colour of the whole. `textured` tells whether textures were found, `colorless`
+which colours are missing, in words.
 """
 COLORED = (".dae", ".obj")
-"""Formats whose colours are drawn."""
+"""Formats with colours."""
 GLTF = ".gltf"
 AS_IS = (".stl", ".obj")
-"""Formats that Modelica tools draw, and that are imported as they are unless they are scaled."""
+"""Formats that Modelica tools draw: they are imported unchanged unless they are scaled."""
 
 _SCHEME = r"([A-Za-z][A-Za-z0-9+.-]+):(?://)?(.*)"  # two letters at least: `C:` is a drive
 _FOUND = r"(?:file:(?://)?)?\$\((?:find|find-pkg-share)\s+([^)]+)\)/*(.*)"
@@ -83,7 +83,7 @@ def as_is(mesh: Mesh) -> bool:
 
 
 def _has_colors(mesh: Mesh, visual: Mapping[str, Any]) -> bool:
-    """Return whether a visual has the colours of its mesh: the URDF gives it none."""
+    """Return whether a visual has the colours of its mesh, because the URDF gives it none."""
     material = visual.get("material") or {}
     return suffix(mesh.filename) in COLORED and material.get("rgba") is None
 
@@ -108,7 +108,7 @@ def findings(imports: Mapping[str, Import]) -> Iterator[tuple[str, Diagnostic]]:
 
 
 def mentioned_files(file: str, content: bytes) -> list[str]:
-    """Return the buffers of a mesh and the files that have a part in its colours, by their paths from its folder.
+    """Return the buffers of a mesh and the files with its colours, by their paths from its folder.
 
     `file` is the path of the mesh, or of its library of materials, which names files from its own folder.
     """
@@ -132,9 +132,9 @@ def path_of_mention(mention: bytes) -> str:
 
 
 def target(mesh: Mesh) -> str:
-    """Return the path of the imported file below the package folder; it depends on URI and scale alone.
+    """Return the path of the imported file below the package folder; it depends only on URI and scale.
 
-    Its digits are a hash of both: two meshes of one file name have two paths, also without regard to case.
+    Its digits are a hash of both: meshes with the same file name have different paths, also without regard to case.
     """
     stem = re.sub("[^A-Za-z0-9_-]+", "_", PurePosixPath(_file_name(mesh.filename)).stem)
     stem = stem[:_STEM_LENGTH].strip("_-") or "mesh"
@@ -148,8 +148,8 @@ def dependencies(
     """Return the mesh files of a snapshot, each URI and scale once, in the order of their keys.
 
     `kinds` are the shapes that count: `visual`, `collision`. Collisions need outermost points if the robot `touches`
-    the ground. `lines` has the line of each element by its path, as reading the source gave it. A dependency has that
-    of a shape, for example `link wheel / visual 2 / geometry`, or else that of its link.
+    the ground. `lines` has the source's line of each element by its path. A dependency has the line of a shape, for
+    example `link wheel / visual 2 / geometry`, or else of its link.
     """
     shapes_of = defaultdict[Mesh, list[tuple[str, int, bool]]](list)
     for name, link in links.items():
@@ -175,7 +175,7 @@ def dependencies(
 
 
 def _facts(shapes: Sequence[tuple[str, int, bool]], touches: bool) -> tuple[str, ...]:
-    """Return the facts that are needed of a mesh. Its shapes are kinds, lines, and whether they have its colours."""
+    """Return the needed facts of a mesh. Its shapes are kinds, lines, and whether they have its colours."""
     hull = (HULL,) if touches and any(kind == "collision" for kind, _, _ in shapes) else ()
     colored = [is_colored for _, _, is_colored in shapes]
     colors = (PARTS if all(colored) else COLORS, TEXTURED, COLORLESS) if any(colored) else ()
@@ -183,7 +183,7 @@ def _facts(shapes: Sequence[tuple[str, int, bool]], touches: bool) -> tuple[str,
 
 
 def candidates(uri: str, lookup: Lookup) -> tuple[Path, ...]:
-    """Return absolute paths at which the file may be, best first; none if the URI names no file of this machine.
+    """Return possible absolute paths of the file, best first; none if the URI names no file of this machine.
 
     The URI is taken literally first, then with its percent-encoding undone.
     """
@@ -226,8 +226,8 @@ def _at_path(text: str, lookup: Lookup) -> Iterator[Path]:
 def _in_package(package: str, text: str, lookup: Lookup) -> Iterator[Path]:
     """Yield the places in a package: a child of a search path or of a folder above the source, or one of these.
 
-    Exporters without a package leave its name out (`package:///a.stl`), or name a folder beside the source; others
-    write a slash too many. A copy of a package may have another name.
+    Exporters may leave out the package's name (`package:///a.stl`), name a folder beside the source, or write a slash
+    too many. A copy of a package may have another name.
     """
     path = text.lstrip("/")
     named = bool(package)

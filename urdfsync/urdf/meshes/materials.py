@@ -1,6 +1,6 @@
-"""Colours that OBJ and COLLADA files give to their shapes: of materials, and the mean ones of textures.
+"""Reads the colours of shapes in OBJ and COLLADA files: of materials, and mean ones of textures.
 
-What is damaged or missing here has no colour, and is no fault of the shape.
+A damaged or missing material has no colour; the shape remains.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ Color: TypeAlias = tuple[int, int, int]
 """Red, green and blue from 0 to 255."""
 
 _MOST_PIXELS = 5_000_000
-"""Most pixels of a texture; a larger one takes more time than there is for a mesh."""
+"""The most pixels of a texture; a larger one exceeds the time for a mesh."""
 _USED_MATERIAL = re.compile(rb"^[ \t]*usemtl[ \t]([^\r\n]+)", re.MULTILINE)
 _STATEMENT = re.compile(rb"^[ \t]*(newmtl|Kd|map_Kd)[ \t]([^\r\n]+)", re.MULTILINE)
 
@@ -41,7 +41,7 @@ def library_colors(obj: bytes, files: Mapping[str, bytes]) -> dict[bytes, Color]
 
 
 def number_materials(obj: bytes) -> tuple[bytes, list[bytes]]:
-    """Return an OBJ file whose materials are called `m0`, `m1`, …, and the names that they had."""
+    """Return an OBJ file with materials `m0`, `m1`, …, and their former names."""
     used = list(dict.fromkeys(name.strip() for name in _USED_MATERIAL.findall(obj)))
     numbers = {name: b"usemtl m%d" % number for number, name in enumerate(used)}
     return _USED_MATERIAL.sub(lambda match: numbers[match[1].strip()], obj), used
@@ -85,7 +85,7 @@ def _mean(image: bytes) -> Color | None:
 
 
 def _color(numbers: Sequence[str] | Sequence[bytes]) -> Color | None:
-    """Return a colour whose parts are from 0 to 1; None for other words."""
+    """Return a colour with parts from 0 to 1; None for other words."""
     with contextlib.suppress(ValueError, OverflowError):
         red, green, blue = (round(255 * min(max(float(number), 0.0), 1.0)) for number in numbers[:3])
         return red, green, blue

@@ -1,4 +1,4 @@
-"""The process that reads meshes of strangers: a file that exploits a library is held there, within limits."""
+"""The process that reads meshes of strangers: limits contain a file that exploits a library."""
 
 from __future__ import annotations
 
@@ -17,16 +17,16 @@ from urdfsync.processes import importable, python_module
 from urdfsync.urdf.robot import Vector
 
 FOR_PICTURE = 4
-"""So many times the limits below hold for a picture, since any mesh is simplified."""
+"""Factor of the limits below for a picture, since any mesh is simplified."""
 CPU_SECONDS = 4.0
 """CPU time for one mesh, on Linux and macOS. A command with one such mesh stays below 5 s."""
 MEMORY = 450_000_000
-"""Bytes that the process may allocate, on Linux. Its libraries have some 50 MB besides."""
+"""The most bytes that the process allocates, on Linux, besides 50 MB for its libraries."""
 WALL_SECONDS = 60.0
 """Time for one mesh, everywhere. A busy machine may need so long for the CPU time."""
 _LIMITS = f"reading it takes more than {CPU_SECONDS:g} s or {MEMORY // 1_000_000} MB, or ends the process that does it"
 _LONGEST = 300
-"""Most characters of an error of a library."""
+"""The most characters of a library's error."""
 _MAX_LINE = 10_000_000
 _MAX_FILE = 100_000_000
 
@@ -39,7 +39,7 @@ _STL_FACET = 50
 
 
 class MeshError(Exception):
-    """A mesh that can't be used; the text is the second half of `the mesh … can't be read: it …`."""
+    """An unusable mesh; the text ends `the mesh … can't be read: it …`."""
 
 
 class Request(msgspec.Struct, frozen=True):
@@ -49,11 +49,11 @@ class Request(msgspec.Struct, frozen=True):
     scale: Vector = (1.0, 1.0, 1.0)
     with_hull: bool = True
     colors: str = ""
-    """Name of the fact that tells the colours, see `lookup.PARTS`; empty if they are not wanted."""
+    """Name of the fact with the colours, see `lookup.PARTS`; empty for none."""
     as_obj: bool = False
     """Whether the parts of a mesh are OBJ, and not STL."""
     most: int = 0
-    """Triangles for a picture, to which any number is simplified; 0 for a file of the package."""
+    """The most triangles for a picture; more are simplified; 0 for a file of the package."""
     size: int = 0
     """Size of the mesh in bytes; `MeshProcess` fills in this field and those below."""
     others: Mapping[str, int] = {}
@@ -68,20 +68,20 @@ class Answer(msgspec.Struct, frozen=True):
     sizes: tuple[int, ...] = ()
     facts: tuple[Facts, ...] = ()
     problem: str = ""
-    """Why the file is no mesh; empty if it is one."""
+    """Why the file can't be used; empty if it can."""
     is_last: bool = False
-    """Whether the process has grown, so that the next mesh would not have all the memory that it may have."""
+    """Whether the process has grown: the next mesh would not have its full memory."""
 
 
 def is_binary_stl(content: bytes) -> bool:
-    """Return whether an STL file is a binary one; some of these begin with `solid`, as texts do."""
+    """Return whether an STL file is binary; some binary ones begin with `solid`, as texts do."""
     return len(content) == _STL_COUNT.stop + _STL_FACET * int.from_bytes(content[_STL_COUNT], "little")
 
 
 class MeshProcess:
-    """The process, started for the first mesh and kept; after a mesh that reached a limit, the next one starts another.
+    """The process, started for the first mesh; after a mesh that reached a limit, the next one starts another.
 
-    Signals are handled while it reads. It ends when this process does, however that ends, since its stdin is closed.
+    Signals are handled while it reads. It always ends with this process, since its stdin is closed.
     """
 
     def __init__(self) -> None:
@@ -91,7 +91,7 @@ class MeshProcess:
     def read(
         self, request: Request, content: bytes, others: Mapping[str, bytes] | None = None
     ) -> list[tuple[bytes, Facts]]:
-        """Return the files that a mesh becomes, with their facts.
+        """Return the imported files of a mesh, with their facts.
 
         Raises MeshError, or OSError if no process can be started.
         """
@@ -143,7 +143,7 @@ class MeshProcess:
 
 
 def _ask(process: subprocess.Popen[bytes], request: Request, contents: Sequence[bytes]) -> tuple[Answer, list[bytes]]:
-    """Have a mesh read. Raises OSError or ValueError if the process does not answer as it should."""
+    """Have a mesh read. Raises OSError or ValueError for a missing or wrong answer."""
     stdin, stdout = cast(IO[bytes], process.stdin), cast(IO[bytes], process.stdout)
     stdin.write(msgspec.json.encode(request) + b"\n")
     for content in contents:

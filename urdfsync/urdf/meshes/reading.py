@@ -1,4 +1,4 @@
-"""The triangles of a mesh file, as trimesh reads them, and strictly: a part of a mesh is no mesh."""
+"""Reads the triangles of a mesh file by trimesh, strictly: a part of a mesh is an error."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ _SOLID_LINE = re.compile(rb"^[ \t]*(?:end)?solid\b.*$", re.MULTILINE | re.IGNORE
 
 
 class _Files(dict[str, bytes]):
-    """The other files that trimesh may read: only those that are given, since only these are watched for changes."""
+    """The other files that trimesh may read: only given ones, since only these are watched for changes."""
 
     def __missing__(self, name: str) -> bytes:
         raise MeshError(f"it needs another file, {name}")
@@ -60,9 +60,9 @@ def read_mesh(
 def read_parts(
     suffix: str, content: bytes, others: Mapping[str, bytes]
 ) -> tuple[dict[Color | None, Triangles], list[str]]:
-    """Read the triangles of an OBJ or COLLADA file by their colours, as `read_mesh` does; None for those without one.
+    """Read the triangles of an OBJ or COLLADA file by their colours, as `read_mesh` does; None for no colour.
 
-    `others` has the other files that it names. Return also, in words, which colours are missing. Raises MeshError.
+    `others` has the other files that it names. Return also the missing colours, in words. Raises MeshError.
     """
     by_color: dict[Color | None, list[Triangles]] = {}
     with _damage_is_an_error():
@@ -88,9 +88,9 @@ def read_parts(
 
 @contextlib.contextmanager
 def _damage_is_an_error() -> Iterator[None]:
-    """Turn whatever a broken file makes a library raise into a MeshError: libraries take a sound file for granted.
+    """Turn any exception of a library into a MeshError: libraries expect sound files.
 
-    Numbers that numpy can't read to the end are an error in all its versions. Lack of memory is told by the caller.
+    Numbers that numpy can't read completely are an error in all its versions. The caller reports a lack of memory.
     """
     try:
         with warnings.catch_warnings(), np.errstate(all="ignore"):
@@ -148,7 +148,7 @@ def _parts(
 
 
 def _announced(suffix: str, content: bytes) -> int:
-    """Return how many triangles a file has at least, by its own account."""
+    """Return the least number of triangles that a file states."""
     if suffix == ".stl":
         return content.count(b"endfacet") + content.count(b"ENDFACET")
     match = _FACES[suffix].search(content) if suffix in _FACES else None
@@ -158,7 +158,7 @@ def _announced(suffix: str, content: bytes) -> int:
 def _one_solid(content: bytes) -> bytes:
     """Return a binary STL file as it is, and a text with all facets in one solid.
 
-    Names of solids go, since they may be any words, `vertex` as well.
+    Names of solids are removed, since they may be any words, even `vertex`.
     """
     if is_binary_stl(content):
         return content
@@ -172,8 +172,8 @@ def _plain_obj(content: bytes, *, with_materials: bool) -> bytes:
 
     If materials are wanted, faces have theirs, from a library `m`.
 
-    trimesh takes index 0 for 1, and counts back from the end of the file. It skips lines with blanks before them, and
-    faces with less than three corners. It fails where only some corners have references.
+    trimesh reads index 0 as 1, and counts back from the end of the file. It skips indented lines, and faces with less
+    than three corners. It fails if only some corners have references.
     """
     text = content.replace(b"\r\n", b"\n").replace(b"\\\n", b" ").replace(b"\t", b" ")
     statements = rb"^ *((?:[vf]|usemtl) .*)" if with_materials else rb"^ *([vf] .*)"

@@ -1,4 +1,4 @@
-"""Meshes for a page: corners that lie together become one, as coarsely as the number of triangles asks."""
+"""Simplifies meshes for a page: near corners become one, as coarsely as the number of triangles requires."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ from urdfsync.urdf.meshes.geometry import Triangles
 from urdfsync.urdf.meshes.process import Facts
 
 _FINE = 1 << 20
-"""Cells along the longest edge of a mesh that is shown as it is: far finer than single precision is shown."""
+"""Cells along the longest edge of an unsimplified mesh: finer than visible."""
 _COARSE = 512
-"""Cells along the longest edge of one that is simplified, to begin with."""
+"""First number of cells along the longest edge of a simplified mesh."""
 
 
 def packed(mesh: Triangles, most: int) -> tuple[bytes, Facts]:
-    """Return triangles with shared corners, at `most` so many or about that, as `scene.Triangles` has them."""
+    """Return about `most` triangles with shared corners, in the form of `scene.Triangles`."""
     cells = _FINE if len(mesh.faces) <= most else _COARSE
     while True:
         points, faces = _clustered(mesh, cells)
@@ -28,7 +28,7 @@ def packed(mesh: Triangles, most: int) -> tuple[bytes, Facts]:
 
 
 def _clustered(mesh: Triangles, cells: int) -> Triangles:
-    """Return triangles whose corners in one cell of a grid are their mean; those without area go."""
+    """Return triangles with the mean of all corners in one cell of a grid; triangles without area are removed."""
     points = mesh.points
     least = points.min(axis=0)
     edge = float(np.ptp(points, axis=0).max()) or 1.0

@@ -18,9 +18,9 @@ if sys.platform != "win32":
     import resource
 
 _UNUSED = ("PIL", "httpx", "networkx", "rtree", "scipy", "shapely")
-"""Packages that trimesh imports where they are installed, and that no mesh needs: half a second, and 60 MB."""
+"""Optional imports of trimesh that no mesh needs: half a second, and 60 MB."""
 _GROWN = 200_000_000
-"""Bytes from which the process counts as grown by a large mesh; its libraries are 70 MB of them."""
+"""A process with more bytes counts as grown by a large mesh; its libraries take 70 MB."""
 
 
 def main() -> None:
@@ -78,7 +78,7 @@ def _answer(request: Request, content: bytes, others: Mapping[str, bytes]) -> tu
 
 
 def _allocated() -> int:
-    """Return the bytes that the memory limit counts; 0 where there is none. Freed bytes may still be among them."""
+    """Return the bytes that the memory limit counts, perhaps with freed ones; 0 without a limit."""
     if sys.platform != "linux":
         return 0
     return int(Path("/proc/self/statm").read_text().split()[5]) * resource.getpagesize()

@@ -15,9 +15,9 @@ def joint_title(joint: Joint) -> str:
 
 
 def joint_model(joint: Joint, options: Options, is_driven: bool) -> dict[str, Any]:
-    """Return which parts the model of a joint has; its rotor is a part of its own if the motor has a flange.
+    """Return the parts of a joint's model; its rotor is a part of its own if the motor has a flange.
 
-    The spring of an elastic drive keeps the limits of effort and velocity, if Run does not.
+    The spring of an elastic drive keeps the limits of effort and velocity, unless Run does.
     """
     armature, with_motor = joint.dynamics and joint.dynamics.armature, has_motor(joint, options)
     inertia = armature if with_motor else reflected_inertia(joint)
@@ -33,5 +33,5 @@ def joint_model(joint: Joint, options: Options, is_driven: bool) -> dict[str, An
 
 
 def joint_record(joint: Joint) -> dict[str, Any]:
-    """Return the numbers of a joint; limits of a joint that has none are None."""
+    """Return the numbers of a joint; missing limits are None."""
     return {"joint": joint, "limits": joint.limit or dict.fromkeys(Limit.__struct_fields__)}

@@ -1,4 +1,4 @@
-"""Template data of a joint that closes a loop, and what loops change in the data of other files."""
+"""Template data of a joint that closes a loop, and changes by loops in the data of other files."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def loop_title(loop: Loop) -> str:
 
 
 def loop_note(loop: Loop, closure: Closure) -> str:
-    """Return the documentation of a loop's model: what it holds, and by which equations."""
+    """Return the documentation of a loop's model: its constraints and equations."""
     ends = f"<code>{html(loop.child)}</code> at a frame of link <code>{html(loop.parent)}</code>"
     text = f"The loop <code>{html(loop.name)}</code>: a frame of link {ends}, as a {loop.kind} joint holds it."
     if closure.planar:

@@ -1,10 +1,10 @@
 """Template data of the record of a whole robot, `<Robot>Parameters.mo`, and the integer tables of its structure.
 
 Links that fixed joints connect move as one *body*: body 1 is that of the root link, and moving joint `i` moves body `i
-+ 1`. A *moving joint* is revolute, continuous or prismatic; moving joints are counted in canonical order, so that the
-body that carries a joint has a smaller number than the one that it moves. The tables say which link belongs to which
-body; adding up the numbers is left to Modelica, so that none of them is written twice. Everything is counted from 1.
-The tables that refer to the numbers of links and joints are written out in the template.
++ 1`. A *moving joint* is revolute, continuous or prismatic; moving joints are counted in canonical order, so the body
+that carries a joint has a smaller number than the moved body. The tables assign links to bodies; Modelica adds up the
+numbers, so none is written twice. Everything is counted from 1. The template writes the tables that refer to the
+numbers of links and joints.
 """
 
 from __future__ import annotations
@@ -116,11 +116,11 @@ class Tables(msgspec.Struct, frozen=True):
     axes: Mapping[Motion, list[int]]
     """Per driven axis of each kind: its moving joint."""
     followers: list[tuple[int, int]]
-    """Per joint that follows another one, leaders first: its number and that of its leader, 0 if that does not move."""
+    """Per joint that follows another one, leaders first: its number and its leader's; 0 for a fixed leader."""
 
 
 def obstacles(joints: Iterable[Joint]) -> list[Joint]:
-    """Return the planar and floating joints, which the generic robot has no place for: with one there are no tables."""
+    """Return the planar and floating joints: the generic robot lacks these, and with one there are no tables."""
     return [joint for joint in joints if joint.type not in MOTION_KINDS and joint.type != "fixed"]
 
 

@@ -32,8 +32,8 @@ _FRAME_Y = -50  # where the benches of the library have the frame that the robot
 def robot_data(tree: KinematicTree, names: Connectors, dependent: frozenset[str]) -> Mapping[str, Any]:
     """Return the data of the robot model; `tree` has no numbers, `dependent` joints follow from others through loops.
 
-    The last data are kept: a build compares its data with those of the last build, which mostly had the same tree.
-    Serves the rows "one mass changed in the daemon" of docs/speed.md: 8 % with 1,000 links.
+    The last data are kept: a build compares its data with the last build's, mostly of the same tree. Serves the rows
+    "one mass changed in the daemon" of docs/speed.md: 8 % with 1,000 links.
     """
     motions = {joint.name: MOTION_KINDS.get(joint.type) for joint in tree.joints}
     couplings: dict[str, dict[str, Any]] = {
@@ -106,7 +106,7 @@ def robot_data(tree: KinematicTree, names: Connectors, dependent: frozenset[str]
 def bench_data(closed: Assembly, names: Connectors, options: Options) -> dict[str, Any]:
     """Return the data of Run and Test.
 
-    In the diagram, the robot's icon has one and a half times its size. So its rows are 30 apart, and a drive of 20 fits
+    In the diagram, the robot's icon is one and a half times as large. So its rows are 30 apart, and a drive of 20 fits
     beside each.
     """
     tree, reaches = closed.tree, loop_reaches(closed)
@@ -150,7 +150,7 @@ def _drives(tree: KinematicTree, names: Connectors) -> list[dict[str, Any]]:
 
 
 def _rows(connectors: Iterable[str]) -> dict[str, int]:
-    """Return the rows of the connectors at one side of the icon, of which a new one displaces few."""
+    """Return the rows of the connectors at one side of the icon; a new connector displaces few others."""
     return find_rows(dict.fromkeys(connectors, (0, range(1))), set())
 
 
@@ -163,12 +163,12 @@ def _frame_rows(names: Connectors) -> dict[str, int]:
 
 
 def _y(row: int) -> int:
-    """Return the height of a connector on the icon: rows stand on the picture."""
+    """Return the height of a connector on the icon: rows begin above the picture."""
     return _PICTURE + _ROW * (row + 1)
 
 
 def _icon_top(names: Connectors) -> int:
-    """Return the upper end of the icon: above the picture, it has a row for each connector at one side."""
+    """Return the upper end of the icon: above the picture, there is a row for each connector at one side."""
     rows = [*_drive_rows(names).values(), *_frame_rows(names).values()]
     return _y(max(rows)) + 10 if rows else _PICTURE
 

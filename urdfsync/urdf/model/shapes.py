@@ -1,4 +1,4 @@
-"""Visuals and collisions of a link as the templates need them, and how high a robot stands on its collisions."""
+"""Template data of a link's visuals and collisions, and the height of a robot on its collisions."""
 
 from __future__ import annotations
 
@@ -27,9 +27,9 @@ def link_shapes(
 ) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
     """Return a link's visuals and collisions, each with all data of models and records.
 
-    A shape whose mesh is not imported is left out. Shapes are numbered as in the URDF, so that the others keep their
-    names when a mesh is found later. All collisions of a robot with a floating base touch the ground, except meshes
-    without outermost points.
+    A shape without an imported mesh is left out. Shapes are numbered as in the URDF: if a mesh is found later, the
+    others keep their names. All collisions of a robot with a floating base touch the ground, except meshes without
+    outermost points.
     """
     visuals: list[dict[str, Any]] = []
     for number, visual in enumerate(link.visuals, 1):
@@ -55,7 +55,7 @@ def link_model(
 ) -> dict[str, Any]:
     """Return the structure of a link, for its model: no number and no name of the URDF.
 
-    Each collision that touches the ground has a contact; see `link_shapes`. Of `contact`, only the names of the numbers
+    Each collision that touches the ground has a contact; see `link_shapes`. Only the names of the numbers in `contact`
     matter.
     """
     contacts = [
@@ -86,7 +86,7 @@ def hull(geometry: Geometry, imports: Mapping[str, Import]) -> Sequence[Sequence
 
 
 def touching(link: Link, imports: Mapping[str, Import]) -> Iterator[tuple[Origin, _Body]]:
-    """Yield the collisions of a link that can touch the ground, with their poses; of a mesh, its outermost points."""
+    """Yield the collisions of a link that can touch the ground, with their poses; a mesh has its outermost points."""
     for shape in link.collisions:
         if not isinstance(shape.geometry, Mesh):
             yield shape.origin, shape.geometry
@@ -97,7 +97,7 @@ def touching(link: Link, imports: Mapping[str, Import]) -> Iterator[tuple[Origin
 def standing_height(tree: KinematicTree, imports: Mapping[str, Import]) -> float | None:
     """Return the height of the root frame when the ground just begins to carry the lowest collision shape.
 
-    A mesh touches with its outermost points. None if there is no shape, or its place is beyond all numbers.
+    A mesh touches with its outermost points. None if there is no shape, or its place is not finite.
     """
     poses = link_poses(tree, start_positions(tree))
     heights = []
@@ -123,7 +123,7 @@ def standing_height(tree: KinematicTree, imports: Mapping[str, Import]) -> float
 
 
 def _visual(number: int, visual: Visual, imports: Mapping[str, Import], package: str) -> Iterator[dict[str, Any]]:
-    """Yield a visual with its colour; a mesh that has colours of its own in parts, one for each."""
+    """Yield a visual with its colour; a mesh with its own colours as one part for each."""
     shape = _shape("visual", number, visual, imports, package)
     if shape is None:
         return
@@ -159,7 +159,7 @@ def _visual(number: int, visual: Visual, imports: Mapping[str, Import], package:
 def _shape(
     word: str, number: int, shape: Visual | Collision, imports: Mapping[str, Import], package: str
 ) -> dict[str, Any] | None:
-    """Return the data that visuals and collisions share; None for a mesh that is not imported."""
+    """Return the common data of visuals and collisions; None for a mesh that is not imported."""
     mesh = imports.get(lookup.key(shape.geometry)) if isinstance(shape.geometry, Mesh) else None
     if isinstance(shape.geometry, Mesh) and mesh is None:
         return None

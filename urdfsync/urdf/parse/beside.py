@@ -6,7 +6,7 @@
     joint_name: [JOINT, …]                    joints that URDF has no type for, each with
     joint_type: [SPHERICAL | UJOINT_XY | FIXED, …]
 
-So its lines are known, and all that reads the URDF reads them as well. A joint of more than one axis becomes a chain.
+So all readers of the URDF read them, too, with their lines. A joint of more than one axis becomes a chain.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from urdfsync.spelling import counted
 from urdfsync.urdf.parse import xml
 
 AXES = "joint_axes"
-"""Element of a joint that turns about other axes than URDF says, one after the other: `<joint_axes joint axes>`."""
+"""Element of a joint that turns about several axes, one after the other: `<joint_axes joint axes>`."""
 _KINDS = {"3d": "ball", "6d": "fixed"}
 _TYPES = {
     "FIXED": "",
@@ -31,11 +31,11 @@ _TYPES = {
 }
 _MARK = b"closed_loop"
 _LARGEST = 100_000
-"""Bytes of a YAML that is read: at the worst in 2 s with 60 MB, since PyYAML is slow. 10,000 loops have fewer."""
+"""The most bytes of a YAML: at the worst they take 2 s and 60 MB, since PyYAML is slow. 10,000 loops have fewer."""
 _DEEPEST = 50
-"""Levels of lists in a YAML: PyYAML reads each by three more levels of recursion."""
+"""Deepest nesting of lists in a YAML: PyYAML needs three levels of recursion for each."""
 _MOST = 10_000_000
-"""Characters of all elements: aliases may repeat a long name 10,000 times."""
+"""The most characters of all elements: aliases may repeat a long name 10,000 times."""
 _DIRECTIONS = {"x": "1 0 0", "y": "0 1 0", "z": "0 0 1"}
 
 
@@ -45,9 +45,9 @@ def find(source: Path) -> Path:
 
 
 def join(content: bytes, other: bytes, file: str) -> tuple[bytes, Sequence[tuple[int, int]]]:
-    """Return a URDF with the elements that a YAML stands for before its last tag, and each one's line here and there.
+    """Return a URDF with a YAML's elements before its last tag, and the line of each in both files.
 
-    Another YAML adds nothing. Raises SourceError for one that can't be read.
+    Another YAML adds nothing. Raises SourceError for an unreadable one.
     """
     end = content.rfind(b"</robot")
     if _MARK not in other or end < 0:
@@ -70,12 +70,12 @@ def join(content: bytes, other: bytes, file: str) -> tuple[bytes, Sequence[tuple
 
 
 def with_plain_joints(content: bytes) -> bytes:
-    """Return such a URDF without the joints that URDF has no type for: each turns about one axis, as it is written."""
+    """Return such a URDF with plain joints, which turn about their one written axis."""
     return re.sub(rb"<%s [^>]*/>" % AXES.encode(), b"", content)
 
 
 class _LoopsError(Exception):
-    """A node of the YAML that can't be read; it has the attributes of PyYAML's errors."""
+    """An unreadable node of the YAML; it has the attributes of PyYAML's errors."""
 
     def __init__(self, problem: str, node: Any = None) -> None:
         super().__init__(problem)
@@ -173,9 +173,9 @@ def _elements(document: Any) -> Iterator[tuple[str, int]]:
 
 
 def split_joints(document: xml.Document) -> xml.Document:
-    """Return the document with a chain in place of each joint that turns about several axes, or fixed if about none.
+    """Return the document with a chain in place of each joint with several axes, and a fixed joint without one.
 
-    The source only measures the joints of a chain. Elements that name no joint, or no axes, stay.
+    The source only measures the joints of a chain. Elements without a known joint or axes stay.
     """
     root = document.root
     if not (elements := root.findall(AXES)):

@@ -1,7 +1,7 @@
-"""Read how joints are driven: `<ros2_control>`, `<transmission>`, and plugins of Gazebo for wheels and couplings.
+"""Reads the drives of joints: `<ros2_control>`, `<transmission>`, plugins of Gazebo for wheels and couplings.
 
-Where several speak of one joint, the configuration counts before all, then `<ros2_control>`, a transmission, a plugin.
-A contradiction is a warning, except to the configuration. The `<mimic>` of a joint counts before all other couplings.
+If several drive one joint, the configuration counts first, then `<ros2_control>`, a transmission, a plugin. A
+contradiction is a warning, except with the configuration. The `<mimic>` of a joint counts before all other couplings.
 """
 
 from __future__ import annotations
@@ -28,9 +28,9 @@ _REDUCTIONS = (
     "joint/mechanicalReduction",
     "mechanicalReduction",
 )
-"""Elements of a transmission that hold its reduction; the first that is there counts."""
+"""Elements of a transmission with its reduction; the first existing one counts."""
 _COMMANDS: tuple[Command, ...] = get_args(Command)
-"""Of several interfaces of a joint, the first of these counts."""
+"""The first of these counts among several interfaces of a joint."""
 _INTERFACES: Mapping[str, Command | None] = {
     "PositionJointInterface": "position",
     "VelocityJointInterface": "velocity",
@@ -39,13 +39,13 @@ _INTERFACES: Mapping[str, Command | None] = {
     "PosVelAccJointInterface": "position",
     "JointStateInterface": None,
 }
-"""The command of each interface of ROS 1; None for the one that only measures."""
+"""The command of each interface of ROS 1; None for the measuring one."""
 _STATES = ("position", "velocity", "acceleration", "effort")
-"""State interfaces of a joint that a model has."""
+"""State interfaces of a joint in a model."""
 _KINDS = {"transmission": "gears", "command": "commands", "mimic": "couplings", "start": "start positions"}
 """Fields of `Drive` that may contradict each other, in words."""
 _SAME = 1e-6
-"""Difference of two positions that is rounding, in rad or m."""
+"""Greatest rounding error of a position, in rad or m."""
 _WHEELS = re.compile(r"(?:left|right)(?:Front|Rear)?Joint|(?:left|right)_joint")
 """Elements by which plugins for differential and skid-steer drives name the joints of wheels."""
 
@@ -57,7 +57,7 @@ class Drive(NamedTuple):
     """For example `transmission wheel_trans / joint wheel`; empty for the configuration."""
     joint: str
     element: Element | None = None
-    """The element that counts as modelled with it."""
+    """The element that is modelled by it."""
     transmission: Transmission | None = None
     command: Command | None = None
     mimic: Mimic | None = None
@@ -65,7 +65,7 @@ class Drive(NamedTuple):
     is_driven: bool = True
     """Whether it drives the joint."""
     is_measured: bool = False
-    """Whether it measures the joint, and no more."""
+    """Whether it only measures the joint."""
     is_coupled: bool = False
     """Whether the transmission has other joints, too."""
 
@@ -102,7 +102,7 @@ def read_drives(reader: Reader, element: Element, path: str) -> Iterator[Drive]:
 
 
 def _read_control(reader: Reader, joint: Element, path: str, name: str) -> Drive:
-    """Return the drive of a joint of `<ros2_control>`: what it commands, or else that it measures the joint."""
+    """Return the drive of a joint of `<ros2_control>`: its command, or else a mere measurement."""
     # gazebo_ros2_control has `velocity_pid` for a velocity that a controller of its own keeps
     interfaces = {part.get("name", "").removesuffix("_pid"): part for part in joint.findall("command_interface")}
     states = joint.findall("state_interface")
@@ -148,7 +148,7 @@ def _read_mimic_plugins(reader: Reader, element: Element, path: str) -> Iterator
 
 
 def _read_mimic(reader: Reader, parts: Mapping[str, Element], leader: str, path: str) -> Mimic | None:
-    """Return a coupling from elements by their names; None without one that names a leader."""
+    """Return a coupling from elements by their names; None without a leader."""
     name = (parts[leader].text or "").strip() if leader in parts else ""
     if not name:
         return None
@@ -164,7 +164,7 @@ def _read_mimic(reader: Reader, parts: Mapping[str, Element], leader: str, path:
 def _read_interfaces(reader: Reader, element: Element, joint: Element, path: str) -> set[Command | None]:
     """Return the commands of a joint of a transmission, None among them for the interface that measures.
 
-    Those of the actuator count where the joint names none, and there is one joint.
+    The actuator's interfaces count if the joint names none, and there is only one joint.
     """
     is_alone = len(element.findall("joint")) == 1
     stated = list[set[Command | None]]()
@@ -190,7 +190,7 @@ def _add_unknown(reader: Reader, element: Element, path: str, name: str, names: 
 
 
 def _read_gear(reader: Reader, element: Element, path: str) -> Transmission | None:
-    """Return reduction, offset and rotor of a transmission; None if it names none of them."""
+    """Return reduction, offset and rotor of a transmission; None if it has none of them."""
 
     def number(*places: str) -> float | None:
         numbers = reader.numbers(element, places, path, "bad-transmission")
@@ -207,13 +207,13 @@ def _read_gear(reader: Reader, element: Element, path: str) -> Transmission | No
 
 
 def configured_drives(options: Options) -> Iterator[Drive]:
-    """Yield the commands and start positions of the configuration. Which joints are driven is not said by them."""
+    """Yield the commands and start positions of the configuration. They do not make a joint driven."""
     for name in dict.fromkeys((*options.commands, *options.start)):
         yield Drive("", name, command=options.commands.get(name), start=options.start.get(name), is_driven=False)
 
 
 def with_drives(reader: Reader, joints: Iterable[Joint], drives: Iterable[Drive]) -> list[Joint]:
-    """Return the joints with their drives: of contradicting ones of a joint the first counts.
+    """Return the joints with their drives; the first one of contradictory drives counts.
 
     An element that drives a joint without an axis counts as not modelled.
     """
@@ -240,7 +240,7 @@ def _with_drives(reader: Reader, joint: Joint, drives: list[Drive]) -> Joint:
     reader.used.update(drive.element for drive in drives if drive.element is not None and not drive.is_coupled)
 
     def first(field: str) -> Drive | None:
-        """Return the first drive that says something of a field; report those that contradict it."""
+        """Return the first drive with a value of a field; report contradictory ones."""
         stated = [drive for drive in drives if getattr(drive, field) is not None]
         for other in stated[1:] if stated and stated[0].path else ():
             if getattr(other, field) != getattr(stated[0], field):

@@ -1,4 +1,4 @@
-"""Read links, joints, materials. A fault becomes a diagnostic, and a default takes the place of the value."""
+"""Reads links, joints and materials. A fault becomes a diagnostic, and a default replaces the value."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ def read_link(reader: Reader, element: Element, path: str, contact: Contact | No
 def _read_shapes(reader: Reader, link: Element, path: str, tag: str, owner: str) -> Iterator[Visual | Collision]:
     """Yield each visual or collision that can be drawn.
 
-    The others are left out with a warning, and do not count in the numbers of paths.
+    Others are left out with a warning, and are not counted in paths.
     """
     number = 0
     for element in link.findall(tag):
@@ -102,10 +102,10 @@ def read_material(reader: Reader, element: Element, path: str, owner: str = "") 
 def resolve_materials(
     reader: Reader, links: Mapping[str, Link], materials: dict[str, Material], defined: Collection[str]
 ) -> tuple[Link, ...]:
-    """Return the links with their materials looked up by name through the whole robot; keys are paths.
+    """Return the links with their materials, looked up by name in the whole robot; keys are paths.
 
-    As in urdfdom, the first definition of a name counts: those of the robot, which are `materials`, come before those
-    in visuals. `defined` are the names that have a definition, with a colour or without.
+    As in urdfdom, the first definition of a name counts: the robot's own `materials` come before those in visuals.
+    `defined` are the defined names, with a colour or without.
     """
     inline = {
         f"{path} / visual {number} / material": visual.material
@@ -137,7 +137,7 @@ def resolve_materials(
 
 
 def read_joint(reader: Reader, element: Element, path: str) -> Joint | None:
-    """Read a joint with its axis as written; return None, after an error, if it connects nothing.
+    """Read a joint with its written axis; return None, after an error, if it connects nothing.
 
     A joint of unknown type becomes a plain fixed one.
     """

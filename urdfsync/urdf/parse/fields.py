@@ -1,10 +1,10 @@
-"""Elements to values: the structs of `urdf.robot` say what is read. Every fault becomes a diagnostic with its line.
+"""Reads elements into the structs of `urdf.robot`.
 
-A field of numbers or text is the attribute of its name. A field that is a struct is the child element of its name. One
-without a default is required. What no field asks for is kept as text (see `Extension`).
+Every fault becomes a diagnostic with its line. A field of numbers or text is the attribute of its name. A struct is the
+child element of its name. A field without a default is required. Other elements are kept as text (see `Extension`).
 
-Numbers are decimals as ROS's urdfdom accepts them: no `nan`, `inf`, hexadecimals, underscores or decimal commas. A
-value that can't be read is an error. Another takes its place, so that reading goes on and finds the next fault.
+Numbers are decimals as ROS's urdfdom accepts them: no `nan`, `inf`, hexadecimals, underscores or decimal commas. An
+unreadable value is an error. A default replaces it, so that the reading goes on and finds the next fault.
 """
 
 from __future__ import annotations
@@ -30,10 +30,10 @@ _BLANKS = re.compile(r"[ \t\r\n\f\v]+")
 _COUNTS = {str: 0, JointType: 0, float: 1, float | None: 1, Vector: 3}
 """Numbers of an attribute, by the type of its field; 0 for text."""
 _ONE_VALUE = {"parent": "link", "child": "link", "axis": "xyz", "mass": "value"}
-"""Child elements that stand for a field of numbers or text, with their only attribute."""
+"""Child elements of fields of numbers or text, with their only attribute."""
 _REPEATED = ("visual", "collision")
 _ELSEWHERE = ("transmission", "start")
-"""Fields whose elements do not stand in the element of their struct."""
+"""Fields whose elements are outside of their struct's element."""
 # Elements of URDF. In a place where one means nothing, it is not taken for a misspelt other element.
 _ELEMENTS = frozenset("link joint material inertial inertia visual collision origin geometry mass axis".split())
 _SHOWN_ALONE = 3
@@ -49,15 +49,15 @@ class Reader:
         self.allowed = allowed
         """Codes of errors that become warnings."""
         self.version = 1, 0
-        """Version of URDF that the file is written in."""
+        """Version of URDF of the file."""
         self.lines: dict[str, int] = {}
         """Line of each path: see `RobotReading`."""
         self.diagnostics: list[Diagnostic] = []
         """Diagnostics so far, without the name of the file."""
         self.extensions: list[tuple[str, Element]] = []
-        """Elements that no struct asks for, each with its owner."""
+        """Elements outside of all structs, each with its owner."""
         self.used = set[Element]()
-        """The elements in `extensions`, or inside of them, that something else reads."""
+        """The elements in `extensions`, or inside of them, that are read otherwise."""
 
     @property
     def failed(self) -> bool:
@@ -74,7 +74,7 @@ class Reader:
         self.diagnostics.append(entry)
 
     def extend(self, findings: Iterable[Finding]) -> None:
-        """Add findings about elements, at the lines of these or of the nearest ones that contain them."""
+        """Add findings about elements, at their lines or those of the nearest elements around them."""
         for code, path, message, hint in findings:
             place = path
             while place not in self.lines and " / " in place:
@@ -82,7 +82,7 @@ class Reader:
             self.diagnostics.append(diagnostic(code, message, self.lines.get(place, self.lines["robot"]), hint))
 
     def drop_newer(self, element: Element, path: str, attributes: Iterable[str], version: tuple[int, int]) -> None:
-        """Remove attributes that came with `version` of URDF from an element of an older file, with a warning."""
+        """Remove attributes of URDF `version` from an element of an older file, with a warning."""
         newer = [name for name in attributes if name in element.attrib] if self.version < version else []
         if newer:
             needed, given = (f"{major}.{minor}" for major, minor in (version, self.version))
@@ -121,7 +121,7 @@ class Reader:
         self.extensions.append((owner, child))
 
     def unmodelled(self) -> Iterator[tuple[str, Element]]:
-        """Yield the elements that nothing reads, with their owners: each as a whole, or else those inside of it."""
+        """Yield the unread elements with their owners: each as a whole, or the unread ones inside of it."""
         waiting = self.extensions[::-1]
         while waiting:
             owner, element = waiting.pop()
@@ -132,7 +132,7 @@ class Reader:
             waiting += [(owner or f"{element.tag} {name}".rstrip(), child) for child in reversed(element)]
 
     def find(self, element: Element, tags: str) -> Element | None:
-        """Return the first element at a path of tags below an element, and note that it is read."""
+        """Return the first element at a path of tags below an element, and mark it as read."""
         # ElementTree's own paths know no prefix without a namespace, such as that of drake:gear_ratio
         tag, _, rest = tags.partition("/")
         for child in element:
@@ -146,7 +146,7 @@ class Reader:
     ) -> tuple[float, ...] | None:
         """Return the numbers at the first of some places; None if there are none or, after a warning, faulty ones.
 
-        A place is a path of tags. Of the element there, the attribute behind `@` counts, else `value`, else the text.
+        A place is a path of tags. In the element there, the attribute behind `@` counts, else `value`, else the text.
         """
         for place in places:
             tags, _, attribute = place.partition("@")
@@ -163,7 +163,7 @@ class Reader:
         return None
 
     def expect(self, element: Element, path: str, attributes: Collection[str]) -> None:
-        """Warn about attributes that look like misspelt ones of `attributes`; others have no effect."""
+        """Warn about misspelt `attributes`; other attributes have no effect."""
         for name in element.attrib:
             if name in attributes or ":" in name or name == "xmlns":
                 continue
@@ -172,7 +172,7 @@ class Reader:
                 self.add(element, "unknown-attribute", message, hint)
 
     def read(self, element: Element, path: str, struct: type[Values], owner: str, **given: Any) -> Values:
-        """Return a struct from attributes and children, but for the fields that are `given`."""
+        """Return a struct from attributes and children, with the `given` fields."""
         attributes, children, required = _schema(struct)
         self.expect(element, path, attributes)
         read = [self._value(element, path, name, count, default) for name, (count, default) in attributes.items()]
@@ -241,9 +241,9 @@ class Reader:
 def _schema(
     struct: type[msgspec.Struct],
 ) -> tuple[Mapping[str, tuple[int, Any]], Mapping[str, tuple[Any, Any]], Sequence[str]]:
-    """Return attributes and children that an element has for a struct, and the children that must be there.
+    """Return attributes and children of a struct's element, and its required children.
 
-    Both have defaults; attributes have counts of numbers, 0 for text; children have these or the struct that they are.
+    Both have defaults. Attributes have counts of numbers, 0 for text; children have counts or their struct.
     """
     attributes: dict[str, tuple[int, Any]] = {}
     children: dict[str, tuple[Any, Any]] = {}
@@ -270,9 +270,9 @@ def _schema(
 # links" of docs/speed.md: 50 of 500 ms.
 @functools.lru_cache(maxsize=1024)
 def parse_numbers(text: str, count: int) -> tuple[float, ...]:
-    """Return exactly `count` decimal numbers between blanks; raise ValueError that says what is wrong.
+    """Return exactly `count` decimal numbers between blanks; raise ValueError with the fault.
 
-    Negative zero becomes zero, so that it makes no difference between two exports.
+    Negative zero becomes zero: then two exports do not differ by it.
     """
     words = [word for word in _BLANKS.split(text) if word]
     wrong = next((word for word in words if not _DECIMAL.fullmatch(word)), None)
@@ -292,7 +292,7 @@ def quoted(text: str) -> str:
 
 
 def located(findings: Iterable[Finding], file: str, lines: Mapping[str, int]) -> tuple[Diagnostic, ...]:
-    """Return findings about elements of a file that was read before, with the lines that its reading gave."""
+    """Return findings about elements of a file, with the lines of its reading."""
     reader = Reader({})
     reader.lines.update(lines)
     reader.extend(findings)

@@ -1,6 +1,6 @@
-"""Read what Gazebo says of links: their contact properties, and what moves a robot otherwise than its model.
+"""Reads Gazebo's elements: contact properties of links, and elements that change the motion.
 
-Contact properties are also read in the words of SDFormat and Bullet.
+Contact properties are also read in the forms of SDFormat and Bullet.
 """
 
 from __future__ import annotations
@@ -23,11 +23,11 @@ _IN_LINK = {"mu": ("contact/lateral_friction",), "kp": ("contact/stiffness",), "
 """Fields of `Contact`, and paths of their elements in gazebo blocks (gazebo's, then SDFormat's) and in links."""
 
 _FORCES = ("force_element", "cable", "drake:linear_spring_damper", "drake:linear_bushing_rpy")
-"""Elements of a robot that act between its links."""
+"""Elements with forces between links."""
 
 
 def read_contacts(reader: Reader, root: Element) -> Mapping[str, Contact]:
-    """Return the contact of each link that the robot describes one for. The first number of each field counts.
+    """Return the contact of each link that has one. The first number of each field counts.
 
     A faulty or negative number is left out, with a warning, and so is a stiffness of zero.
     """

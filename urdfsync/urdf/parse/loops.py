@@ -1,11 +1,11 @@
-"""The loops of a robot, from wherever a source or the configuration states them.
+"""Reads the loops of a robot from all their places in a source or the configuration.
 
 - `<loop_joint>`, as Isaac Sim and early Drake write it: `<link1>` and `<link2>`, each with `link`, `xyz` and `rpy`.
 - `<drake:ball_constraint>`: two bodies, each with a point.
 - `<joint>` of SDF within `<gazebo>`: its frame is given in the child, and is closed where all joints are at zero.
-- Two links `closing_NAME_1` and `closing_NAME_2`, as onshape-to-robot writes them. They say of no kind, and count as a
-  ball, which closes planar loops as a hinge does.
-- The option `loops`, which wins over a loop of the source with its name or its two frames.
+- Two links `closing_NAME_1` and `closing_NAME_2`, as onshape-to-robot writes them. They have no kind,
+  and count as a ball, which closes planar loops as a hinge does.
+- The option `loops`, which replaces a loop of the source with its name or its two frames.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from urdfsync.urdf.robot import Link, Loop, LoopKind, Origin, Robot, Vector
 
 _BALL = "drake:ball_constraint"
 TAGS = ("loop_joint", _BALL)
-"""Elements of a robot that join two links of the tree; gazebo has a <joint> for it."""
+"""Elements of a robot that join two links of the tree; gazebo uses <joint>."""
 
 _KINDS: Mapping[str, LoopKind] = {
     "ball": "ball",
@@ -55,7 +55,7 @@ def find_loop_elements(root: Element) -> Iterator[Element]:
 
 
 def read_loops(reader: Reader, root: Element, robot: Robot, options: Options) -> tuple[Loop, ...]:
-    """Return the loops of a robot that is read but for these; `robot` is a tree. Loops with a fault are left out."""
+    """Return the loops of a robot whose other parts are read; `robot` is a tree. Loops with a fault are left out."""
     poses: Mapping[str, Pose] | None = None
     loops = list[Loop]()
     elements = list(find_loop_elements(root))
@@ -103,12 +103,12 @@ def configured_loops(loops: Sequence[LoopOption]) -> list[Loop]:
 
 
 def _find_rival(loop: Loop, configured: Sequence[Loop]) -> Loop | None:
-    """Return the configured loop that wins over one of the source: it has its name or its frames."""
+    """Return the configured loop that replaces one of the source: it has its name or its frames."""
     return next((other for other in configured if other.name == loop.name or _ends(other) == _ends(loop)), None)
 
 
 def _with_axes_of_its_kind(loop: Loop) -> Loop:
-    """Return a loop without axes that its kind does not have, which each place fills in otherwise."""
+    """Return a loop without the axes that its kind lacks: each place fills these in differently."""
     axis = loop.axis if loop.kind in ("revolute", "universal") else (0.0, 0.0, 1.0)
     return replace(loop, axis=axis, child_axis=loop.child_axis if loop.kind == "universal" else (1.0, 0.0, 0.0))
 
@@ -170,9 +170,9 @@ def _read_ball(reader: Reader, element: Element, path: str, name: str) -> Loop |
 def _read_joint(
     reader: Reader, element: Element, path: str, name: str, poses: Mapping[str, Pose], in_gazebo: Collection[str | None]
 ) -> Loop | None:
-    """Return a joint of SDF; its frame is that of the child link, moved by its <pose>.
+    """Return a joint of SDF; its frame is the child link's, moved by its <pose>.
 
-    `in_gazebo` are the links that only Gazebo has: such a joint closes no loop of the robot.
+    `in_gazebo` are the links that only Gazebo has: a joint to one closes no loop of the robot.
     """
     kind = _kind(reader, element, path)
     parent, child = (element.findtext(tag, "").strip() for tag in ("parent", "child"))
@@ -208,7 +208,7 @@ def _inverse(of: Pose) -> Pose:
 
 
 def _origin(of: Pose) -> Origin:
-    """Return a pose as place and angles, to digits that no machine rounds otherwise."""
+    """Return a pose as place and angles, with digits that all machines round alike."""
     (r, place) = of
     angles = (
         math.atan2(r[2][1], r[2][2]),

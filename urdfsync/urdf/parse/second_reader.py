@@ -1,4 +1,4 @@
-"""yourdfpy as second reader: an independent reading of the same bytes, to find a misreading before it spreads.
+"""yourdfpy as second reader: an independent reading of the same bytes, to find our own misreadings.
 
 Loading this module takes most of a second, because of yourdfpy.
 """
@@ -32,9 +32,9 @@ _TOLERANCE = 1e-9
 
 
 def cross_check(content: bytes, file: str) -> tuple[Diagnostic, ...]:
-    """Return where yourdfpy finds other names, types, parents or poses in a URDF than `read_robot`, which accepts it.
+    """Return the names, types, parents and poses in which yourdfpy differs from `read_robot`, which accepts the URDF.
 
-    `file` is how diagnostics name it. Both read what URDF says: a joint of several axes is none of its types.
+    `file` is its name in diagnostics. Joints of several axes, which are no URDF, are read as plain ones.
     """
     content = with_plain_joints(content)
     reading = read_robot(content, file, Options(allow=get_args(LeftOut)))
@@ -44,7 +44,7 @@ def cross_check(content: bytes, file: str) -> tuple[Diagnostic, ...]:
 
 
 def compare_readers(content: bytes, robot: Robot) -> Iterator[Finding]:
-    """Compare names, types, tree and poses of `robot` with those that yourdfpy reads in the same bytes."""
+    """Compare names, types, tree and poses of `robot` with yourdfpy's reading of the same bytes."""
     failure, theirs = "finds no link in this file", None
     with _silence():
         try:
@@ -72,7 +72,7 @@ def compare_readers(content: bytes, robot: Robot) -> Iterator[Finding]:
 
 
 def _structure(robot: Any) -> Mapping[str, frozenset[str]]:
-    """Return names, types and tree; the attributes of both readers' robots have the same names."""
+    """Return names, types and tree; the robots of both readers have the same attributes."""
     return {
         "links": frozenset(str(link.name) for link in robot.links),
         "joints": frozenset(f"{joint.name} ({joint.type}, {joint.parent} → {joint.child})" for joint in robot.joints),
@@ -80,9 +80,9 @@ def _structure(robot: Any) -> Mapping[str, frozenset[str]]:
 
 
 def _compare_poses(robot: Robot, theirs: Any) -> Iterator[Finding]:
-    """Compare where links are, with all joints at zero and then each somewhere else; the first one that differs counts.
+    """Compare the poses of links, with all joints at zero and then each elsewhere; the first difference counts.
 
-    Followers are moved by themselves here: yourdfpy does not follow a joint that follows another one.
+    Followers are moved by themselves here: yourdfpy can't follow a joint that follows another one.
     """
     tree, axes = KinematicTree.of(robot), {}
     for link in theirs.links:

@@ -1,4 +1,4 @@
-"""Read the `<sensor>` elements of URDF, of gazebo blocks and of ros2_control that the package models."""
+"""Reads the modelled `<sensor>` elements of URDF, of gazebo blocks and of ros2_control."""
 
 from __future__ import annotations
 
@@ -44,19 +44,19 @@ _LIDAR = {
     "min_range": ("range/min",),
     "max_range": ("range/max",),
 }
-"""Fields of `Camera` and `Lidar`, and where gazebo and URDF have them below the sensor's own element."""
+"""Fields of `Camera` and `Lidar`, and their paths in gazebo and URDF below the sensor's own element."""
 _FRAMES = ("child", "parent", "sensor")
 _DIRECTIONS = ("child_to_parent", "parent_to_child")
 _COUNTS = frozenset({"width", "height", "samples", "vertical_samples"})
 _LARGEST_INTEGER = 2**31 - 1  # of Modelica
 _PARTS = ("camera", "ray", "lidar")
-"""Elements of a sensor that hold these fields, where they are not in its own."""
+"""Elements of a sensor with these fields, if its own element lacks them."""
 
 _Numbers = TypeVar("_Numbers", Camera, Lidar)
 
 
 class _SensorElement(NamedTuple):
-    """An element of a sensor, with the name of the link or joint that the sensor is at."""
+    """An element of a sensor, with the name of its link or joint."""
 
     element: Element
     name: str
@@ -97,7 +97,7 @@ def read_sensors(reader: Reader, root: Element, links: Collection[str], joints: 
 
 
 def _find_sensors(root: Element) -> Iterator[_SensorElement]:
-    """Yield the sensors of a known kind that have a place, not yet held against the links and joints."""
+    """Yield the sensors of a known kind with a place, which is not yet checked."""
     for at, element in _elements(root):
         parent = element.find("parent")
         inside = [child.tag for child in element]
@@ -162,7 +162,7 @@ def _read_origin(reader: Reader, source: _SensorElement, path: str) -> Origin:
 def _read_fields(
     reader: Reader, element: Element, path: str, struct: type[_Numbers], places: Mapping[str, Sequence[str]]
 ) -> _Numbers:
-    """Return the numbers of a camera or laser scanner; those that the source does not say are 0."""
+    """Return the numbers of a camera or laser scanner; missing ones are 0."""
     part = next((child for child in element if child.tag in _PARTS), element)
     reader.used.add(part)
     values = {}
@@ -177,7 +177,7 @@ def _read_fields(
 
 
 def _read_wrench(reader: Reader, element: Element, path: str, sensor: Sensor) -> Sensor:
-    """Return a sensor of force and torque with the axes and the direction of its values."""
+    """Return a force-torque sensor with the axes and the direction of its values."""
     words = []
     for tags, choices in (("force_torque/frame", _FRAMES), ("force_torque/measure_direction", _DIRECTIONS)):
         part = reader.find(element, tags)

@@ -1,7 +1,7 @@
-"""Bytes of a URDF to a Robot: strict XML, URDF's defaults, and the model checks.
+"""Reads the bytes of a URDF into a Robot: strict XML, URDF's defaults, and the model checks.
 
-Defaults are those of ROS's urdfdom; what urdfdom accepts and this reader does not is an error with file and line.
-Where a robot can be read in one sensible way although something is amiss, that is a warning.
+Defaults are those of ROS's urdfdom. If urdfdom accepts more, this reader gives an error with file and line. If a fault
+leaves one sensible reading, it is a warning.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from urdfsync.urdf.robot import Extension, Robot
 
 _MODELLED = ("link", "joint", "material")
 _LONGEST, _KINDS = 60, 12
-"""Most characters of a tag, and most tags, in the note on elements that are not modelled; its details have all."""
+"""The most characters of a tag, and the most tags, in the note on unmodelled elements; its details have all."""
 _XACRO_LOGIC = ("xacro:macro", "xacro:if", "xacro:unless", "xacro:insert_block")
 # Attributes that may hold any text: a `${…}` left over in them is odd, but no reason to refuse the robot.
 _TEXTS = ("name", "link", "joint", "filename", "group")
@@ -39,7 +39,7 @@ _DEFAULTS = Options()
 
 
 class RobotReading(NamedTuple):
-    """A URDF as it was read: the robot, unless a diagnostic is an error, and the diagnostics.
+    """The reading of a URDF: the robot, unless a diagnostic is an error, and the diagnostics.
 
     `lines` maps paths to lines. Paths are `robot`, `link NAME` and `joint NAME`, and below them for example
     `link NAME / visual 2`, `link NAME / visual 2 / mesh`, `joint NAME / limit`. Shapes count from 1.
@@ -49,13 +49,13 @@ class RobotReading(NamedTuple):
     diagnostics: tuple[Diagnostic, ...]
     lines: Mapping[str, int]
     unmodelled: tuple[Diagnostic, ...] = ()
-    """One note if any element is not modelled."""
+    """One note on unmodelled elements, if there are any."""
 
 
 def read_robot(content: bytes, file: str, options: Options = _DEFAULTS) -> RobotReading:
-    """Read a URDF; `file` is how diagnostics name it. Raises nothing for bad input.
+    """Read a URDF; `file` is its name in diagnostics.
 
-    The options say what it may leave out, and how joints are driven.
+    Raises nothing for bad input. The options choose the parts that may be left out, and the drives.
 
     All faults of the model are reported, not only the first; a fault of the XML is one error.
     """
@@ -72,7 +72,7 @@ def read_robot(content: bytes, file: str, options: Options = _DEFAULTS) -> Robot
 
 
 def _note_unmodelled(reader: Reader) -> Iterator[Diagnostic]:
-    """Yield one note on all elements that are in no model, each with its line as detail; none if there are none."""
+    """Yield one note on all elements that are in no model, if there are any, with a line of details for each."""
     lines = sorted(
         (reader.element_lines[part], part.tag, part.get("name") or owner) for owner, part in reader.unmodelled()
     )
@@ -86,7 +86,7 @@ def _note_unmodelled(reader: Reader) -> Iterator[Diagnostic]:
 
 
 def _is_urdf(reader: Reader, document: xml.Document) -> bool:
-    """Return whether this is a URDF that xacro has expanded; if not, add one error."""
+    """Return whether this is an expanded URDF; if not, add one error."""
     root = document.root
     if root.tag != "robot":
         reader.add(root, "not-urdf", f"the root element is <{root.tag}> and not <robot>: this is no URDF")
@@ -114,7 +114,7 @@ def _is_urdf(reader: Reader, document: xml.Document) -> bool:
 
 
 def _read_version(reader: Reader, root: Element) -> tuple[int, int]:
-    """Return the version of URDF that the file is written in: 1.0 if it does not say."""
+    """Return the version of URDF of the file; 1.0 if it states none."""
     text = root.get("version")
     if text is None:
         return 1, 0

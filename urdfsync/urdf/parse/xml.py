@@ -1,10 +1,10 @@
-"""Bytes to XML elements: strict, except for two faults that ROS's own parser accepts too.
+"""Reads bytes into XML elements: strictly, except for two faults that ROS's own parser accepts.
 
-A faulty XML declaration is accepted with a warning, and a prefix without a namespace silently. All else that is not
-well-formed XML is one error with its line and column. Entities are never declared, expanded or fetched.
+A faulty XML declaration is accepted with a warning, and a prefix without a namespace silently. Any other fault of the
+XML is one error with its line and column. Entities are never declared, expanded or fetched.
 
-Elements are those of the standard library, with tags and attributes as written. ElementTree's own parser refuses
-prefixes without a namespace and has no lines, so expat is called directly. Loading lxml would take a build 20 ms.
+Elements are the standard library's, with tags and attributes as written. ElementTree's own parser refuses prefixes
+without a namespace and has no lines, so expat is called directly. Loading lxml would take a build 20 ms.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ _BYTE_ORDER_MARKS = (
 )
 _WIDE = ("utf-16", "utf-32", "ucs")
 _NO_ENCODINGS = ("idna", "punycode", "raw-unicode-escape", "unicode-escape")
-"""Codecs of Python for single words: each fails with other exceptions, and one takes minutes for a file of 100 KB."""
+"""Python's codecs for single words: each fails with other exceptions, and one takes minutes for 100 KB."""
 _DECLARATION = re.compile(
     r"""<\?xml\s+version\s*=\s*(["'])1\.[01]\1
     (?:\s+encoding\s*=\s*(["'])(?P<encoding>[A-Za-z][\w.-]*)\2)?
@@ -46,7 +46,7 @@ _HINTS = {expat.errors.XML_ERROR_MISPLACED_XML_PI: "put <?xml … ?> at the begi
 
 
 class ParseError(Exception):
-    """A file that can't be read as XML; the diagnostic does not have the file's name yet."""
+    """A file that is no readable XML; the diagnostic lacks the file's name."""
 
     def __init__(self, code: str, message: str, line: int = 1, column: int = 0, hint: str = "") -> None:
         super().__init__(message)
@@ -59,7 +59,7 @@ class Document(NamedTuple):
     text: str
     root: Element
     lines: Mapping[Element, int]
-    """Where start tags begin, from 1; in document order."""
+    """Lines of start tags, from 1; in document order."""
     warnings: list[Diagnostic]
 
 
@@ -129,7 +129,7 @@ def canonical(element: Element) -> str:
 def _decode(content: bytes) -> tuple[str, list[Diagnostic]]:
     """Return the text with unified line ends and without XML declaration, and warnings about the declaration.
 
-    Blanks take the place of the declaration, so that lines and columns stay.
+    Blanks replace the declaration, so that lines and columns stay.
     """
     if (kind := find_kind(content)) is not None:
         raise ParseError(kind.code, kind.message, kind.line, hint=kind.hint)

@@ -1,9 +1,9 @@
-"""The loops of a robot in Pinocchio: closed poses, motions that keep them closed, and the forces that do so.
+"""The loops of a robot in Pinocchio: closed poses, closed motions, and the forces of the loops.
 
-Pinocchio sees a tree, with two frames for each loop. Their poses and Jacobians are its own; of
-`kinematics.loops` come the choice of the equations and the start alone. With the place x and the axes R of the
-child's frame in the parent's, the equations are t·x = 0 and u·R·v = 0, together g = 0. The axes move as they are told;
-the other joints follow: J·q̇ = 0 and J·q̈ = -J̇·q̇, where J is the derivative of g.
+Pinocchio has a tree, with two frames for each loop, and computes their poses and Jacobians. Only the choice of the
+equations and the start come from `kinematics.loops`. With the place x and the axes R of the child's frame in the
+parent's, the equations are t·x = 0 and u·R·v = 0, together g = 0. The motion of the axes is given; the other joints
+follow: J·q̇ = 0 and J·q̈ = -J̇·q̇, where J is the derivative of g.
 """
 
 from __future__ import annotations
@@ -19,16 +19,16 @@ from urdfsync.urdf.kinematics.loops import Assembly
 Array = NDArray[np.float64]
 
 _STEPS = 8
-"""Steps of the way from the start to a pose, so that it is that of the same assembly."""
+"""Steps from the start to a pose, so that both belong to one assembly."""
 _ITERATIONS = 30
 CLOSED, _FARTHEST = 1e-12, 1.0
-"""Largest gap and step, in rad and m, after which Newton's method has converged, and the smallest of divergence."""
+"""Largest gap and step, in rad and m, of a converged Newton's method; the smallest of a diverging one."""
 _NEAR_DEAD_POINT = 0.25
-"""Part of the least singular value at the start below which a compiler may find another assembly."""
+"""Part of the start's least singular value; below it a compiler may find another assembly."""
 
 
 class OpenLoopError(Exception):
-    """The loops can't be closed in a pose, or only just."""
+    """The loops can't be closed in a pose, or hardly."""
 
 
 class Reaction(NamedTuple):
@@ -42,13 +42,13 @@ class Reaction(NamedTuple):
 
 
 class Closing:
-    """The loops of a robot; `others` are the joints that follow through these."""
+    """The loops of a robot; `others` are the joints that follow through loops."""
 
     def __init__(self, pin: Any, model: Any, assembly: Assembly, others: Array, start: Array, first: Array) -> None:
         """Add frames to the model.
 
-        Positions of all coordinates are those that follow from the axes alone, such as `start`, and `others` times the
-        positions of the others, which are `first` at the start.
+        Positions of all coordinates are the sum of those that follow from the axes, such as `start`, and `others` times
+        the positions of the other joints, which are `first` at the start.
         """
         self._pin, self._model, self._others, self._start, self._first = pin, model, others, start, first
         self._closures = [assembly.closures[loop.name] for loop in assembly.tree.loops]
@@ -68,7 +68,7 @@ class Closing:
         return int(model.addFrame(frame, append_inertia=False))
 
     def closed(self, positions: Array) -> Array:
-        """Return closed positions by Newton's method; `positions` follow from the axes alone. Raises OpenLoopError."""
+        """Return closed positions by Newton's method; `positions` follow only from the axes. Raises OpenLoopError."""
         others = self._first
         for share in np.linspace(0, 1, _STEPS + 1):
             known = self._start + share * (positions - self._start)
@@ -84,7 +84,10 @@ class Closing:
         return np.asarray(positions + self._others @ others)
 
     def motion(self, positions: Array, axes: Array, speeds: Array) -> tuple[Array, Array]:
-        """Return the velocities for a velocity of 1 of each axis, and the accelerations for none at these speeds."""
+        """Return the velocities for a velocity of 1 of each axis.
+
+        Return also the accelerations at these speeds, for unaccelerated axes.
+        """
         jacobian = self._equations(positions)[1]
         ways = axes - self._others @ np.linalg.lstsq(jacobian @ self._others, jacobian @ axes)[0]
         drift = self._drift(positions, ways @ speeds)
@@ -93,7 +96,7 @@ class Closing:
     def reactions(self, positions: Array, load: Array) -> list[Reaction]:
         """Return gaps and forces; `load` are the efforts of all coordinates without loops.
 
-        The joints that follow have no drives: the forces λ in the loops carry their load, Jᵀ·λ.
+        Followers have no drives: the forces λ in the loops carry their load, Jᵀ·λ.
         """
         jacobian = self._equations(positions)[1]
         forces = iter(np.linalg.lstsq((jacobian @ self._others).T, self._others.T @ load)[0])
@@ -107,7 +110,7 @@ class Closing:
         return found
 
     def forces(self, positions: Array, load: Array) -> Any:
-        """Return the forces in all loops as Pinocchio takes them: on the bodies of joints, in their frames."""
+        """Return the forces in all loops in Pinocchio's form: on the bodies of joints, in their frames."""
         pin, model = self._pin, self._model
         data, forces = self._data(positions), [pin.Force.Zero() for _ in range(model.njoints)]
         for (parent, child), reaction in zip(self._frames, self.reactions(positions, load), strict=True):

@@ -1,7 +1,7 @@
-"""Copies of URDF files that Pinocchio can read, and in which every moving joint carries mass.
+"""Makes copies of URDF files that Pinocchio can read, with a mass behind every moving joint.
 
-Pinocchio's reader refuses, or leaves out, elements that urdfsync reads with a warning. Where a moving joint carries no
-mass, only its kinematics could be compared. Package and reference are both made from the copy.
+Pinocchio's reader refuses, or leaves out, elements that urdfsync reads with a warning. Without mass behind a moving
+joint, only its kinematics could be compared. Package and reference are both made from the copy.
 """
 
 from __future__ import annotations
@@ -67,10 +67,10 @@ def completed_for_pinocchio(content: bytes) -> CompletedSource:
 
 
 def with_inertias(content: bytes, tree: KinematicTree) -> CompletedSource:
-    """Return the URDF with made-up inertias in all links that hang on a moving joint which carries no mass.
+    """Return the URDF with made-up inertias in all links behind a moving joint that carries no mass.
 
-    The root link counts as moving: a robot without any mass gets inertias in all its links. Couplings that stand
-    elsewhere become `<mimic>`.
+    The root link counts as moving: a robot without any mass gets inertias in all its links. Other couplings become
+    `<mimic>`.
     """
     massless, root = _massless_links(tree), xml.parse(content).root
     couplings = {joint.name: mimic for joint, mimic in tree.followers()}

@@ -1,7 +1,7 @@
-"""The force of the ground on a robot that stands, from the robot's own numbers: no reference has contacts.
+"""The force of the ground on a standing robot, from the robot's own numbers: no reference has contacts.
 
-The base is held level, so that no robot tips, and the joints where the robot begins. The force on each point follows
-the law of the library's `Contacts.Functions.point`, written once more.
+The base is held level, so that no robot tips, and the joints are held at the start. The force on each point follows the
+law of the library's `Contacts.Functions.point`, written once more.
 """
 
 from __future__ import annotations
@@ -23,14 +23,14 @@ GRAVITY = 9.80665
 PENETRATION, DAMPING_RATIO, FRICTION, SLIP_SPEED = 3e-4, 2.0, 0.8, 1e-3
 """Numbers of the ground for links without numbers of their own."""
 _UPRIGHT, _TILTED = 1e-3, 0.15
-"""Sines of the tilt between which a cylinder goes over from its end to its rim."""
+"""Sines of the tilt between which a cylinder changes from its end to its rim."""
 
 
 class Point(NamedTuple):
     """A point of a link that may touch the ground."""
 
     place: Array
-    """In the root link's frame, raised by the depth that the link has without a force."""
+    """In the root link's frame, raised by the link's depth without a force."""
     share: float
     """Weight among the points of its shape."""
     stiffness: float
@@ -92,7 +92,7 @@ def _points(tree: KinematicTree, imports: Mapping[str, Import], weight: float) -
 
 
 def _lowest(axes: Array, shape: Any) -> Iterable[tuple[Array, float]]:
-    """Yield the points of a shape that may touch, from its origin, in the axes of the root link; and their weights."""
+    """Yield the touching points of a shape, from its origin, in the axes of the root link, and their weights."""
     match shape:
         case Box(size=size):
             corners = np.array(np.meshgrid(*[(-edge / 2, edge / 2) for edge in size])).reshape(3, -1).T

@@ -1,4 +1,4 @@
-"""The experiment of the URDF domain: probes for a compiler, and the values that Pinocchio expects of them."""
+"""The experiment of the URDF domain: probes for a compiler, and the expected values by Pinocchio."""
 
 from __future__ import annotations
 
@@ -23,9 +23,9 @@ from urdfsync.urdf.physics.subject import Subject
 from urdfsync.urdf.robot import MOTION_KINDS, Robot
 
 _ITERATED = 1e-7
-"""The least tolerance for robots with loops, which compilers close by iteration."""
+"""The least tolerance for robots with loops: compilers close them by iteration."""
 _MOST_AXES = 20
-"""The most axes that a robot of a package moves freely with: rumoca takes 6 GB for 30."""
+"""The most freely moving axes of a package's robot: rumoca takes 6 GB for 30."""
 
 
 def experiment(sample: Sample, step: float | None = None) -> Experiment | str:
@@ -66,7 +66,7 @@ def experiment(sample: Sample, step: float | None = None) -> Experiment | str:
 
 
 def _trials(subject: Subject, approach: str, step: float | None) -> Iterator[Trial]:
-    """Yield the simulations for one approach, that of all instants first."""
+    """Yield the simulations for one approach, first the one of all instants."""
     names = probe.robot_variables(subject, approach)
     label = " of the record" if len(subject.options.approach) > 1 and approach == "record" else ""
     gears = read_gears(subject.root)
@@ -97,7 +97,7 @@ def _trials(subject: Subject, approach: str, step: float | None) -> Iterator[Tri
 
 
 def _free(subject: Subject, names: RobotVariables, name: str) -> Iterator[Trial]:
-    """Yield the trial in which efforts are given, and accelerations follow, if they do."""
+    """Yield the trial with given efforts, if accelerations follow from them."""
     is_free, reference, time = subject.options.base == "floating", subject.reference, (0.0,)
     courses = [probe.free_course(subject, number) for number in range(len(subject.axes))]
     state = reference.free_state(courses, motion.FREE_START if is_free else {})
@@ -128,7 +128,7 @@ def _free(subject: Subject, names: RobotVariables, name: str) -> Iterator[Trial]
 
 
 def _simplified(tree: KinematicTree, options: Options) -> Iterator[str]:
-    """Yield the laws of joints that the package which is compared does not have."""
+    """Yield the laws of joints that the compared package lacks."""
     driven = assembly(tree, options).driven
     drives = [joint for joint in tree.joints if joint.name in driven]
     joints = {
@@ -144,7 +144,7 @@ def _simplified(tree: KinematicTree, options: Options) -> Iterator[str]:
 
 
 def _not_compared(subject: Subject) -> Iterator[str]:
-    """Yield what is not compared."""
+    """Yield the parts that are not compared."""
     options, axes = subject.options, len(subject.axes)
     in_loops = [joint.name for joint in subject.axes if subject.is_in_loop(joint)]
     if in_loops:

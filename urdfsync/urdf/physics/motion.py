@@ -1,8 +1,8 @@
-"""The motion of a robot in the comparison: a function of names and limits alone, the same on every machine.
+"""The motion of a robot in the comparison: a function of names and limits, the same on every machine.
 
-One simulation goes through all instants, since compiling is what costs. At each instant base and axes have the
-position, speed and acceleration that they are to have. In between they go on smoothly: joints in loops follow by
-integration, which jumps would stop.
+One simulation goes through all instants, since compiling is expensive. At each instant base and axes have given
+positions, speeds and accelerations. In between they move smoothly: joints in loops follow by integration, which jumps
+would stop.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ GRAVITY = 9.81
 """Along -z of the world, in m/s²."""
 
 ENDLESS = 1e300
-"""From here on a limit is none: numbers that follow from it would have no end."""
+"""A larger limit is none: numbers that follow from it would be infinite."""
 _FARTHEST = 10.0  # limits beyond it (m or rad) say nothing about where a joint is at home, and cost digits
 
 
@@ -34,27 +34,28 @@ class Course(NamedTuple):
     acceleration: float
 
     def ahead(self, time: float) -> Course:
-        """Return it at a time after the instant."""
+        """Return the course at a time after the instant."""
         position = self.position + self.speed * time + self.acceleration * time**2 / 2
         return Course(position, self.speed + self.acceleration * time, self.acceleration)
 
     def way_to(self, goal: Course) -> tuple[float, ...]:
-        """Return coefficients of the time since: they lead to a goal one second later, its speed and acceleration."""
+        """Return coefficients of the time since the instant: they lead to the goal one second later."""
         d, v, a = (there - left for there, left in zip(goal, self.ahead(1.0), strict=True))
         parabola = self.position, self.speed, self.acceleration / 2
         return *parabola, 10 * d - 4 * v + a / 2, 7 * v - 15 * d - a, 6 * d - 3 * v + a / 2
 
 
 class Instant(enum.IntEnum):
-    """What is looked at when, in s.
+    """The instants, in s.
 
-    All up to `TURNED` are compared with the reference, limits alone at the others, the ground's force at the last four.
+    All up to `TURNED` are compared with the reference; at the others only limits are checked, and at the last four the
+    ground's force.
     """
 
     START = 0
     """At rest under gravity, where Run and Test begin; only accelerations differ."""
     SLOW = 1
-    """As slow as dry friction takes to change its sign."""
+    """So slow that dry friction changes its sign."""
     BACK = 2
     """The same in the other direction."""
     FAST = 3
@@ -78,11 +79,11 @@ class Instant(enum.IntEnum):
 
 
 COMPARED = tuple(map(float, list(Instant)[: Instant.TURNED + 1]))
-"""The instants at which all is compared."""
+"""The instants at which all quantities are compared."""
 JUST = 1e-3
-"""Part of a limit by which it is passed, or kept."""
+"""Part of a limit by which it is passed or kept."""
 LOADS = {Instant.STRAINED: -1 - JUST, Instant.LOADED: 1 - JUST}
-"""The part of the limit of its effort that each axis is driven by."""
+"""The part of its effort limit that drives each axis."""
 GROUND_DEPTH = 1e3
 """Depth of the ground in m: farther than any robot reaches, and near enough for digits."""
 ON_GROUND: Mapping[Instant, Vector] = {
@@ -111,7 +112,7 @@ _SHIFTS = {
 
 
 def ways(courses: Sequence[Course]) -> list[tuple[float, ...]]:
-    """Return the ways of a coordinate from each instant on."""
+    """Return the way of a coordinate from each instant on."""
     return [course.way_to(goal) for course, goal in itertools.pairwise([*courses, courses[-1].ahead(1.0)])]
 
 
@@ -136,16 +137,16 @@ FREE_START: Mapping[str, Vector] = {
     "v_start": (0.5, -0.3, 0.8),
     "w_start": (0.7, -1.1, 0.6),
 }
-"""How a free base sets out, resolved in the world; no two angles are equal, so that their order shows."""
+"""The start of a free base, resolved in the world; no two angles are equal, so that their order shows."""
 BENCH_GRAVITY = 9.80665
-"""Of the standard library's world, in which Run and Test are."""
+"""Gravity of the standard library's world, as in Run and Test."""
 
 
 def axis_course(joint: Joint) -> Course:
-    """Return the course of a driven axis. It begins near the middle of its range, if that is finite and sensible.
+    """Return the course of a driven axis.
 
-    The joint's name decides, so that a new joint leaves the motion of the others alone. No speed is close to zero,
-    where faults do not show.
+    It begins near the middle of its range, if that is finite and sensible. The joint's name decides, so that a new
+    joint does not change the motion of the others. No speed is close to zero, where faults are invisible.
     """
     draw = random.Random(joint.name)  # noqa: S311 - nothing is kept secret
 
@@ -161,7 +162,7 @@ def axis_course(joint: Joint) -> Course:
 
 
 def axis_courses(joint: Joint, start: float, strains: Mapping[Instant, float] = {}) -> tuple[Course, ...]:
-    """Return a driven axis that starts at `start` at all instants; `strains` are its accelerations under load."""
+    """Return the courses of a driven axis that starts at `start`; `strains` are its accelerations under load."""
     course, (lower, upper) = axis_course(joint), own_range(joint)
     middle, reach = (lower + upper) / 2, (upper - lower) / 2
     if not reach < ENDLESS:
@@ -176,16 +177,16 @@ def axis_courses(joint: Joint, start: float, strains: Mapping[Instant, float] = 
 
 
 def loop_courses(joint: Joint, start: float, share: float) -> tuple[Course, ...]:
-    """Return an axis in a loop at all instants: a share of the motion of others, and no limit is passed."""
+    """Return the courses of an axis in a loop: a share of the motion of others, without passed limits."""
     course = axis_course(joint)
     moving = _swinging(start, share * course.speed, share * course.acceleration / 2)
     return (*moving, *(Course(start, 0.0, 0.0) for _ in range(len(Instant) - len(moving))))
 
 
 def base_courses(depth: float = -GROUND_DEPTH) -> tuple[tuple[Course, ...], ...]:
-    """Return x, y, z and the angle of the base at all instants; it rests where limits are passed.
+    """Return the courses of the base's x, y, z and angle; it rests while limits are passed.
 
-    `depth` is that of a robot in the ground.
+    `depth` is the robot's depth in the ground.
     """
     every = list[tuple[Course, ...]]()
     for k, course in enumerate((*PATH, TURN)):
@@ -197,5 +198,5 @@ def base_courses(depth: float = -GROUND_DEPTH) -> tuple[tuple[Course, ...], ...]
 
 
 def driven_axes(tree: KinematicTree) -> tuple[Joint, ...]:
-    """Return the joints with a drive, first those that turn, then those that slide."""
+    """Return the joints with a drive, first turning ones, then sliding ones."""
     return tuple(joint for motion in MOTIONS for joint in tree.axes(motion))

@@ -1,6 +1,6 @@
-"""The Modelica text that moves a generated robot as `motion` says, and the variables that are read from it.
+"""The Modelica text that moves a generated robot by `motion`, and the variables to read.
 
-It relies on little of the package, so that packages may be edited: on the variables below, and on `m`.
+It uses little of the package, so that packages may be edited: the variables below, and `m`.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ class RobotVariables(msgspec.Struct, frozen=True):
     """Names in a model that has the robot as `robot`."""
 
     declaration: str
-    """Declaration of the robot, up to the modifiers that depend on the comparison."""
+    """Declaration of the robot, up to the modifiers of the comparison."""
     numbers: str
     """Declaration of the record that `records` are in; empty if the robot itself has them."""
     moment: str
@@ -58,7 +58,7 @@ class RobotVariables(msgspec.Struct, frozen=True):
 
 
 def robot_variables(subject: Subject, approach: str) -> RobotVariables:
-    """Return the names for an approach. With the record, the generic robot is moved: links are numbers there."""
+    """Return the names for an approach. The record moves the generic robot, whose links are numbers."""
     tree, target, options = subject.tree, subject.target, subject.options
     moments, three = list[str](), (1, 2, 3)
     places, axes, is_package = dict[str, tuple[str, ...]](), dict[str, tuple[str, ...]](), approach == "package"
@@ -108,7 +108,7 @@ def moving_probe(
 ) -> Probe:
     """Return a model in which base and axes of the robot move through all instants.
 
-    If it stands, the ground is where the robot touches it at last. `step` is that of the results, in s.
+    If it stands, the ground is at its last position. `step` is the interval of the results, in s.
     """
     target, options = subject.target, subject.options
     world = f"n = {{0, 0, -1}}, g = {motion.GRAVITY!r}, enableAnimation = false"
@@ -148,9 +148,9 @@ def moving_probe(
 def free_probe(
     subject: Subject, names: RobotVariables, courses: Sequence[Course], efforts: Sequence[float], values: Iterable[str]
 ) -> Probe:
-    """Return a model in which the axes are pushed from their `courses`; every second one begins at its own place.
+    """Return a model with efforts on the axes, from their `courses`; every second one begins at its own place.
 
-    It stands in the bench that Run and Test extend: so gravity is theirs.
+    It extends the same bench as Run and Test, with their gravity.
     """
     starts, turning, sliding = list[str](), dict[str, tuple[float, float]](), dict[str, tuple[float, float]]()
     axes, options = subject.axes, subject.options
@@ -184,9 +184,9 @@ def free_probe(
 
 
 def free_course(subject: Subject, number: int) -> Course:
-    """Return where the axis with this number, from 0, begins to move freely, and how fast; and a likely gain.
+    """Return position and speed at which the axis with this number, from 0, begins to move freely, and a gain.
 
-    One in a loop begins where the loops are closed.
+    An axis in a loop begins in the closed pose.
     """
     joint = subject.axes[number]
     course = motion.axis_course(joint)
@@ -195,9 +195,9 @@ def free_course(subject: Subject, number: int) -> Course:
 
 
 def limit_variable(tree: KinematicTree, joint: Joint, ending: str) -> str:
-    """Return the variable of a warning, which has the name of the joint in its message.
+    """Return the variable of a warning with the joint's name in its message.
 
-    The robot itself looks at the effort of a joint that leads others, which carries theirs.
+    The robot itself checks the effort of a leader, which carries its followers' load.
     """
     component, name = tree.joint(joint.name).component, "warning_getInstanceName"
     if ending.endswith("effort_limit") and joint.name in tree.followers_by_leader():

@@ -1,4 +1,4 @@
-"""The quantities that are compared, each with the values that Pinocchio, or the source itself, expects."""
+"""The compared quantities, each with its expected values by Pinocchio or by the source."""
 
 from __future__ import annotations
 
@@ -24,13 +24,13 @@ Pair: TypeAlias = tuple[Compared, Sequence[Iterable[float]]]
 """A quantity, and its expected values at each of its instants."""
 
 _CLEAR = 1e-5
-"""Relative distance from a limit from which on it is clear whether it is passed: warnings have some slack."""
+"""Least relative distance from a limit at which it is clearly passed or kept: warnings have some slack."""
 
 
 def poses(
     subject: Subject, names: RobotVariables, solved: Sequence[Solution], times: tuple[float, ...], part: Part
 ) -> Iterator[Pair]:
-    """Yield where each link is at some times."""
+    """Yield the pose of each link at some times."""
     for link in subject.tree.links:
         frames, element = [instant.frame(link.name) for instant in solved], f"link {link.name}"
         at = Compared(Quantity.POSITION, element, "m", names.places[link.name], times, part)
@@ -39,7 +39,7 @@ def poses(
 
 
 def bodies(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
-    """Yield poses, efforts of the axes, what holds the root, and the mass."""
+    """Yield poses, efforts of the axes, the wrench that holds the root, and the mass."""
     root, solved = f"link {subject.tree.links[0].name}", [subject.solved[time] for time in COMPARED]
     joints = {f"joint {joint.name}": joint for joint in subject.tree.joints}
     yield from poses(subject, names, solved, COMPARED, Part.BODIES)
@@ -68,7 +68,7 @@ def _efforts(
 
 
 def over_time(subject: Subject, names: RobotVariables, step: float) -> Iterator[Pair]:
-    """Yield poses and efforts every `step` s, where the reference closes the loops."""
+    """Yield poses and efforts every `step` s, at times with closed loops."""
     solved = dict[float, Solution]()
     for k in range(round(Instant.TURNED / step) + 1):
         with contextlib.suppress(OpenLoopError):
@@ -79,7 +79,7 @@ def over_time(subject: Subject, names: RobotVariables, step: float) -> Iterator[
 
 
 def loops(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
-    """Yield how far each loop is open, and the force in the joint that closes it, where that is one alone."""
+    """Yield the gap of each loop, and the force in the joint that closes it, if it is unique."""
     solved = [subject.solved[float(instant)] for instant in Instant]
     for k, loop in enumerate(subject.tree.loops):
         element, values = f"loop {loop.name}", tuple(f"gap{k + 1}[{i}]" for i in (1, 2, 3))
@@ -123,7 +123,7 @@ def sensors(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
 
 
 def limits(subject: Subject) -> Iterator[Pair]:
-    """Yield the warnings of each joint: 1 where it comes, at the instants where that is clear."""
+    """Yield the warnings of each joint: 1 where it comes, at instants with a clear answer."""
     coordinates = subject.reference.coordinates()
     for joint in subject.tree.joints:
         if joint.type not in MOTION_KINDS:
@@ -159,7 +159,7 @@ def limits(subject: Subject) -> Iterator[Pair]:
 
 
 def ground(subject: Subject) -> Iterator[Pair]:
-    """Yield the force on a base that holds a standing robot level: what the ground does not carry."""
+    """Yield the force that holds a standing robot level: the part that the ground does not carry."""
     if subject.stand is not None:
         forces = [subject.stand.force(rise, slide) for *slide, rise in motion.ON_GROUND.values()]
         weight = np.array([0, 0, subject.solved[float(Instant.STANDING)].force[2]])
@@ -169,7 +169,7 @@ def ground(subject: Subject) -> Iterator[Pair]:
 
 
 def table(pairs: Iterable[Pair], times: Sequence[float]) -> tuple[tuple[Compared, ...], dict[str, tuple[float, ...]]]:
-    """Return what is compared, and the expected numbers at all times, NaN where there is none."""
+    """Return the compared quantities, and the expected numbers at all times, NaN for none."""
     every, numbers = list[Compared](), dict[str, dict[float, float]]()
     for compared, rows in pairs:
         every.append(compared)

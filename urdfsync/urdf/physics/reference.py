@@ -1,7 +1,7 @@
 """The reference: poses, efforts, accelerations and readings of sensors of a robot by Pinocchio.
 
-Pinocchio reads the file by itself. Only the parts that its reader leaves out are added here: `mimic` elements, drives,
-and the places of sensors. They are read once more, since our own reader is under test.
+Pinocchio reads the file itself. Only the parts that its reader leaves out are added here: `mimic` elements, drives, and
+the places of sensors. They are read separately, since our own reader is under test.
 
 Notation as in Featherstone, Rigid Body Dynamics Algorithms (2008): efforts by the recursive Newton-Euler algorithm
 (RNEA, section 5.3). Joints that mimic others enter through q = B·p + c with the positions p of the axes, whose efforts
@@ -35,12 +35,12 @@ TURNING_STEEPNESS, SLIDING_STEEPNESS = 100, 1000
 """Steepness s of the dry friction f·tanh(s·v/2) of generated joints, in s/rad and s/m."""
 
 _GREATEST_CONDITION = 1e12
-"""Condition of a mass matrix up to which accelerations follow from efforts; real robots have 1 to 1e8."""
+"""Greatest condition of a mass matrix for which accelerations follow from efforts; real robots have 1 to 1e8."""
 _SLIDING_JOINTS = ("JointModelPX", "JointModelPY", "JointModelPZ", "JointModelPrismatic")  # Pinocchio's names
 
 
 class PinocchioRobot(NamedTuple):
-    """A robot as Pinocchio reads it, with the mimic relations that its reader leaves out."""
+    """Pinocchio's reading of a robot, with the mimic relations that its reader leaves out."""
 
     model: Any
     """Pinocchio's model; its first joint is the free motion of the root link."""
@@ -49,7 +49,7 @@ class PinocchioRobot(NamedTuple):
 
 
 class Gear(NamedTuple):
-    """The drive of a joint, read once more."""
+    """The drive of a joint, by the second reading."""
 
     reduction: float = 1.0
     offset: float = 0.0
@@ -59,7 +59,7 @@ class Gear(NamedTuple):
 def read(content: bytes, file: str, loose: Collection[str] = ()) -> PinocchioRobot:
     """Read a URDF with Pinocchio. Raises SourceError if Pinocchio is not installed or refuses the file.
 
-    Fixed joints in `loose` are joints that do not move, since Pinocchio knows no force in those that it merges.
+    Fixed joints in `loose` stay joints: Pinocchio has no force in joints that it merges.
     """
     pin = pinocchio()
     root = xml.parse(content).root
@@ -94,7 +94,7 @@ def read(content: bytes, file: str, loose: Collection[str] = ()) -> PinocchioRob
 
 
 def read_gears(root: Element) -> dict[str, Gear]:
-    """Return the gears of a URDF by their joints: of a transmission with one joint, by the ends of its tags."""
+    """Return the gears of a URDF by their joints: of transmissions with one joint, by the endings of their tags."""
     gears = dict[str, Gear]()
     for element in (*root.findall("transmission"), *root.findall("ros2_control/transmission")):
         numbers = dict[str, float]()
@@ -112,7 +112,7 @@ def read_gears(root: Element) -> dict[str, Gear]:
 
 
 def read_place(root: Element, sensor: Sensor) -> tuple[list[float], list[float]]:
-    """Return place and angles of a sensor on its link: of the first element with its name that has a place."""
+    """Return place and angles of a sensor on its link: of the first element with its name and a place."""
     for element in root.iter("sensor"):
         if sensor.name.rpartition("/")[2] not in (element.get("name"), ""):
             continue
@@ -144,15 +144,15 @@ class Configuration(msgspec.Struct, frozen=True):
     v: Array
     a: Array
     positions: Array
-    """Positions of joints, by the coordinates of the velocity; those of the base count for nothing."""
+    """Positions of joints, by the coordinates of the velocity; those of the base have no meaning."""
     ways: Array
     """Velocities of all coordinates for a velocity of 1 of each axis, a column each."""
     drift: Array
-    """Accelerations of all coordinates where the axes have none."""
+    """Accelerations of all coordinates for unaccelerated axes."""
 
 
 class Reference:
-    """A robot in Pinocchio; `axes` are the names of the joints from which the others follow."""
+    """A robot in Pinocchio; `axes` are the names of the independent joints."""
 
     def __init__(self, robot: PinocchioRobot, axes: Sequence[str], assembly: Assembly | None = None) -> None:
         self.pin, self.model = pinocchio(), robot.model
@@ -174,7 +174,7 @@ class Reference:
                 self.steepness[joint.idx_v] = SLIDING_STEEPNESS
 
     def state(self, courses: Sequence[Course], base: Sequence[Course] = (*motion.PATH, motion.TURN)) -> Configuration:
-        """Return the configuration with the axes there; of the base, place and angle. Raises OpenLoopError."""
+        """Return the configuration for the axes, and for place and angle of the base. Raises OpenLoopError."""
         pin, model = self.pin, self.model
         p, speeds, gains = np.array(courses).reshape(-1, 3).T
         positions, ways, drift = self.projection @ p + self._offset, self.projection, np.zeros(model.nv)
@@ -194,7 +194,7 @@ class Reference:
         return state
 
     def free_state(self, courses: Sequence[Course], start: Mapping[str, Vector]) -> Configuration:
-        """Return a configuration at time 0, with the start values of a free base; else it rests at zero."""
+        """Return a configuration at time 0, with the start values of a free base; another base rests at zero."""
         state, pin = self.state(courses), self.pin
         state.q[:7], state.v[:6], state.a[:6] = (*(0,) * 6, 1), 0, 0
         if start:
@@ -209,11 +209,11 @@ class Reference:
         return np.asarray(rotation @ (gains[:3] + np.cross(state.v[3:6], state.v[:3])))
 
     def coordinates(self) -> dict[str, int]:
-        """Return the coordinate of the velocity of each joint that moves."""
+        """Return the velocity coordinate of each moving joint."""
         return {name: joint.idx_v for name, joint in zip(self.model.names, self.model.joints, strict=True)}
 
     def effort_gains(self, state: Configuration, efforts: Array, columns: Sequence[int]) -> Array:
-        """Return what some axes gain in acceleration by efforts beside those of `state`; all others go on as there.
+        """Return the gains in acceleration of some axes by efforts beside those of `state`; all others keep theirs.
 
         (Bᵀ·M·B)·a = efforts, with the columns of these axes in B.
         """
@@ -221,11 +221,10 @@ class Reference:
         return self._solved(ways.T @ self._mass(state.q) @ ways, efforts)
 
     def free_gains(self, state: Configuration, efforts: Array, is_free: bool) -> tuple[Array, float] | None:
-        """Return the accelerations of all coordinates that follow from the efforts of the axes; None if none do.
+        """Return the accelerations of all coordinates from the efforts of the axes; None if none follow.
 
-        With them goes the part of their size that poses leave open, which are closed to `closing.CLOSED`: with loads
-        that are off by as much, light joints that hang on heavy ones are far off. The base rests, unless `is_free`:
-        then nothing holds it.
+        Return also their relative uncertainty, since poses are closed only to `closing.CLOSED`: light joints that hang
+        on heavy ones amplify such errors. The base rests, unless `is_free`.
         """
         data, nv = self.model.createData(), self.model.nv
         load = self.pin.rnea(self.model, data, state.q, state.v, state.drift) + self.losses(state.v)
@@ -267,7 +266,7 @@ class Reference:
         return gain, pin.getFrameVelocity(model, data, frame, pin.LOCAL).angular
 
     def wrench(self, state: Configuration, sensor: Sensor, parent: str, root: Element) -> tuple[Array, Array]:
-        """Return force and torque in the joint that a sensor is at, below the link `parent`, in the sensor's axes."""
+        """Return force and torque in the joint of a sensor, below the link `parent`, in the sensor's axes."""
         pin, model = self.pin, self.model
         data, joint = model.createData(), model.getJointId(sensor.at)
         load = pin.rnea(model, data, state.q, state.v, state.a)

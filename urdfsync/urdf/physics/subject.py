@@ -1,4 +1,4 @@
-"""A robot in Pinocchio, and the motion that it is put through."""
+"""A robot in Pinocchio, and its motion."""
 
 from __future__ import annotations
 
@@ -42,10 +42,10 @@ class Subject:
         self.base = motion.base_courses()
         self.stand: contacts.Stand | None = None
         self.unchecked = dict[str, None]()
-        """What is not compared of this robot, in order."""
+        """The parts of this robot that are not compared, in order."""
         self.starts = start_positions(closed.tree)
         self.share = self._closable_share()
-        """Of the amplitudes of joints in loops."""
+        """Share of the amplitudes for joints in loops."""
         limits = [joint.limit.effort if joint.limit and joint.limit.effort else math.inf for joint in self.axes]
         courses, strains = self._courses(self.share), dict[Instant, dict[str, float]]()
         # accelerations of any size may open a loop
@@ -96,7 +96,7 @@ class Subject:
         return self.reference.state([course[instant] for course in courses], [c[instant] for c in self.base])
 
     def solve_at(self, time: float) -> Solution:
-        """Return what is expected at any time of the motion, as `parts.mo` says it. Raises OpenLoopError."""
+        """Return the expected values at any time of the motion, by `parts.mo`. Raises OpenLoopError."""
         second = math.floor(time)
 
         def at(courses: Sequence[Course]) -> Course:
@@ -106,7 +106,7 @@ class Subject:
         return self.reference.solve(self.reference.state([*map(at, self.courses)], [*map(at, self.base)]))
 
     def _put_down(self, imports: Mapping[str, Import]) -> None:
-        """Put the robot on the ground, if it can be."""
+        """Put the robot on the ground, if possible."""
         mass, _ = self.reference.solve(self._state(Instant.STANDING, self.courses)).mass_and_centre()
         self.stand = contacts.stand(self.tree, imports, mass * motion.GRAVITY)
         if self.stand is None:

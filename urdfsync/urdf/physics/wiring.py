@@ -1,4 +1,4 @@
-"""How Run and Test are connected, as their texts say it: they are compiled, but nobody drives Run."""
+"""Checks the connections of Run and Test by their texts: they are compiled, but Run is never driven."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options
 
 _REFERENCES = {"position": ("phi_ref", "s_ref"), "velocity": ("w_ref", "v_ref"), "effort": ("tau", "f")}
-"""Inputs of sources, by what they are told."""
+"""Inputs of sources, by their quantity."""
 _BENCHES = ("PartialBench", "PartialMobileBench")
 
 
 def wiring(texts: Mapping[str, bytes], tree: KinematicTree, target: Target, options: Options) -> Iterator[Deviation]:
-    """Yield whether each axis has a source of its own, with its own input; and whether gravity is that of the bench."""
+    """Yield whether each axis has its own source and input, and whether gravity is the bench's."""
     names, dependent, numbered = connector_names(tree, options), assembly(tree, options).dependent, 0
     classes = {bench: _read(texts, f"{target.name}{bench}") for bench in ("Run", "Test")}
     for bench, (definition, _) in classes.items():
@@ -60,7 +60,7 @@ def _deviation(element: str, detail: str, is_right: bool) -> Deviation:
 
 
 def _read(texts: Mapping[str, bytes], name: str) -> tuple[Class | None, Mapping[str, Sequence[str]]]:
-    """Return a class of the package, and the ends that each end in it is connected to."""
+    """Return a class of the package, and the connections of each end in it."""
     text = texts.get(f"{name}.mo", b"").decode()
     ends = defaultdict[str, list[str]](list)
     tree = read_tree(text)
@@ -74,14 +74,14 @@ def _read(texts: Mapping[str, bytes], name: str) -> tuple[Class | None, Mapping[
 
 
 def _has_own_gravity(definition: Class) -> bool:
-    """Return whether a bench extends one of the library's, and leaves its world as it is."""
+    """Return whether a bench extends one of the library's, and keeps its world."""
     bases = [base for base in definition.extends if base.type.parts[-1] in _BENCHES]
     changed = [str(argument.name) for base in bases for argument in base.arguments]
     return len(bases) == 1 and "world" not in (*changed, *(str(part.name) for part in definition.components))
 
 
 def _source(ends: Mapping[str, Sequence[str]], drive: Drive) -> str:
-    """Return the component that alone moves an axis against its own housing; empty if there is none."""
+    """Return the only component that moves an axis against its own housing; empty if there is none."""
     flanges, supports = (ends.get(f"robot.{name}", ()) for name in (drive.axis, drive.support))
     if len(flanges) != 1 or len(supports) != 1:
         return ""
@@ -94,7 +94,7 @@ def _input(drive: Drive) -> str | None:
 
 
 def _moves(part: Component, component: str) -> bool:
-    """Return whether the modifiers of a source speak of one joint alone."""
+    """Return whether the modifiers of a source concern only this joint."""
 
     def uses(arguments: Sequence[Modifier]) -> Iterator[Name]:
         for argument in arguments:
