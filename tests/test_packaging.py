@@ -82,6 +82,6 @@ def assert_a_robot_is_built_from_what_the_wheel_has(wheel: Path, site: Path) -> 
     urdfsync("init", REPOSITORY / "modelica/UrdfSync/Resources/robots/six_axis_arm/six_axis_arm.urdf")
     assert "files written" in urdfsync("build")
     assert "in step" in urdfsync("build", "--check")
-    library = Path(json.loads(urdfsync("library", "--json"))["results"][0]["folder"])
+    library = Path(json.loads(urdfsync("library", "--format=json"))["results"][0]["folder"])
     assert library.is_relative_to(site)
     assert (library / "UrdfSync" / "package.mo").is_file()
