@@ -6,14 +6,13 @@ a new text is looked for in the commits that git may have brought it from, and i
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
-from typing import TYPE_CHECKING
+from collections.abc import Iterable, Iterator, Mapping
+from typing import TYPE_CHECKING, Any
 
 import msgspec
 
 from urdfsync import git
 from urdfsync.diagnostics import SourceError, StateError
-from urdfsync.domain import Snapshot
 from urdfsync.engine.actions import Action, Reason
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.last_build import NO_MODEL
@@ -21,6 +20,7 @@ from urdfsync.engine.renames import find_matching
 from urdfsync.files import digest
 from urdfsync.matching import Doubt
 from urdfsync.state import statefile
+from urdfsync.state.record import as_read
 
 if TYPE_CHECKING:
     from urdfsync.revisions import Revision
@@ -52,7 +52,7 @@ def find_moved_edits(generation: Generation, actions: Iterable[Action]) -> dict[
     return doubts
 
 
-def model_hash(snapshot: Snapshot | None) -> str:
+def model_hash(snapshot: Mapping[str, Any] | None) -> str:
     """Return one hash for a model."""
     return digest(msgspec.json.encode(snapshot, order="sorted"))
 
@@ -90,10 +90,11 @@ def _look(generation: Generation, commit: Revision, edited: Iterable[Action]) ->
         return {}
     try:
         record, _ = statefile.loads(contents[state].decode(errors="replace"), commit.label(state))
-        if record is None or record.is_united or record.snapshot in (None, inputs.last.record.snapshot):
+        if record is None or record.is_united or not record.snapshot or record.snapshot == inputs.last.record.snapshot:
             return {}
-        matching = find_matching(inputs.domain, record.snapshot, generation.now.snapshot, {})
-        known = inputs.domain.features(record.snapshot)
+        snapshot = as_read(record.snapshot, inputs.domain.model)
+        matching = find_matching(inputs.domain, snapshot, generation.now.snapshot, {})
+        known = inputs.domain.features(snapshot)
     except (StateError, *NO_MODEL):
         return {}
     doubts = dict[str, Doubt]()

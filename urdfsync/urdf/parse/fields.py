@@ -1,7 +1,7 @@
 """Elements to values: the structs of `urdf.robot` say what is read. Every fault becomes a diagnostic with its line.
 
 A field of numbers or text is the attribute of its name. A field that is a struct is the child element of its name. One
-without a default is required. What no field asks for is kept as text (see `Extension`).
+without a default is required. What no field asks for is kept as text (see `Robot.extensions`).
 
 Numbers are decimals as ROS's urdfdom accepts them: no `nan`, `inf`, hexadecimals, underscores or decimal commas. A
 value that can't be read is an error. Another takes its place, so that reading goes on and finds the next fault.
