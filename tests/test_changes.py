@@ -2,23 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from typing import Any, cast
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from urdfsync.changes import Change, Changes, by_deepdiff, compare, moved_files, of_leaves
+from urdfsync.changes import Change, Changes, by_deepdiff, compare, find_differences, moved_files, of_leaves
 from urdfsync.domain import (
     ChangeClass,
     ChangeKind,
-    Difference,
     Domain,
     ElementKey,
     Features,
     Import,
-    Meaning,
     Role,
     Snapshot,
     Version,
@@ -37,17 +35,12 @@ class Shelf:
     def features(self, snapshot: Snapshot) -> Mapping[ElementKey, Features]:
         return {("book", name): Features({"book": book}, {}) for name, book in snapshot["books"].items()}
 
-    def comparable(self, snapshot: Snapshot, renames: Mapping[ElementKey, str]) -> Snapshot:
-        return {**snapshot, "books": {renames.get(("book", k), k): v for k, v in snapshot["books"].items()}}
-
-    def describe(
-        self, differences: Sequence[Difference], old: Version, new: Version, options: Any
-    ) -> Sequence[Meaning | None]:
-        return [None if "secret" in d.path else self._meaning(d) for d in differences]
-
-    def _meaning(self, difference: Difference) -> Meaning:
-        kind = ChangeClass.UNMODELLED if "colour" in difference.path else ChangeClass.PARAMETER
-        return Meaning(tuple(map(str, difference.path[1:])) or ("shelf",), kind, "mm")
+    def describe(self, old: Version, new: Version, renames: Mapping[ElementKey, str], _: None) -> Iterator[Change]:
+        books = {renames.get(("book", name), name): book for name, book in old.snapshot["books"].items()}
+        for difference in find_differences(old, new, {**old.snapshot, "books": books}, new.snapshot):
+            if "secret" not in difference.path:
+                kind = ChangeClass.UNMODELLED if "colour" in difference.path else ChangeClass.PARAMETER
+                yield difference.change(tuple(map(str, difference.path[1:])) or ("shelf",), kind, "mm")
 
 
 SHELF = cast(Domain, Shelf())

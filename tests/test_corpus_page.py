@@ -21,7 +21,6 @@ from urdfsync.diagnostics import Diagnostic
 from urdfsync.urdf.connectors import connector_names
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import LeftOut, Options
-from urdfsync.urdf.snapshot import from_snapshot
 
 PAGE = REPOSITORY / "tests" / "golden" / "corpus.md"
 HEADER = """| robot | has beside links and joints | Run drives | sensors | contacts | not modelled | left out |
@@ -42,7 +41,7 @@ def rows(file: str) -> Iterator[str]:
         reason = "its loops stay open within its limits" if is_open else "it is half a robot, to be mounted on another"
         yield f"| {corpora.label(file)} | refused: {reason} | | | | | |\n"
         return
-    robot = from_snapshot(reading.snapshot)
+    robot = reading.snapshot
     root = etree.parse(FOLDER / file).getroot()
     tags = Counter(element.tag for element in root.iterchildren("*") if element.tag not in KNOWN)
     has = ", ".join(f"{count} {re.sub('{.*}', '', str(tag))}" for tag, count in tags.items())
@@ -81,7 +80,7 @@ def test_nothing_is_silent(file: str) -> None:
     reading = read((FOLDER / file).read_bytes(), file)
     if reading.snapshot is None:
         return
-    robot = from_snapshot(reading.snapshot)
+    robot = reading.snapshot
     said = {int(line) for one in reading.diagnostics for line in re.findall(r"line (\d+):", " ".join(one.details))}
     for one in reading.diagnostics:
         said |= {one.line, *map(int, re.findall(r"\d+", one.message.partition("more like it")[2]))}

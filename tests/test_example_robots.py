@@ -9,8 +9,9 @@ import pinocchio as pin
 import pytest
 
 from urdfsync.state import statefile
+from urdfsync.state.record import as_read, as_recorded
 from urdfsync.urdf.parse.source import read_robot
-from urdfsync.urdf.snapshot import from_snapshot, to_snapshot
+from urdfsync.urdf.robot import Robot
 
 ROOT = Path(__file__).resolve().parents[1]
 ROBOTS = ROOT / "modelica" / "UrdfSync" / "Resources" / "robots"
@@ -53,4 +54,4 @@ def test_a_robot_that_was_recorded_before_reads_as_the_same(state: Path) -> None
     assert damage is None
     assert record is not None
     assert record.snapshot is not None
-    assert to_snapshot(from_snapshot(record.snapshot)) == record.snapshot
+    assert as_recorded(as_read(record.snapshot, Robot)) == record.snapshot

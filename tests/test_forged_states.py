@@ -27,7 +27,7 @@ from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Result
 from urdfsync.files import digest, text_digest
 from urdfsync.state import bases, statefile
-from urdfsync.state.record import FileRecord, Generator, Record
+from urdfsync.state.record import FileRecord, Generator, Record, as_recorded
 
 COUNT = int(os.environ.get("URDFSYNC_FORGERIES", "25"))
 SEEDS = [*range(COUNT)] if "URDFSYNC_FORGERIES" not in os.environ else [Random().getrandbits(32) for _ in range(COUNT)]
@@ -154,7 +154,7 @@ def the_model_now(record: Record, _: Random) -> Record:
     from urdfsync.urdf.domain import DOMAIN
 
     reading = DOMAIN.read(source(mass=1.5, tool=False).encode(), "arm.urdf", DOMAIN.options())
-    return msgspec.structs.replace(record, snapshot=reading.snapshot)
+    return msgspec.structs.replace(record, snapshot=as_recorded(reading.snapshot))
 
 
 def other_headings(record: Record, random: Random) -> Record:

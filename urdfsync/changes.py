@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
-from typing import Any, Protocol
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
+from typing import Any, Protocol, TypeAlias, cast
 
 import msgspec
 
@@ -12,14 +12,13 @@ from urdfsync.diagnostics import Diagnostic
 from urdfsync.domain import (
     ChangeClass,
     ChangeKind,
-    Difference,
     Domain,
     ElementKey,
     Import,
-    Snapshot,
     Target,
     Version,
     displaced,
+    plain,
 )
 from urdfsync.matching import NOISE, Doubt, Matching, match
 
@@ -32,6 +31,23 @@ _KINDS = {
     "values_changed": ChangeKind.CHANGED,
 }
 """Names of deepdiff for the differences of plain data."""
+
+
+class Difference(msgspec.Struct, frozen=True):
+    """One place at which two versions differ; `old` is None for what was added, `new` for what was removed."""
+
+    path: tuple[str | int, ...]
+    """Keys and indices (from 0) to the value in plain data; `("imports", key)` for an imported file."""
+    kind: ChangeKind
+    old: Any
+    new: Any
+
+    def change(self, path: tuple[str, ...], change_class: ChangeClass, unit: str = "") -> Change:
+        """Return the difference in the domain's words: `("joint elbow", "origin", "xyz[2]")` begins with the element.
+
+        `unit` is that of both values, or `old → new` if they differ; empty for what has none.
+        """
+        return Change(path, self.kind, change_class, self.old, self.new, unit)
 
 
 class Effect(msgspec.Struct, frozen=True):
@@ -49,7 +65,7 @@ class Effects(Protocol):
     """What a domain says of differences of whole models, as they are read; the attribute `effects` of a domain."""
 
     def effects(self, old: Version, new: Version) -> Sequence[Effect]:
-        """Return the effects of the differences on the whole model; the versions are as read, not comparable ones."""
+        """Return the effects of the differences on the whole model."""
         ...
 
     def interface(
@@ -99,6 +115,13 @@ class Change(msgspec.Struct, frozen=True):
         return " / ".join(self.path)
 
 
+Describe: TypeAlias = Callable[[Version, Version, Mapping[ElementKey, str], Any], Iterable[Change]]
+"""Returns the changes from one version to another, given the new names of elements and options of the new version.
+
+The attribute `describe` of a domain. Without it, another value is a parameter; all that comes or goes is structural.
+"""
+
+
 class Changes(msgspec.Struct, frozen=True):
     """All differences of two versions of a model."""
 
@@ -139,28 +162,26 @@ def compare(old: Version, new: Version, domain: Domain, options: Any, matching: 
 
     `matching` pairs elements; None to find the pairs.
     """
-    differences: list[Difference] = []
     if matching is None:
         is_same = old.snapshot == new.snapshot
         matching = Matching() if is_same else match(domain.features(old.snapshot), domain.features(new.snapshot))
-    renames = matching.renames
-    if old.snapshot != new.snapshot:
-        old = msgspec.structs.replace(old, snapshot=domain.comparable(old.snapshot, renames))
-        new = msgspec.structs.replace(new, snapshot=domain.comparable(new.snapshot, {}))
-        differences += _of_snapshots(old.snapshot, new.snapshot)
-    if old.imports is not None and new.imports is not None:
-        differences += _of_imports(old.imports, new.imports)
-    meanings = domain.describe(differences, old, new, options) if differences else ()
+    renames, describe = matching.renames, cast("Describe", domain.describe or _describe)
     changes = [
         Change((f"{kind} {name}",), ChangeKind.RENAMED, ChangeClass.STRUCTURAL, name, renamed)
         for (kind, name), renamed in renames.items()
     ]
-    changes += [
-        Change(meaning.path, difference.kind, meaning.change_class, difference.old, difference.new, meaning.unit)
-        for difference, meaning in zip(differences, meanings, strict=True)
-        if meaning is not None
-    ]
+    if old.snapshot != new.snapshot or (None not in (old.imports, new.imports) and old.imports != new.imports):
+        changes += describe(old, new, renames, options)
     return Changes(tuple(sorted(changes, key=_weight)), renames, tuple(matching.doubts.values()))
+
+
+def _describe(old: Version, new: Version, renames: Mapping[ElementKey, str], options: Any) -> Iterator[Change]:  # noqa: ARG001 - see `Describe`
+    """Yield the changes of a domain without words of its own: `("parts", "motor", "mass")` is `part motor / mass`."""
+    for difference in find_differences(old, new, plain(old.snapshot), plain(new.snapshot)):
+        kind, *path = map(str, difference.path)
+        words = (f"{kind.removesuffix('s')} {path[0]}", *path[1:]) if path else (kind,)
+        is_value = difference.kind is ChangeKind.CHANGED
+        yield difference.change(words, ChangeClass.PARAMETER if is_value else ChangeClass.STRUCTURAL)
 
 
 def _weight(change: Change) -> tuple[bool, ...]:
@@ -207,8 +228,19 @@ def is_number(value: object) -> bool:
     return isinstance(value, int | float) and not isinstance(value, bool)
 
 
-def _of_snapshots(old: Snapshot, new: Snapshot) -> Iterator[Difference]:
-    """Yield the differences of two snapshots; equal elements cost one comparison."""
+def find_differences(
+    old: Version, new: Version, old_data: Mapping[str, Any], new_data: Mapping[str, Any]
+) -> Iterator[Difference]:
+    """Yield the differences of two versions: of their snapshots as plain data by kind and name, and of their imports.
+
+    Elements that are equal cost one comparison, and may be left out.
+    """
+    yield from _of_snapshots(old_data, new_data)
+    if old.imports is not None and new.imports is not None:
+        yield from _of_imports(old.imports, new.imports)
+
+
+def _of_snapshots(old: Mapping[str, Any], new: Mapping[str, Any]) -> Iterator[Difference]:
     for part in dict.fromkeys([*new, *old]):
         before, after = old.get(part), new.get(part)
         if not (isinstance(before, Mapping) and isinstance(after, Mapping)):

@@ -1,8 +1,8 @@
 """What a domain (URDF, or another data format) implements, and the neutral values it trades in.
 
-The core reads bytes and asks the domain for a *snapshot* of the model, which is plain data. It imports the files that
-the model depends on. It asks for the *artifacts* that follow from snapshot, imports and options, and renders, plans and
-writes them. Nothing in here knows a domain, and nothing in here does IO.
+The core reads bytes and asks the domain for a *snapshot* of the model. It imports the files that the model depends on.
+It asks for the *artifacts* that follow from snapshot, imports and options, and renders, plans and writes them. Nothing
+in here knows a domain, and nothing in here does IO.
 """
 
 from __future__ import annotations
@@ -16,12 +16,10 @@ import msgspec
 
 from urdfsync.diagnostics import Diagnostic
 
-Snapshot: TypeAlias = Mapping[str, Any]
-"""A model as plain data: mappings with string keys, lists, strings, numbers, booleans, None.
+Snapshot: TypeAlias = Any
+"""A model as its domain reads it: its own frozen msgspec.Struct, `Domain.model`, with all data of artifacts.
 
-It equals its copy that comes back from JSON with sorted keys: the recorded model gives the same artifacts. It is keyed
-by element name, and does not depend on the order of elements in the source. It holds all data of artifacts. Nobody
-changes it: versions of a model may share parts.
+Lists of elements with names are sorted by name: a recorded snapshot comes back so.
 """
 
 ElementKey: TypeAlias = tuple[str, str]
@@ -157,30 +155,10 @@ class Version(msgspec.Struct, frozen=True):
     """The domain's options that it was built with; None if they are not known, or those of the other version."""
 
 
-class Difference(msgspec.Struct, frozen=True):
-    """One place at which two versions differ; `old` is None for what was added, `new` for what was removed."""
-
-    path: tuple[str | int, ...]
-    """Keys and indices (from 0) from the snapshot to the value; `("imports", key)` for an imported file."""
-    kind: ChangeKind
-    old: Any
-    new: Any
-
-
-class Meaning(msgspec.Struct, frozen=True):
-    """A difference in the domain's words."""
-
-    path: tuple[str, ...]
-    """For example `("joint elbow", "origin", "xyz[2]")`; begins with the element."""
-    change_class: ChangeClass
-    unit: str = ""
-    """Unit of both values, or `old → new` if they differ; empty for what has none."""
-
-
 class Reading(msgspec.Struct, frozen=True):
     """A source as it was read: the snapshot, unless a diagnostic is an error, and the diagnostics."""
 
-    snapshot: Snapshot | None
+    snapshot: Snapshot
     diagnostics: tuple[Diagnostic, ...]
     lines: Mapping[str, int] = msgspec.field(default_factory=dict)
     """Line of each element, keyed as the domain likes; passed back to `Domain.dependencies`."""
@@ -218,8 +196,8 @@ class Target(msgspec.Struct, frozen=True):
 class Domain(Protocol):
     """A data format and the Modelica package that follows from it; registered as entry point `urdfsync.domains`.
 
-    A domain that inherits from this class defines `name`, `options`, `read`, `names` and `artifacts`. It overrides the
-    defaults that do not suit it. docs/domains.md has an example.
+    A domain that inherits from this class defines `name`, `model`, `options`, `read`, `names` and `artifacts`. It
+    overrides the defaults that do not suit it. docs/domains.md has an example.
     """
 
     name: str
@@ -228,13 +206,19 @@ class Domain(Protocol):
     """Folder with the domain's templates; None for the folder of its name in urdfsync's own."""
     warnings: Collection[str] = ()
     """Codes of the domain's warnings and notes, which a configuration may ignore."""
+    model: type[Any]
+    """The type of snapshots."""
     options: type[Any]
     """A frozen msgspec.Struct with the domain's options and their defaults; the core refuses unknown keys."""
+
+    permissive_options: Any = None
+    """The options that sources outside of a project are read by; None for the defaults."""
 
     # What else is asked: a Protocol beside the code that asks, which modules meet, too. None where there is no answer.
     advice: Any = None  # `urdfsync.config.advice.Advice`
     beside: Any = None  # `urdfsync.engine.source.Beside`
     imports: Any = None  # `urdfsync.engine.imports.Mentions`
+    describe: Any = None  # `urdfsync.changes.Describe`
     effects: Any = None  # `urdfsync.changes.Effects`
     record: Any = None  # `urdfsync.api.Recorder`
     checks: Any = None  # `urdfsync.checks.experiment.Checks`
@@ -278,31 +262,19 @@ class Domain(Protocol):
         named = self.names(snapshot, Target("Package", "Model"))
         return {(kind.removesuffix("s"), name): Features({}, {}) for kind, names in named.items() for name in names}
 
-    def comparable(self, snapshot: Snapshot, renames: Mapping[ElementKey, str]) -> Snapshot:
-        """Return the snapshot with those elements renamed wherever it mentions them, in the order of a report.
-
-        Lists without an order of their own may be keyed, so that the same things are compared. Elements that are
-        `displaced` are left out.
-        """
-        return snapshot
-
-    def describe(
-        self, differences: Sequence[Difference], old: Version, new: Version, options: Any
-    ) -> Sequence[Meaning | None]:
-        """Return the meaning of each difference of two comparable versions; None if another difference says the same.
-
-        By default another value is a parameter, and all that comes or goes is structural; `("parts", "motor", "mass")`
-        reads `part motor / mass`.
-        """
-        meanings = []
-        for difference in differences:
-            kind, *path = map(str, difference.path)
-            words = (f"{kind.removesuffix('s')} {path[0]}", *path[1:]) if path else (kind,)
-            is_value = difference.kind is ChangeKind.CHANGED
-            meanings.append(Meaning(words, ChangeClass.PARAMETER if is_value else ChangeClass.STRUCTURAL))
-        return meanings
-
 
 def displaced(renames: Mapping[ElementKey, str]) -> set[ElementKey]:
     """Return the removed elements whose names other elements have now."""
     return {(kind, name) for (kind, _), name in renames.items()} - renames.keys()
+
+
+def plain(value: Any) -> Any:
+    """Return a value as JSON has it, with sorted keys, without what is None."""
+    return _without_none(msgspec.json.decode(msgspec.json.encode(value, order="sorted")))
+
+
+def _without_none(data: Any) -> Any:
+    if isinstance(data, dict):
+        return {key: _without_none(item) for key, item in data.items() if item is not None}
+    is_of_structs = isinstance(data, list) and data and isinstance(data[0], dict)
+    return [_without_none(item) for item in data] if is_of_structs else data

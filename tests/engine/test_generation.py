@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+import msgspec
 import pytest
 from support.networks import edit, resistor, run, source
 from support.networks import inner_kinds as kinds
@@ -54,8 +55,8 @@ def test_texts_are_compared_whatever_is_recorded(project: Path, monkeypatch: pyt
     real = domain.artifacts
 
     def artifacts(self: Any, model: Any, *others: Any) -> Any:
-        elements = {name: {**element, "ohm": 7} for name, element in model["elements"].items()}
-        return real(self, {**model, "elements": elements}, *others)
+        elements = tuple(msgspec.structs.replace(element, ohm=7) for element in model.elements)
+        return real(self, msgspec.structs.replace(model, elements=elements), *others)
 
     monkeypatch.setattr(domain, "artifacts", artifacts)
     assert kinds(run(dry=True))["Elements/R1Parameters.mo"] is Reason.UPDATE
@@ -69,7 +70,7 @@ def test_a_recorded_model_that_this_version_can_not_generate_stops_nothing(
     real = domain.artifacts
 
     def artifacts(self: Any, model: Any, *others: Any) -> Any:
-        if model["elements"]["R1"]["ohm"] == 100:
+        if next(element.ohm for element in model.elements if element.name == "R1") == 100:
             raise KeyError("siemens")
         return real(self, model, *others)
 

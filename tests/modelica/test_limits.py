@@ -21,7 +21,6 @@ from urdfsync.domain import Target
 from urdfsync.simulation.bench import Axis, Signal
 from urdfsync.simulation.joints import joint_results
 from urdfsync.urdf.benches import bench as bench_of
-from urdfsync.urdf.snapshot import to_snapshot
 
 pytestmark = pytest.mark.slow
 
@@ -188,7 +187,7 @@ def test_later_passings_are_told_from_the_results(modelica_library: Path, tmp_pa
     runs = [Run(1.0, 0.01, {"roll.a2": -5.0}), Run(1.0, 0.01, {"roll.a1": 5.0, "roll.a2": -3.0})]
     tasks, layouts = [], []
     for package in packages:
-        found = bench_of(to_snapshot(package.robot), package.target, package.options)
+        found = bench_of(package.robot, package.target, package.options)
         assert found
         layouts.append(found.layouts)
         declaration, axis = robots[package.target.package]

@@ -15,7 +15,9 @@ from pathlib import Path
 from typing import Any
 
 import msgspec
+from msgspec.structs import replace
 
+from urdfsync.changes import Change, find_differences
 from urdfsync.config.advice import Advice, Proposal
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.domain import (
@@ -23,21 +25,20 @@ from urdfsync.domain import (
     ChangeClass,
     Conversion,
     Dependency,
-    Difference,
     Domain,
     ElementKey,
     Features,
     Import,
     Lookup,
-    Meaning,
     Order,
     Reading,
     Role,
-    Snapshot,
     Target,
     Version,
     displaced,
+    plain,
 )
+from urdfsync.state.record import as_recorded
 
 GROUND = "ground"
 _NAME = re.compile(r"[A-Z][A-Za-z0-9]*", re.ASCII)
@@ -70,19 +71,16 @@ class Network(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class RcAdvice(Advice):
-    def permissive_options(self) -> Options:
-        return Options()
-
     def propose(
         self,
-        snapshot: Snapshot,
+        snapshot: Network,
         diagnostics: Sequence[Diagnostic],
     ) -> Sequence[Proposal]:
-        nodes = {node for element in snapshot["elements"].values() for node in element["between"]}
+        nodes = {node for element in snapshot.elements for node in element.between}
         has = GROUND in nodes
         return (Proposal("ground", has, f"{'a' if has else 'no'} node is named {GROUND}"),)
 
-    def option_for(self, name: str, snapshot: Snapshot, target: Target, options: Options) -> str:
+    def option_for(self, name: str, snapshot: Network, target: Target, options: Options) -> str:
         return ""
 
 
@@ -92,6 +90,7 @@ class RcNetwork(Domain):
     name = "rcnetwork"
     advice = RcAdvice()
     templates = Path(__file__).parent / "templates"
+    model = Network
     options = Options
     warnings = ("no-ground",)
 
@@ -107,17 +106,15 @@ class RcNetwork(Domain):
         problems = tuple(_check(network, file, text))
         if problems:
             return Reading(None, problems)
-        elements = {element.name: element for element in network.elements}
-        lines = {name: _line_of_name(text, name) for name in elements}
-        snapshot = {"name": network.name, "elements": elements, "signal": network.signal, "drives": network.drives}
-        plain = msgspec.json.decode(msgspec.json.encode(snapshot, order="sorted"))
+        network = replace(network, elements=tuple(sorted(network.elements, key=lambda element: element.name)))
+        lines = {element.name: _line_of_name(text, element.name) for element in network.elements}
         lines["signal"] = _line_of_name(text, network.signal or "")
-        return Reading(plain, (), lines, tuple(_check_options(network, options)))
+        return Reading(network, (), lines, tuple(_check_options(network, options)))
 
     def dependencies(
-        self, snapshot: Snapshot, lookup: Lookup, options: Options, lines: Mapping[str, int]
+        self, snapshot: Network, lookup: Lookup, options: Options, lines: Mapping[str, int]
     ) -> Sequence[Dependency]:
-        signal = snapshot["signal"]
+        signal = snapshot.signal
         if signal is None:
             return ()
         folders = (lookup.source.parent, *lookup.package_paths)
@@ -133,20 +130,20 @@ class RcNetwork(Domain):
         lines = ["#1", f"double signal({len(rows)}, 2)", *(" ".join(map(repr, row)) for row in rows)]
         return Conversion(("\n".join(lines) + "\n").encode(), {"rows": len(rows), "end": rows[-1][0]})
 
-    def names(self, snapshot: Snapshot, target: Target) -> Mapping[str, Mapping[str, str]]:
-        return {"elements": {name: name for name in snapshot["elements"]}}
+    def names(self, snapshot: Network, target: Target) -> Mapping[str, Mapping[str, str]]:
+        return {"elements": {element.name: element.name for element in snapshot.elements}}
 
     def artifacts(
-        self, snapshot: Snapshot, imports: Mapping[str, Import], target: Target, options: Options
+        self, snapshot: Network, imports: Mapping[str, Import], target: Target, options: Options
     ) -> Sequence[Artifact | Order]:
-        elements = [snapshot["elements"][name] for name in sorted(snapshot["elements"])]
-        nodes = sorted({node for element in elements for node in element["between"]} - {GROUND})
-        common = {"package": target.package, "class": target.name, "network": snapshot["name"]}
-        signal = imports.get(snapshot["signal"] or "")
+        elements = snapshot.elements
+        nodes = sorted({node for element in elements for node in element.between} - {GROUND})
+        common = {"package": target.package, "class": target.name, "network": snapshot.name}
+        signal = imports.get(snapshot.signal or "")
         whole = common | {"elements": elements, "nodes": nodes, "ground": options.ground, "prefix": options.prefix}
-        whole |= {"signal": signal and {"target": signal.target, **signal.facts, "drives": snapshot["drives"]}}
-        records = [f"{element['name']}Parameters" for element in elements]
-        classes = [element["name"] for element in elements]
+        whole |= {"signal": signal and {"target": signal.target, **signal.facts, "drives": snapshot.drives}}
+        records = [f"{element.name}Parameters" for element in elements]
+        classes = [element.name for element in elements]
         return (
             Artifact("package.mo", Role.PACKAGE, "network/package.mo.jinja", whole, "network"),
             Artifact("Elements/package.mo", Role.PACKAGE, "element/package.mo.jinja", common, "network"),
@@ -156,41 +153,43 @@ class RcNetwork(Domain):
             Order("Elements/package.order", (*records, *classes)),
         )
 
-    def features(self, snapshot: Snapshot) -> Mapping[ElementKey, Features]:
+    def features(self, snapshot: Network) -> Mapping[ElementKey, Features]:
         return {
-            ("element", name): Features({"value": {**element, "name": ""}}, {})
-            for name, element in snapshot["elements"].items()
+            ("element", element.name): Features({"value": plain(replace(element, name=""))}, {})
+            for element in snapshot.elements
         }
 
-    def comparable(self, snapshot: Snapshot, renames: Mapping[ElementKey, str]) -> Snapshot:
-        gone = {name for _, name in displaced(renames)}
-        names = {name: renames.get(("element", name), name) for name in snapshot["elements"] if name not in gone}
-        elements = {new: {**snapshot["elements"][old], "name": new} for old, new in names.items()}
-        return {**snapshot, "elements": elements}
-
     def describe(
-        self, differences: Sequence[Difference], old: Version, new: Version, options: Options
-    ) -> Sequence[Meaning | None]:
-        units = {"ohm": "Ω", "farad": "F"}
-        meanings = []
-        for difference in differences:
+        self, old: Version, new: Version, renames: Mapping[ElementKey, str], options: Options
+    ) -> Iterator[Change]:
+        gone, units = {name for _, name in displaced(renames)}, {"ohm": "Ω", "farad": "F"}
+        before = replace(
+            old.snapshot,
+            elements=tuple(
+                replace(element, name=renames.get(("element", element.name), element.name))
+                for element in old.snapshot.elements
+                if element.name not in gone
+            ),
+        )
+        for difference in find_differences(old, new, as_recorded(before), as_recorded(new.snapshot)):
             _, *fields = map(str, difference.path)
-            is_number = bool(fields) and fields[-1] in units
-            reach = ChangeClass.PARAMETER if is_number else ChangeClass.STRUCTURAL
-            meanings.append(Meaning(tuple(fields) or ("network",), reach, units[fields[-1]] if is_number else ""))
-        return meanings
+            unit = units.get(fields[-1], "") if fields else ""
+            yield difference.change(
+                tuple(fields) or ("network",), ChangeClass.PARAMETER if unit else ChangeClass.STRUCTURAL, unit
+            )
 
-    def drawing(
-        self, snapshot: Snapshot, imports: Mapping[str, Import], target: Target, options: Options
-    ) -> str | None:
-        texts = [f'<text y="{20 * (y + 1)}">{name}</text>' for y, name in enumerate(sorted(snapshot["elements"]))]
+    def drawing(self, snapshot: Network, imports: Mapping[str, Import], target: Target, options: Options) -> str | None:
+        texts = [
+            f'<text y="{20 * (y + 1)}">{name}</text>'
+            for y, name in enumerate(element.name for element in snapshot.elements)
+        ]
         return f'<svg xmlns="http://www.w3.org/2000/svg">{"".join(texts)}</svg>\n'
 
 
-def _element(element: Mapping[str, Any], common: Mapping[str, Any]) -> Iterator[Artifact]:
-    kind = "resistor" if element["ohm"] is not None else "capacitor"
-    owner, data = f"element {element['name']}", {**common, "element": element, "kind": kind}
-    path = f"Elements/{element['name']}"
+def _element(element: Element, common: Mapping[str, Any]) -> Iterator[Artifact]:
+    kind = "resistor" if element.ohm is not None else "capacitor"
+    owner, data = f"element {element.name}", {**common, "element": element, "kind": kind}
+    path = f"Elements/{element.name}"
     yield Artifact(f"{path}Parameters.mo", Role.RECORD, "element/parameters.mo.jinja", data, owner)
     yield Artifact(f"{path}.mo", Role.MODEL, "element/model.mo.jinja", data, owner)
 

@@ -1,4 +1,4 @@
-"""Random changes to snapshots of robots, valid before and after: for tests of comparisons."""
+"""Random changes to recorded snapshots of robots, valid before and after: for tests of comparisons."""
 
 from __future__ import annotations
 
@@ -13,22 +13,27 @@ from support import robots
 from support.robots import NAMES
 from urdfsync.diagnostics import Severity
 from urdfsync.domain import Import, Version
+from urdfsync.state.record import as_read, as_recorded
 from urdfsync.urdf.meshes import lookup
-from urdfsync.urdf.robot import Camera, Mesh, Sensor
-from urdfsync.urdf.snapshot import from_snapshot, to_snapshot
+from urdfsync.urdf.robot import Camera, Mesh, Robot, Sensor
 from urdfsync.urdf.validate import ADVICE, check
 
 Data = dict[str, Any]
 
 
+def recorded(robot: Robot) -> Data:
+    """The robot as it is recorded, with all kinds of elements."""
+    return {"links": {}, "joints": {}, "sensors": {}, "loops": {}} | as_recorded(robot)
+
+
 def version(random: Random) -> Version:
     """A robot of up to seven links, with everything that a URDF can say."""
-    return Version(_snapshot(random), _imports(random))
+    return Version(as_read(_snapshot(random), Robot), _imports(random))
 
 
 def mutated(old: Version, random: Random, count: int) -> Version:
     """The version after up to `count` random changes; those that would make it wrong are not made."""
-    snapshot: Data = copy.deepcopy(dict(old.snapshot))
+    snapshot = recorded(old.snapshot)
     found = _imports(random) if random.random() < 0.2 else old.imports
     for _ in range(count):
         changed = copy.deepcopy(snapshot)
@@ -36,26 +41,26 @@ def mutated(old: Version, random: Random, count: int) -> Version:
         for name, sensor in list(changed["sensors"].items()):
             if sensor["at"] not in changed["joints" if sensor["kind"] == "force_torque" else "links"]:
                 del changed["sensors"][name]
-        findings = {finding.code for finding in check(from_snapshot(changed))}
+        findings = {finding.code for finding in check(as_read(changed, Robot))}
         if not any(ADVICE[code][0] is Severity.ERROR for code in findings):
             snapshot = changed
-    return Version(snapshot, found)
+    return Version(as_read(snapshot, Robot), found)
 
 
 def driven_and_passive(random: Random) -> tuple[Version, Version]:
     """Two versions of a robot of joints that turn freely, some of them driven: not by the same transmissions."""
-    old = version(random)
-    for joint in old.snapshot["joints"].values():
+    old = _snapshot(random)
+    for joint in old["joints"].values():
         if random.random() < 0.7:
             joint["type"] = "continuous"
             for block in ("limit", "mimic"):
                 joint.pop(block, None)
         if random.random() < 0.3:
             joint["actuated"] = True
-    snapshot: Data = copy.deepcopy(dict(old.snapshot))
+    snapshot, found = copy.deepcopy(old), _imports(random)
     for _ in range(random.randint(1, 3)):
         _toggle(snapshot, random, "actuated")
-    return old, Version(snapshot, old.imports)
+    return Version(as_read(old, Robot), found), Version(as_read(snapshot, Robot), found)
 
 
 def rename(snapshot: Data, part: str, old: str, new: str) -> None:
@@ -73,7 +78,7 @@ def rename(snapshot: Data, part: str, old: str, new: str) -> None:
 
 def _snapshot(random: Random) -> Data:
     """A random robot as data that may be changed."""
-    snapshot = copy.deepcopy(dict(to_snapshot(robots.dressed(robots.random_robot(random), random))))
+    snapshot = recorded(robots.dressed(robots.random_robot(random), random))
     for joint in snapshot["joints"].values():
         if random.random() < 0.3:
             rotor = random.choice(({}, {"rotor_inertia": 1.0}))

@@ -10,14 +10,14 @@ from typing import Any, get_args
 
 from support.corpus import REPOSITORY
 from urdfsync.diagnostics import Diagnostic
-from urdfsync.domain import Import, Lookup, Order, Reading, Role, Snapshot, Target
+from urdfsync.domain import Import, Lookup, Order, Reading, Role, Target
 from urdfsync.render import Renderer
+from urdfsync.state.record import as_read, as_recorded
 from urdfsync.urdf.artifacts import record
 from urdfsync.urdf.domain import DOMAIN
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import LeftOut, Options
 from urdfsync.urdf.robot import Robot
-from urdfsync.urdf.snapshot import from_snapshot, to_snapshot
 
 _EXTENDS = re.compile(r"  extends UrdfSync\.Records\.Robot\(\n(.*?)\);\n\n", re.DOTALL)
 _MODIFIER = re.compile(r"^    (?=\w)", re.MULTILINE)
@@ -80,7 +80,7 @@ def generate(source: Path | bytes, target: Target, **options: Any) -> Package:
 
 def generate_robot(robot: Robot, target: Target, **options: Any) -> Package:
     """The package of a robot without meshes."""
-    return _render(to_snapshot(robot), {}, {}, target, Options(**options))
+    return _render(robot.by_name(), {}, {}, target, Options(**options))
 
 
 def strict(package: Package) -> Package:
@@ -102,11 +102,11 @@ def scaled(package: Package, factor: float) -> Package:
         return value * factor if isinstance(value, float) else value
 
     options = package.options
-    return _render(scale(to_snapshot(package.robot)), {}, {}, package.target, options)
+    return _render(as_read(scale(as_recorded(package.robot)), Robot), {}, {}, package.target, options)
 
 
 def _render(
-    snapshot: Snapshot, imports: Mapping[str, Import], contents: Mapping[str, bytes], target: Target, options: Options
+    snapshot: Robot, imports: Mapping[str, Import], contents: Mapping[str, bytes], target: Target, options: Options
 ) -> Package:
     texts, roles = {}, {}
     for artifact in DOMAIN.artifacts(snapshot, imports, target, options):
@@ -116,8 +116,9 @@ def _render(
         else:
             texts[artifact.path] = RENDERER.render(artifact.template, artifact.data)
             roles[artifact.path] = artifact.role
-    robot = from_snapshot(snapshot)
-    return Package(target, options, robot, KinematicTree.of(robot, (target.name,)), texts, roles, contents, imports)
+    return Package(
+        target, options, snapshot, KinematicTree.of(snapshot, (target.name,)), texts, roles, contents, imports
+    )
 
 
 def _imports(reading: Reading, path: Path, options: Options) -> tuple[dict[str, Import], dict[str, bytes]]:

@@ -17,7 +17,6 @@ from urdfsync.checks.flags import flagged
 from urdfsync.domain import Target
 from urdfsync.urdf.domain import DOMAIN
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.snapshot import to_snapshot
 
 
 @dataclasses.dataclass(frozen=True)
@@ -71,7 +70,7 @@ def compare(library: Path, folder: Path, cases: Sequence[Case], own: Path = URDF
             motions[trial.name] = {"time": run.times.tolist(), **values}
         wiring = DOMAIN.checks.wiring(
             {path: text.encode() for path, text in case.package.texts.items()},
-            to_snapshot(case.package.robot),
+            case.package.robot,
             case.package.target,
             case.package.options,
         )

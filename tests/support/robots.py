@@ -19,7 +19,6 @@ from urdfsync.urdf.robot import (
     Collision,
     Cylinder,
     Dynamics,
-    Extension,
     Geometry,
     Inertia,
     Inertial,
@@ -109,15 +108,14 @@ def dressed(robot: Robot, random: Random) -> Robot:
     links = tuple(_dressed_link(random, link) for link in robot.links)
     joints = tuple(msgspec.structs.replace(joint, **_blocks(random, joint)) for joint in robot.joints)
     driven, first = [joint.name for joint in joints if joint.type in MOTION_KINDS], links[0].name
-    extensions = [
-        Extension("", "gazebo", f"<gazebo reference={quoteattr(first)}><selfCollide>1</selfCollide></gazebo>")
-    ]
+    extensions = {"gazebo": f"<gazebo reference={quoteattr(first)}><selfCollide>1</selfCollide></gazebo>"}
     if driven:
         drive = (
             f"<joint name={quoteattr(driven[0])}><hardwareInterface>PositionJointInterface</hardwareInterface></joint>"
         )
-        extensions.append(Extension("", "transmission", f'<transmission name="t">{drive}</transmission>'))
-    return Robot(robot.name, links, joints, tuple(one for one in extensions if random.random() < 0.3))
+        extensions["transmission"] = f'<transmission name="t">{drive}</transmission>'
+    tags = {tag: (text,) for tag, text in extensions.items() if random.random() < 0.3}
+    return Robot(robot.name, links, joints, {"": tags} if tags else {})
 
 
 def origin(random: Random, number: Number = few) -> Origin:
@@ -168,11 +166,18 @@ def _blocks(random: Random, joint: Joint) -> dict[str, object]:
 # Robots as text
 
 
+def robot_extensions(robot: Robot) -> list[tuple[str, str, str]]:
+    """Owner, tag and text of all that is not modelled."""
+    return [
+        (owner, tag, text) for owner, tags in robot.extensions.items() for tag, texts in tags.items() for text in texts
+    ]
+
+
 def urdf(robot: Robot) -> str:
     """A URDF that says all that the robot has; the place of an extension is the end of the robot."""
     links = [_element("link", link) for link in robot.links]
     joints = [_element("joint", joint) for joint in robot.joints]
-    extensions = [extension.text for extension in robot.extensions]
+    extensions = [text for _, _, text in robot_extensions(robot)]
     return "\n".join([f'<robot name="{robot.name}">', *links, *joints, *extensions, "</robot>", ""])
 
 

@@ -7,7 +7,6 @@ from collections.abc import Iterable
 from urdfsync.domain import Version
 from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.robot import Robot
-from urdfsync.urdf.snapshot import to_snapshot
 
 
 def robot(*elements: str, name: str = "own", version: str = "1.0") -> str:
@@ -81,8 +80,8 @@ def parsed(urdf: str) -> Robot:
 
 
 def version(*elements: str) -> Version:
-    """A robot of elements, as it is recorded."""
-    return Version(to_snapshot(parsed(robot(*elements))))
+    """A robot of elements, as it is compared."""
+    return Version(parsed(robot(*elements)).by_name())
 
 
 ELBOW_ARM = """\

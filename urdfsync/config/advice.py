@@ -8,7 +8,7 @@ from typing import Any, Protocol
 import msgspec
 
 from urdfsync.diagnostics import Diagnostic
-from urdfsync.domain import Domain, Snapshot, Target
+from urdfsync.domain import Snapshot, Target
 
 
 class Proposal(msgspec.Struct, frozen=True):
@@ -22,14 +22,10 @@ class Proposal(msgspec.Struct, frozen=True):
 class Advice(Protocol):
     """What a domain advises on its options; its attribute `advice`."""
 
-    def permissive_options(self) -> Any:
-        """Return the options that sources outside of a project are read by: what they permit becomes a warning."""
-        ...
-
     def propose(self, snapshot: Snapshot, diagnostics: Sequence[Diagnostic]) -> Sequence[Proposal]:
         """Return option values that suit a model better than the defaults, for `init`.
 
-        `diagnostics` are those of reading it by `permissive_options`.
+        `diagnostics` are those of reading it by `Domain.permissive_options`.
         """
         ...
 
@@ -39,12 +35,6 @@ class Advice(Protocol):
         Empty if none does, or if `options` bring it.
         """
         ...
-
-
-def permissive_options(domain: Domain) -> Any:
-    """Return the options of a domain that sources outside of a project are read by."""
-    advice: Advice | None = domain.advice
-    return advice.permissive_options() if advice else domain.options()
 
 
 def brings_back(option: str, new_name: str = "") -> str:

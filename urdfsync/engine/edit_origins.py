@@ -11,7 +11,7 @@ import itertools
 import re
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import msgspec
 
@@ -27,7 +27,7 @@ from urdfsync.engine.renames import find_matching
 from urdfsync.files import digest
 from urdfsync.matching import Doubt
 from urdfsync.state import statefile
-from urdfsync.state.record import FileRecord
+from urdfsync.state.record import FileRecord, as_read
 
 if TYPE_CHECKING:
     import pygit2
@@ -50,7 +50,7 @@ def find_doubts(generation: Generation, actions: Iterable[Action]) -> dict[str, 
     record = inputs.last.record
     unconfirmed = [one for one in edited if one.mine not in record.confirmed]
     # what the user said of an export holds until the next one
-    is_told = record.open is not None and record.open.seen == generation.now.snapshot
+    is_told = inputs.last.seen == generation.now.snapshot
     doubts = dict[str, Doubt]()
     for action in (unconfirmed if is_told else edited) if generation.matching.doubts else ():
         if found := _doubt(generation, action, generation.matching.doubts, generation.now.snapshot):
@@ -63,7 +63,7 @@ def find_doubts(generation: Generation, actions: Iterable[Action]) -> dict[str, 
     return doubts
 
 
-def model_hash(snapshot: Snapshot | None) -> str:
+def model_hash(snapshot: Mapping[str, Any] | None) -> str:
     """Return one hash for a model."""
     return digest(msgspec.json.encode(snapshot, order="sorted"))
 
@@ -106,12 +106,13 @@ def _look(generation: Generation, commit: Revision, edited: Iterable[Action]) ->
     try:
         contents = commit.contents([state, *(inputs.files.path(action.path) for action in edited)])
         record, _ = statefile.loads(contents[state].decode(errors="replace"), commit.label(state))
-        if record is None or record.is_united or record.snapshot in (None, inputs.last.record.snapshot):
+        if record is None or record.is_united or not record.snapshot or record.snapshot == inputs.last.record.snapshot:
             return {}
-        matching = find_matching(inputs.domain, record.snapshot, generation.now.snapshot, {})
+        snapshot = as_read(record.snapshot, inputs.domain.model)
+        matching = find_matching(inputs.domain, snapshot, generation.now.snapshot, {})
         if not (matching.renames or matching.doubts):
             return {}
-        known = inputs.domain.features(record.snapshot)
+        known = inputs.domain.features(snapshot)
     except (KeyError, SourceError, StateError, *NO_MODEL):
         return {}
     formers, moved = {(key[0], new): key[1] for key, new in matching.renames.items()}, dict(matching.doubts)
@@ -124,7 +125,7 @@ def _look(generation: Generation, commit: Revision, edited: Iterable[Action]) ->
         content = contents.get(inputs.files.path(action.path), b"").decode(errors="replace")
         recorded = record.files.get(action.path)
         is_edited = bool(content) and recorded is not None and text_hash(content) not in recorded.hashes
-        if is_edited and (found := _doubt(generation, action, moved, record.snapshot, content)):
+        if is_edited and (found := _doubt(generation, action, moved, snapshot, content)):
             doubts[action.path] = found
     return doubts
 

@@ -95,11 +95,9 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
         last, domain = self.inputs.last, self.inputs.domain
         if last.version is None:
             return Matching()
-        versions = last.version.snapshot, last.record.open, self.now.snapshot
-        try:
-            return find_matching_since(domain, *versions, declared)
-        except NO_MODEL:
-            return Matching()
+        open_ = last.record.open.renamed if last.record.open else {}
+        versions = last.version.snapshot, last.seen, open_, self.now.snapshot
+        return find_matching_since(domain, *versions, declared)
 
     @cached_property
     def changes(self) -> Changes | None:
@@ -168,7 +166,7 @@ def generate_robot(inputs: Inputs) -> Generation:
     """
     if inputs.options.removes:
         nothing = Package((), inputs.templates, inputs.robot.target.package)
-        return Generation(inputs, inputs.last.version or Version({}), {}, (), Imported(), nothing)
+        return Generation(inputs, inputs.last.version or Version(None), {}, (), Imported(), nothing)
     with inputs.source.locating():
         return _generate(inputs)
 

@@ -12,14 +12,14 @@ import msgspec
 
 from urdfsync.config import RobotConfig
 from urdfsync.diagnostics import UrdfsyncError
-from urdfsync.domain import Domain, Import, Lookup, Role, Target, Version
+from urdfsync.domain import Domain, Import, Lookup, Role, Snapshot, Target, Version
 from urdfsync.engine.generate import Package, generate
 from urdfsync.engine.imports import MOST_PARTS, RecordedFile, places_of
 from urdfsync.engine.package_files import Folder, PackageFiles
 from urdfsync.engine.rules import NEVER_WRITTEN, OnDisk
 from urdfsync.files import Templates, digest
 from urdfsync.state.notes import Notes
-from urdfsync.state.record import FileRecord, Record
+from urdfsync.state.record import FileRecord, Record, as_read
 from urdfsync.state.store import Aside, Store
 
 NO_MODEL = (
@@ -108,11 +108,24 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
 
     @cached_property
     def version(self) -> Version | None:
-        """The model; None if there was none, or if it is lost."""
-        if self.record.snapshot is None or self.record.generator.domain != self._robot.domain:
-            return None
+        """The model; None if there was none, or it is lost."""
+        snapshot = self.read(self.record.snapshot)
         imports = {key: file.entry for key, file in self.imports.items()}
-        return Version(self.record.snapshot, imports, self.options)
+        return None if snapshot is None else Version(snapshot, imports, self.options)
+
+    @cached_property
+    def seen(self) -> Snapshot | None:
+        """The model that the last build read, if that was not complete."""
+        return self.read(self.record.open.seen) if self.record.open else None
+
+    def read(self, recorded: Mapping[str, Any] | None) -> Snapshot | None:
+        """Return a recorded model; None if it is none of this domain: anybody may have written it."""
+        if not recorded or self.record.generator.domain != self._robot.domain:
+            return None
+        try:
+            return as_read(recorded, self._domain.model)
+        except NO_MODEL:
+            return None
 
     @cached_property
     def package(self) -> Package | None:
@@ -171,9 +184,11 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
 
     @cached_property
     def _targets(self) -> Mapping[str, str]:
-        """The paths of imported files in the recorded model, by their keys."""
-        snapshot, lookup = self.record.snapshot or {}, Lookup(self._robot.source, ())
-        dependencies = self._domain.dependencies(snapshot, lookup, self.options or self._robot.options, {})
+        """The paths that the recorded model has for imported files, by their keys."""
+        if self.version is None:
+            return {}
+        options, lookup = self.options or self._robot.options, Lookup(self._robot.source, ())
+        dependencies = self._domain.dependencies(self.version.snapshot, lookup, options, {})
         return dict(place for each in dependencies for place in itertools.islice(places_of(each), MOST_PARTS))
 
     @cached_property

@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-import contextlib
 from collections.abc import Iterator, Mapping
 
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
 from urdfsync.domain import Domain, ElementKey, Snapshot, displaced
 from urdfsync.engine.inputs import Inputs
-from urdfsync.engine.last_build import NO_MODEL
 from urdfsync.files import shown
 from urdfsync.matching import Doubt, Matching, match
 from urdfsync.spelling import nearest
-from urdfsync.state.record import Open
 
 
 def find_matching(domain: Domain, old: Snapshot, new: Snapshot, declared: Mapping[str, str]) -> Matching:
@@ -27,7 +24,12 @@ def find_matching(domain: Domain, old: Snapshot, new: Snapshot, declared: Mappin
 
 
 def find_matching_since(
-    domain: Domain, recorded: Snapshot, open_: Open | None, now: Snapshot, declared: Mapping[str, str]
+    domain: Domain,
+    recorded: Snapshot,
+    last_seen: Snapshot | None,
+    open_renames: Mapping[ElementKey, str],
+    now: Snapshot,
+    declared: Mapping[str, str],
 ) -> Matching:
     """Match the elements of the last complete build with those of now.
 
@@ -35,15 +37,15 @@ def find_matching_since(
     up to the model last seen are followed by those from it.
     """
     direct = find_matching(domain, recorded, now, declared)
-    if open_ is None or not open_.seen:
+    if last_seen is None:
         return direct
-    later = find_matching(domain, open_.seen, now, declared)
-    existing, seen = domain.features(now), domain.features(open_.seen)
-    gone, followed = displaced(open_.renamed), dict[ElementKey, str]()
+    later = find_matching(domain, last_seen, now, declared)
+    existing, seen = domain.features(now), domain.features(last_seen)
+    gone, followed = displaced(open_renames), dict[ElementKey, str]()
     for kind, name in domain.features(recorded):
         if (kind, name) in gone:
             continue
-        last_name = open_.renamed.get((kind, name), name)
+        last_name = open_renames.get((kind, name), name)
         new_name = later.renames.get((kind, last_name), last_name)
         if (kind, last_name) in seen and (kind, new_name) in existing:
             followed[kind, name] = new_name
@@ -83,8 +85,7 @@ def check_declared(inputs: Inputs, now: Snapshot) -> Iterator[Diagnostic]:
         return
     after, before = set(inputs.domain.features(now)), set[ElementKey]()
     if inputs.last.version:
-        with contextlib.suppress(*NO_MODEL):
-            before.update(inputs.domain.features(inputs.last.version.snapshot))
+        before.update(inputs.domain.features(inputs.last.version.snapshot))
     for old, new in robot.renamed.items():
         olds, news = ({kind for kind, name in before if name == word} for word in (old, new))
         kinds = {kind for kind, name in after if name == new}

@@ -16,7 +16,6 @@ import msgspec
 
 from urdfsync import registry
 from urdfsync.config import Config, RobotConfig, templates_folder
-from urdfsync.config.advice import permissive_options
 from urdfsync.config.trust import find_untrusted_command
 from urdfsync.dependencies import depend_on, file_type, is_file, is_folder, mark_incomplete, note_names, read_file
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError, UrdfsyncError
@@ -176,9 +175,8 @@ def _expand(config: Config, robot: RobotConfig, inputs: Inputs, options: BuildOp
 class Beside(Protocol):
     """What a domain says of the file that may stand beside a source; its attribute `beside`."""
 
-    def find(self, source: Path) -> Path:
-        """Return the place of the file beside a source."""
-        ...
+    SUFFIX: str
+    """Its suffix; all else of its path is that of the source."""
 
     def join(self, content: bytes, other: bytes, file: str) -> tuple[bytes, Sequence[tuple[int, int]]]:
         """Return a source with further lines for what the file beside it says, and the numbers of each, here and there.
@@ -190,7 +188,7 @@ class Beside(Protocol):
 
 def _with_file_beside(domain: Domain, source: Path, content: bytes) -> Source:
     """Return a source that may have a file beside it. Raises SourceError."""
-    path = domain.beside and domain.beside.find(source)
+    path = source.with_suffix(domain.beside.SUFFIX) if domain.beside else None
     return joined(domain, content, shown(source), read_file(path) if path and is_file(path) else b"", path)
 
 
@@ -322,9 +320,9 @@ def read(domain: Domain, options: Any, content: bytes, name: str) -> tuple[Snaps
 
 
 def read_permissively(domain: Domain, text: Source) -> tuple[Snapshot, Reading]:
-    """Return what `read` does, of a source outside of a project: the domain advises on its options."""
+    """Return what `read` does, of a source outside of a project."""
     with text.locating():
-        return read(domain, permissive_options(domain), text.content, text.name)
+        return read(domain, domain.permissive_options or domain.options(), text.content, text.name)
 
 
 @functools.lru_cache(maxsize=4)

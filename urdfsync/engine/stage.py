@@ -29,7 +29,7 @@ from urdfsync.files import shown
 from urdfsync.spelling import counted
 from urdfsync.state import bases, expansion, statefile
 from urdfsync.state.notes import Notes, Use
-from urdfsync.state.record import FileRecord, Open, Record
+from urdfsync.state.record import FileRecord, Open, Record, as_recorded
 from urdfsync.state.store import Aside, StateHashes
 from urdfsync.state.transaction import FileChange
 
@@ -181,7 +181,7 @@ def _record(generation: Generation, decision: Decision, settled: Settled) -> Rec
             if files.get(inputs.folder.key(entry.target)) == FileRecord((entry.target_hash,))
             and entry not in old.imports.get(key, ())
         }
-        open_ = Open(generation.now.snapshot, generation.undeclared_renames)
+        open_ = Open(as_recorded(generation.now.snapshot), generation.undeclared_renames)
         settled_texts = {state_of(text).text_sha256 for text in settled.contents.values() if text is not None}
         return msgspec.structs.replace(
             old,
@@ -191,6 +191,7 @@ def _record(generation: Generation, decision: Decision, settled: Settled) -> Rec
             confirmed=old.confirmed | settled_texts,
         )
     files = files_after(decision.actions, inputs.last.files, is_complete=True)
+    is_same = inputs.last.version is not None and inputs.last.version.snapshot == generation.now.snapshot
     new = Record(
         package=inputs.robot.target.package,
         class_=inputs.robot.target.name,
@@ -199,7 +200,7 @@ def _record(generation: Generation, decision: Decision, settled: Settled) -> Rec
         options=option_values(inputs.robot.options),
         renamed=_brought(generation),
         confirmed=_confirmed(generation, decision),
-        snapshot=generation.now.snapshot,
+        snapshot=old.snapshot if is_same else as_recorded(generation.now.snapshot),
         imports={key: (entry,) for key, entry in imports.items()},
         files={key: file for key, file in files.items() if key.startswith(inside)},
     )

@@ -7,15 +7,37 @@ written files.
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, get_args
 
 import msgspec
 
-from urdfsync.domain import ElementKey, Import, Role, Snapshot
+from urdfsync.domain import ElementKey, Import, Role, Snapshot, plain
 
 RESOURCES = "Resources/"
 """The folder of imported files, below the package."""
+
+
+def as_recorded(snapshot: Snapshot) -> dict[str, Any]:
+    """Return a snapshot as states keep it: plain data, lists of named elements as mappings from their names, if any."""
+    data: dict[str, Any] = plain(snapshot)
+    parts = {part: data.pop(part) for part in _named(snapshot.__class__)}
+    return data | {part: {one.pop("name"): one for one in elements} for part, elements in parts.items() if elements}
+
+
+def as_read(data: Mapping[str, Any], model: Any) -> Snapshot:
+    """Return the snapshot that was recorded so. Raises ValueError, TypeError or AttributeError for other data."""
+    parts = {part: data.get(part, {}) for part in _named(model)}
+    lists = {part: [{"name": name, **one[name]} for name in sorted(one)] for part, one in parts.items()}
+    return msgspec.convert({**data, **lists}, model)
+
+
+@functools.cache
+def _named(model: Any) -> tuple[str, ...]:
+    """Return the fields of a struct that are lists of structs with names."""
+    items = {field.encode_name: (*get_args(field.type), None)[0] for field in msgspec.structs.fields(model)}
+    return tuple(name for name, item in items.items() if "name" in getattr(item, "__struct_fields__", ()))
 
 
 class FileRecord(msgspec.Struct, frozen=True):
@@ -58,7 +80,7 @@ class Generator(msgspec.Struct, frozen=True):
 class Open(msgspec.Struct, frozen=True):
     """The model that the last build read, if that build was not complete."""
 
-    seen: Snapshot = {}
+    seen: Mapping[str, Any] = {}
     renamed: Mapping[ElementKey, str] = {}
     """Elements of the last complete build and their names in it, if they were renamed or confirmed by the user."""
 
@@ -75,9 +97,9 @@ class Record(msgspec.Struct, frozen=True, kw_only=True):
     folder: str
     generator: Generator
     options: Mapping[str, Any] = {}
-    """The domain's options in JSON's form, without None."""
-    snapshot: Snapshot | None = None
-    """The model of the last complete build; None if there was none, or if git has left an element twice."""
+    """The domain's options as JSON has them, without those that are None."""
+    snapshot: Mapping[str, Any] | None = None
+    """The model of the last complete build, `as_recorded`; None for none, and if git has left an element twice."""
     renamed: Mapping[str, str] = {}
     """The declared renames that the last complete build has applied: they are not applied again."""
     confirmed: frozenset[str] = frozenset()

@@ -17,7 +17,7 @@ import msgspec
 
 from urdfsync import __version__
 from urdfsync.diagnostics import Diagnostic, Severity, StateError
-from urdfsync.domain import Import, Snapshot
+from urdfsync.domain import Import
 from urdfsync.files import digest
 from urdfsync.state.record import RESOURCES, FileRecord, Generator, Open, Record
 
@@ -81,8 +81,8 @@ def _facts(record: Record) -> Iterator[tuple[str, object]]:
         yield from (("renamed", (*key, name)) for key, name in record.open.renamed.items())
 
 
-def _elements(snapshot: Snapshot) -> Iterator[tuple[Any, ...]]:
-    """Yield each element of a model: its kind, its name and itself; other values without a name."""
+def _elements(snapshot: Mapping[str, Any]) -> Iterator[tuple[Any, ...]]:
+    """Each element of a model: its kind, its name and itself; without a name what is no mapping of elements."""
     for part, value in snapshot.items():
         if isinstance(value, Mapping) and value:
             yield from ((part, name, element) for name, element in value.items())
@@ -181,8 +181,8 @@ def _record(values: Mapping[str, list[Any]], *, is_whole: bool) -> Record:
     )
 
 
-def _snapshot(facts: list[tuple[str, str | None, Any]]) -> Snapshot | None:
-    """Return the model from its elements; None if there are none, or if one stands twice."""
+def _snapshot(facts: list[tuple[str, str | None, Any]]) -> Mapping[str, Any] | None:
+    """Return the model that its elements make; None if there are none, or if one stands twice."""
     elements = {(part, name): element for part, name, element in facts}
     if not facts or len(elements) < len(facts):
         return None

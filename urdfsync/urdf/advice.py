@@ -8,13 +8,12 @@ from typing import get_args
 
 from urdfsync.config.advice import Proposal
 from urdfsync.diagnostics import Diagnostic
-from urdfsync.domain import Snapshot, Target
+from urdfsync.domain import Target
 from urdfsync.urdf.connectors import connector_options
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.names import natural_key
 from urdfsync.urdf.options import LeftOut, Options
 from urdfsync.urdf.robot import Robot
-from urdfsync.urdf.snapshot import from_snapshot
 
 _FOOTPRINT = re.compile(r"base_?footprint", re.IGNORECASE)
 _LIMBS = (
@@ -30,24 +29,19 @@ _LIMBS = (
 _CAMEL = re.compile(r"(?<=[a-z0-9])(?=[A-Z])")
 
 
-def permissive_options() -> Options:
-    """Allow all that can be left out of a model."""
-    return Options(allow=get_args(LeftOut))
-
-
-def propose(snapshot: Snapshot, diagnostics: Sequence[Diagnostic]) -> Sequence[Proposal]:
+def propose(robot: Robot, diagnostics: Sequence[Diagnostic]) -> Sequence[Proposal]:
     """Guess whether the robot is mobile; allow the errors about parts that no model has."""
-    base, codes = guess_base(from_snapshot(snapshot)), {entry.code for entry in diagnostics}
+    base, codes = guess_base(robot), {entry.code for entry in diagnostics}
     if not (needed := [code for code in get_args(LeftOut) if code in codes]):
         return (base,)
     return (base, Proposal("allow", needed, "the model leaves this out, see the warnings"))
 
 
-def option_for(name: str, snapshot: Snapshot, target: Target, options: Options) -> str:
+def option_for(name: str, robot: Robot, target: Target, options: Options) -> str:
     """Return the option that brings the record of the robot, a frame of a link, or a variable of Run."""
     if name == f"{target.name}Parameters" and "record" not in options.approach:
         return 'approach = ["package", "record"]'
-    return connector_options(KinematicTree.of(from_snapshot(snapshot), (target.name,)), options).get(name, "")
+    return connector_options(KinematicTree.of(robot, (target.name,)), options).get(name, "")
 
 
 def guess_base(robot: Robot) -> Proposal:

@@ -1,18 +1,23 @@
-"""The variables of joints in a simulation of a generated robot, and the parameters that limit them."""
+"""How a generated robot is compiled, compared and simulated: its models, its reference, the variables of its joints.
+
+`urdfsync.checks.experiment.Checks` and `urdfsync.simulation.bench.Benches` describe the functions.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
-from urdfsync.domain import Snapshot, Target
+from urdfsync.checks.experiment import Deviation, Experiment, Sample
+from urdfsync.diagnostics import Diagnostic
+from urdfsync.domain import Target
 from urdfsync.simulation.bench import Axis, Bench, LoopSignals, Signal
 from urdfsync.urdf.artifacts import has_bench
+from urdfsync.urdf.artifacts import models as package_models
 from urdfsync.urdf.connectors import connector_names
 from urdfsync.urdf.drives import assembly
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS, MOTIONS, Joint, JointType, Motion, limits_acceleration
-from urdfsync.urdf.snapshot import from_snapshot
+from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS, MOTIONS, Joint, JointType, Motion, Robot, limits_acceleration
 
 _VARIABLES: Mapping[Motion, tuple[str, str, str, str]] = {
     "rotational": ("revolute.phi", "revolute.w", "tau", "revolute.a"),
@@ -32,9 +37,9 @@ _FREEDOMS: Mapping[JointType, int] = {"fixed": 0, "planar": 3, "floating": 6}
 """Degrees of freedom of joints with none or several."""
 
 
-def bench(snapshot: Snapshot, target: Target, options: Options) -> Bench | None:
+def bench(robot: Robot, target: Target, options: Options) -> Bench | None:
     """Return how a robot is simulated: by Test and Run of its package, else by the generic robot with its record."""
-    tree = KinematicTree.of(from_snapshot(snapshot), (target.name,))
+    tree = KinematicTree.of(robot, (target.name,))
     layouts = {"package": _axes(tree, options, assembly(tree, options).dependent), "record": _generic_axes(tree)}
     axes = tuple(tuple(layout) for approach, layout in layouts.items() if approach in options.approach)
     if "package" in options.approach:
@@ -42,10 +47,11 @@ def bench(snapshot: Snapshot, target: Target, options: Options) -> Bench | None:
     return Bench(f"{target.name}Generic", "", axes) if has_bench(tree.joints, options) else None
 
 
-def freedoms(tree: KinematicTree, options: Options) -> int | None:
+def freedoms(robot: Robot, options: Options) -> int | None:
     """Return the degrees of freedom of a robot in its bench; None if there is none."""
-    if "package" not in options.approach and not has_bench(tree.joints, options):
+    if "package" not in options.approach and not has_bench(robot.joints, options):
         return None
+    tree = KinematicTree.of(robot)
     dependent = assembly(tree, options).dependent
     independent = (joint for joint in tree.joints if joint.mimic is None and joint.name not in dependent)
     base = _FREEDOMS["floating"] if options.base == "floating" else 0
@@ -101,3 +107,30 @@ def _acceleration(joint: Joint, variable: str, limits: str) -> Signal | None:
     if not limits_acceleration(joint):
         return None
     return Signal(variable, _UNITS[MOTION_KINDS[joint.type]][3], (f"{limits}.deceleration", f"{limits}.acceleration"))
+
+
+def cross_check(content: bytes, file: str) -> Sequence[Diagnostic]:
+    """Return the differences from the links, joints and poses that yourdfpy reads."""
+    from urdfsync.urdf.parse.second_reader import cross_check  # most of a second, which no build needs
+
+    return cross_check(content, file)
+
+
+def models(robot: Robot, target: Target, options: Options) -> Sequence[str]:
+    """Return the robot, its benches, and the record if there is no robot."""
+    return package_models(robot.joints, target, options)
+
+
+def experiment(sample: Sample, step: float | None = None) -> Experiment | str:
+    """Return the comparison with Pinocchio, or why a robot has none, such as one with planar or floating joints."""
+    from urdfsync.urdf.physics.experiment import experiment  # with numpy, which no build needs
+
+    return experiment(sample, step)
+
+
+def wiring(texts: Mapping[str, bytes], robot: Robot, target: Target, options: Options) -> Iterable[Deviation]:
+    """Look at the connections of Run and Test, which only the package approach has."""
+    from urdfsync.urdf.physics.wiring import wiring  # no build needs it
+
+    tree = KinematicTree.of(robot, (target.name,))
+    return wiring(texts, tree, target, options) if "package" in options.approach else ()

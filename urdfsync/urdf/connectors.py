@@ -81,7 +81,7 @@ def connector_names(tree: KinematicTree, options: Options) -> Connectors:
     driven, drives = assembly(tree, options).driven, {}
     for joint in filter(can_be_driven, tree.joints):
         identifier, motion = tree.joint(joint.name), MOTION_KINDS[joint.type]
-        command = joint.command if joint.name in driven else None
+        command = (joint.command or "position") if joint.name in driven else None
         in_vector = command if options.inputs == "vector" else None
         drives[joint.name] = Drive(
             motion,

@@ -2,27 +2,28 @@
 
 from __future__ import annotations
 
+import importlib
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from types import ModuleType
+from typing import get_args
 
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.domain import Artifact, Conversion, Dependency, Domain, Import, Lookup, Order, Reading, Snapshot, Target
-from urdfsync.urdf import advice, benches, checks, option_names, scene
+from urdfsync.domain import Artifact, Conversion, Dependency, Domain, Import, Lookup, Order, Reading, Target
 from urdfsync.urdf import artifacts as package
-from urdfsync.urdf.diff import effects
+from urdfsync.urdf import option_names
 from urdfsync.urdf.diff.meanings import describe
-from urdfsync.urdf.diff.renames import comparable, find_features
+from urdfsync.urdf.diff.renames import find_features
 from urdfsync.urdf.drives import assembly
 from urdfsync.urdf.kinematics.loops import find_loop_findings
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.meshes import lookup
 from urdfsync.urdf.names import identify
-from urdfsync.urdf.options import Options
-from urdfsync.urdf.parse import beside
+from urdfsync.urdf.options import LeftOut, Options
 from urdfsync.urdf.parse.fields import located
 from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.plausibility import find_implausible
-from urdfsync.urdf.snapshot import from_snapshot, to_snapshot
+from urdfsync.urdf.robot import Robot
 from urdfsync.urdf.unsimulated import find_unsimulated, out_of_scope
 from urdfsync.urdf.validate import ADVICE, Finding, diagnostic
 
@@ -35,14 +36,29 @@ WARNINGS = frozenset(
 )
 
 
+class _Module:
+    """A module of this package that answers further questions: loaded for the first of them, which few builds ask."""
+
+    def __init__(self, name: str) -> None:
+        self._name = f"urdfsync.urdf.{name}"
+
+    def __get__(self, domain: UrdfDomain, owner: type[UrdfDomain]) -> ModuleType:
+        """Return the module."""
+        return importlib.import_module(self._name)
+
+
 class UrdfDomain(Domain):
     """URDF files to Modelica packages of multibody models."""
 
     name = "urdf"
     warnings = WARNINGS
+    model = Robot
     options = Options
-    advice, beside, imports, effects = advice, beside, lookup, effects
-    checks, simulation, pictures = checks, benches, scene
+    permissive_options = Options(allow=get_args(LeftOut))
+    advice, effects, checks = _Module("advice"), _Module("diff.effects"), _Module("benches")
+    beside, imports = _Module("parse.beside"), _Module("meshes.lookup")
+    simulation, pictures = _Module("benches"), _Module("scene")
+    describe = staticmethod(describe)
 
     def uses(self, options: Options) -> Sequence[tuple[str, str]]:
         """Return the Modelica Standard Library, UrdfSync, and the library of the visualizer."""
@@ -70,29 +86,32 @@ class UrdfDomain(Domain):
         if not closed.faults:
             diagnostics += located(find_unsimulated(tree, closed, options), file, lines)
         is_wrong = any(entry.severity is Severity.ERROR for entry in diagnostics)
-        return Reading(None if is_wrong else to_snapshot(robot), diagnostics, lines, tuple(about_options))
+        return Reading(None if is_wrong else robot.by_name(), diagnostics, lines, tuple(about_options))
 
-    def names(self, snapshot: Snapshot, target: Target) -> Mapping[str, Mapping[str, str]]:
+    def names(self, snapshot: Robot, target: Target) -> Mapping[str, Mapping[str, str]]:
         """Return the components of links, joints, and loops if there are any."""
-        kinds = [kind for kind in ("link", "joint", "loop") if f"{kind}s" in snapshot]
-        names = identify([(kind, name) for kind in kinds for name in snapshot[f"{kind}s"]], (target.name,))
-        return {f"{kind}s": {name: names[kind, name].component for name in snapshot[f"{kind}s"]} for kind in kinds}
+        elements = {"link": snapshot.links, "joint": snapshot.joints, "loop": snapshot.loops}
+        names = identify([(kind, one.name) for kind, of_kind in elements.items() for one in of_kind], (target.name,))  # type: ignore[attr-defined]
+        by_kind: dict[str, dict[str, str]] = {}
+        for (kind, name), identifier in names.items():
+            by_kind.setdefault(f"{kind}s", {})[name] = identifier.component
+        return by_kind
 
     def artifacts(
-        self, snapshot: Snapshot, imports: Mapping[str, Import], target: Target, options: Options
+        self, snapshot: Robot, imports: Mapping[str, Import], target: Target, options: Options
     ) -> Sequence[Artifact | Order]:
         """Return the files of both approaches, as the options choose."""
-        return package.artifacts(from_snapshot(snapshot), imports, target, options)
+        return package.artifacts(snapshot, imports, target, options)
 
     def dependencies(
-        self, snapshot: Snapshot, places: Lookup, options: Options, lines: Mapping[str, int]
+        self, snapshot: Robot, places: Lookup, options: Options, lines: Mapping[str, int]
     ) -> Sequence[Dependency]:
         """Return the meshes of the shapes that the package uses."""
         if options.meshes != "import":
             return ()
         has_collisions = options.collisions and ("package" in options.approach or options.base == "floating")
         kinds = ("visual", "collision") if has_collisions else ("visual",)
-        return lookup.dependencies(snapshot["links"], kinds, places, lines, touches=options.base == "floating")
+        return lookup.dependencies(snapshot.links, kinds, places, lines, touches=options.base == "floating")
 
     def convert(self, dependency: Dependency, file: Path, content: bytes, others: Mapping[str, bytes]) -> Conversion:
         """Return a mesh as STL or OBJ, split by its colours, with its bounds and its outermost points."""
@@ -101,12 +120,10 @@ class UrdfDomain(Domain):
         return convert(dependency, file, content, others)
 
     features = staticmethod(find_features)
-    comparable = staticmethod(comparable)
-    describe = staticmethod(describe)
 
     def drawing(
         self,
-        snapshot: Snapshot,
+        snapshot: Robot,
         imports: Mapping[str, Import],  # noqa: ARG002 - the diagram shows no shapes
         target: Target,
         options: Options,
@@ -114,13 +131,13 @@ class UrdfDomain(Domain):
         """Return the diagram of the robot model; only the package approach has one."""
         from urdfsync.urdf.diagram.drawing import draw
 
-        return draw(from_snapshot(snapshot), target, options) if "package" in options.approach else None
+        return draw(snapshot, target, options) if "package" in options.approach else None
 
     def record(
         self, reading: Reading, file: str, target: Target, options: Options
     ) -> tuple[Artifact, Sequence[Diagnostic]]:
         """Return the record of the whole robot, and which joints the generic robot can't move."""
-        robot = from_snapshot(reading.snapshot or {})
+        robot = reading.snapshot
         findings = out_of_scope(KinematicTree.of(robot))
         return package.record(robot, target, options), located(findings, file, reading.lines)
 

@@ -10,10 +10,12 @@ These values refer to each other in one direction only, so Python need not searc
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Mapping
 from typing import Annotated, Literal, NamedTuple, TypeAlias, get_args
 
 import msgspec
+from msgspec.structs import replace
 
 Vector: TypeAlias = tuple[float, float, float]
 
@@ -26,6 +28,7 @@ class Unit(NamedTuple):
     """The unit for a sliding joint, if `name` is the one for a turning joint; other joints have none."""
 
 
+_NAME = operator.attrgetter("name")
 _LENGTH, _ANGLE, _INERTIA = Unit("m"), Unit("rad"), Unit("kg·m²")
 _POSITION, _LOAD, _LOSS = Unit("rad", "m"), Unit("N·m", "N"), Unit("N·m·s/rad", "N·s/m")
 _ACCELERATION = Unit("rad/s²", "m/s²")
@@ -239,14 +242,14 @@ class Joint(msgspec.Struct, frozen=True, gc=False):
     mimic: Mimic | None = None
     calibration: Calibration | None = None
     safety_controller: SafetyController | None = None
-    actuated: bool = False
+    actuated: bool | None = None
     """Whether a `<transmission>`, `<ros2_control>` or plugin of the robot drives it."""
-    measured: bool = False
+    measured: bool | None = None
     """Whether these only measure it."""
     transmission: Transmission | None = None
-    """None without a gear: neither reduction nor offset nor rotor."""
-    command: Command = "position"
-    """Quantity by which the source commands the joint."""
+    """None if there is no gear: neither reduction nor offset nor rotor."""
+    command: Command | None = None
+    """Quantity by which the source commands the joint; None for the position."""
     start: Annotated[float | None, _POSITION] = None
     """Position at which a simulation begins; None: by the limits, see `kinematics.poses.start_positions`."""
 
@@ -285,10 +288,10 @@ def effective(joint: Joint) -> Joint:
     kind = JOINT_KINDS[joint.type]
     limit, dynamics = joint.limit if kind.motion else None, joint.dynamics if kind.has_axis else None
     if limit is not None and not kind.has_limits:
-        limit = msgspec.structs.replace(limit, lower=0.0, upper=0.0)
+        limit = replace(limit, lower=0.0, upper=0.0)
     if dynamics is not None and not kind.motion:
         dynamics = Dynamics(dynamics.damping, dynamics.friction)
-    return msgspec.structs.replace(
+    return replace(
         joint,
         axis=joint.axis if kind.has_axis else (1.0, 0.0, 0.0),
         limit=limit,
@@ -297,7 +300,7 @@ def effective(joint: Joint) -> Joint:
         calibration=joint.calibration if kind.motion else None,
         safety_controller=joint.safety_controller if kind.motion else None,
         transmission=joint.transmission if kind.motion else None,
-        command=joint.command if kind.motion and joint.mimic is None else "position",
+        command=joint.command if kind.motion and joint.mimic is None else None,
         start=joint.start if kind.motion and joint.mimic is None else None,
     )
 
@@ -358,23 +361,18 @@ class Sensor(msgspec.Struct, frozen=True, gc=False):
     """Whether the wrench acts from the parent on the child, not the other way round."""
 
 
-class Extension(msgspec.Struct, frozen=True, gc=False):
-    """An element that urdfsync keeps but does not model: for example transmission, gazebo or sensor.
-
-    `owner` is its parent (`""` for the robot, `link wheel`, `joint elbow`), `text` is its XML in canonical form.
-    """
-
-    owner: str
-    tag: str
-    text: str
-
-
 class Robot(msgspec.Struct, frozen=True, gc=False):
     """A whole robot: links and joints form one tree (see `validate`)."""
 
     name: str
     links: tuple[Link, ...] = ()
     joints: tuple[Joint, ...] = ()
-    extensions: tuple[Extension, ...] = ()
+    extensions: Mapping[str, Mapping[str, tuple[str, ...]]] = {}
+    """Elements that are not modelled, such as `gazebo`, in canonical XML: by place (empty for the robot) and tag."""
     sensors: tuple[Sensor, ...] = ()
     loops: tuple[Loop, ...] = ()
+
+    def by_name(self) -> Robot:
+        """Return the robot with its elements sorted by name, so that their order in the file makes no difference."""
+        kinds = {kind: getattr(self, kind) for kind in ("links", "joints", "sensors", "loops")}
+        return replace(self, **{kind: tuple(sorted(of_kind, key=_NAME)) for kind, of_kind in kinds.items()})

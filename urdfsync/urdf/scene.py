@@ -8,36 +8,29 @@ from typing import Any
 
 import msgspec
 
-from urdfsync.domain import Import, Snapshot, Target
+from urdfsync.domain import Import, Target
 from urdfsync.pages import scene as scenes
-from urdfsync.pages.scene import Body, End, Hinge, Pose, Scene, Shape, Triangles
+from urdfsync.pages.scene import Body, End, Hinge, Pose, Scene, Shape
 from urdfsync.urdf.drives import assembly
 from urdfsync.urdf.kinematics import poses
 from urdfsync.urdf.kinematics.loops import Closure
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.meshes import lookup
+from urdfsync.urdf.meshes.convert import triangles as triangles
 from urdfsync.urdf.model.shapes import link_shapes
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS, Joint, Link, Loop, Mesh, Unit
-from urdfsync.urdf.snapshot import from_snapshot
+from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS, Joint, Link, Loop, Mesh, Robot, Unit
 
 _NO_FACTS = {"bounds": (), "hull": ()}
 """Facts of a mesh that is too large for the package: a picture needs none."""
 
 
-def triangles(path: str, content: bytes, key: str, most: int) -> Triangles | str:
-    """Return the triangles of a mesh, as the process for meshes reads it."""
-    from urdfsync.urdf.meshes.convert import triangles  # 10 ms, which builds do without
-
-    return triangles(path, content, key, most)
-
-
-def scene(snapshot: Snapshot, imports: Mapping[str, Import], target: Target, options: Options) -> Scene:
+def scene(robot: Robot, imports: Mapping[str, Import], target: Target, options: Options) -> Scene:
     """Return the picture of a robot. Shapes whose mesh is not imported are named as missing."""
     imports = {
         key: file if file.facts else msgspec.structs.replace(file, facts=_NO_FACTS) for key, file in imports.items()
     }
-    closed = assembly(KinematicTree.of(from_snapshot(snapshot), (target.name,)), options)
+    closed = assembly(KinematicTree.of(robot, (target.name,)), options)
     tree = closed.tree
     starts = poses.start_positions(tree)
     bodies = tuple(_body(tree, link, imports, target, options) for link in tree.links)

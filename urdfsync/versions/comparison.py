@@ -18,7 +18,6 @@ import msgspec
 from urdfsync import changes, registry
 from urdfsync.changes import Changes, Effect, Effects
 from urdfsync.config import FILE_NAME, Config, RobotConfig
-from urdfsync.config.advice import permissive_options
 from urdfsync.diagnostics import ConfigError, Diagnostic, SourceError, findings_of
 from urdfsync.domain import ChangeClass, Domain, Lookup, Role, Target, Version
 from urdfsync.engine import imports
@@ -131,7 +130,7 @@ def select_sources(
 def robot_of_file(path: Path) -> RobotConfig:
     """Return a robot for a source outside of the configuration, with default settings; it allows left-out parts."""
     name = class_name(path.name.partition(".")[0])
-    options = permissive_options(registry.domain(_DOMAIN))
+    options = registry.domain(_DOMAIN).permissive_options
     return RobotConfig(
         name=path.name,
         source=path,
@@ -270,7 +269,7 @@ def _in_revision(revision: Revision, robot: RobotConfig, config: Config | None) 
         content = revision.read(robot.source)
         if config is None or not source_files.is_xacro(robot.source, content):
             domain = registry.domain(robot.domain)
-            beside = domain.beside and domain.beside.find(robot.source)
+            beside = robot.source.with_suffix(domain.beside.SUFFIX) if domain.beside else None
             other = revision.contents([beside]).get(beside, b"") if beside else b""
             return source_files.joined(domain, content, label, other, beside)
     path = Store(config.root).expansion(robot.name)

@@ -71,7 +71,7 @@ def differing(before: Mapping[str, File], after: Mapping[str, File]) -> Set[str]
 def check(old: Version, new: Version, options: Options) -> None:
     """The class, and the elements with changes, agree with the files that differ."""
     changes, before, after = compare(old, new, DOMAIN, options), render(old, options), render(new, options)
-    [root] = old.snapshot["links"].keys() - {joint["child"] for joint in old.snapshot["joints"].values()}
+    [root] = {link.name for link in old.snapshot.links} - {joint.child for joint in old.snapshot.joints}
     found = [file for path in differing(before, after) for file in (before.get(path), after.get(path)) if file]
     roles = {file.role for file in found}
     listed = [f"{change.change_class}: {change}" for change in changes.changes]

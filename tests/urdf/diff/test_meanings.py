@@ -14,10 +14,11 @@ from support.packages import read
 
 from urdfsync.changes import Change, compare
 from urdfsync.domain import ChangeClass, ChangeKind, Import, Version
+from urdfsync.state.record import as_read, as_recorded
 from urdfsync.urdf.domain import DOMAIN
 from urdfsync.urdf.meshes import lookup
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import Mesh
+from urdfsync.urdf.robot import Mesh, Robot
 
 NONE, UNMODELLED, PARAMETER, STRUCTURAL = list(ChangeClass)[:4]
 ADDED, REMOVED, CHANGED = list(ChangeKind)[:3]
@@ -64,10 +65,9 @@ def import_(content: str, hull: bool = True) -> Import:
 
 
 def version(edit: Callable[[Data], object] = lambda _: None, found: Import | None = None) -> Version:
-    snapshot = read(ROBOT.encode()).snapshot
-    data = json.loads(json.dumps(snapshot))
+    data = as_recorded(read(ROBOT.encode()).snapshot)
     edit(data)
-    return Version(data, {MESH: found} if found else {})
+    return Version(as_read(data, Robot), {MESH: found} if found else {})
 
 
 def changes(edit: Callable[[Data], object], options: Options = FIXED) -> list[Change]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 from collections.abc import Mapping
 from random import Random
+from typing import Any
 
 import msgspec
 import pytest
@@ -13,18 +14,27 @@ from hypothesis import strategies as st
 from support import mutations
 
 from urdfsync.changes import compare
-from urdfsync.domain import ChangeKind, ElementKey, Snapshot, Version
-from urdfsync.engine import renames
+from urdfsync.domain import ChangeKind, ElementKey, Version
+from urdfsync.engine.renames import find_matching
 from urdfsync.matching import match
-from urdfsync.urdf.diff.renames import comparable, find_features
+from urdfsync.state.record import as_read
+from urdfsync.urdf.diff import renames
+from urdfsync.urdf.diff.renames import find_features
 from urdfsync.urdf.domain import DOMAIN
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Inertial, Joint, Link, Loop, Mimic, Origin, Robot
-from urdfsync.urdf.snapshot import to_snapshot
 
 
-def find_renames(old: Snapshot, new: Snapshot) -> Mapping[ElementKey, str]:
-    return match(find_features(old), find_features(new)).renames
+def model(data: mutations.Data) -> Robot:
+    return as_read(data, Robot)  # type: ignore[no-any-return]
+
+
+def find_renames(old: mutations.Data, new: mutations.Data) -> Mapping[ElementKey, str]:
+    return match(find_features(model(old)), find_features(model(new))).renames
+
+
+def comparable(old: mutations.Data, names: Mapping[ElementKey, str]) -> Mapping[str, Any]:
+    return renames.comparable(model(old), Robot(""), names)[0]
 
 
 def link(name: str, mass: float = 0.0) -> Link:
@@ -35,11 +45,11 @@ def joint(name: str, parent: str, child: str, x: float = 0.0, mimic: str = "") -
     return Joint(name, "continuous", parent, child, Origin((x, 0.0, 0.0)), mimic=Mimic(mimic) if mimic else None)
 
 
-def snapshot(*elements: Link | Joint | Loop) -> Snapshot:
+def snapshot(*elements: Link | Joint | Loop) -> mutations.Data:
     links = tuple(element for element in elements if isinstance(element, Link))
     joints = tuple(element for element in elements if isinstance(element, Joint))
     loops = tuple(element for element in elements if isinstance(element, Loop))
-    return to_snapshot(Robot("robot", links, joints, loops=loops))
+    return mutations.recorded(Robot("robot", links, joints, loops=loops))
 
 
 ARM = (
@@ -55,9 +65,9 @@ def loop(name: str, parent: str, child: str) -> Loop:
     return Loop(name, "ball", parent, child)
 
 
-def with_names(old: Snapshot, new: Mapping[ElementKey, str]) -> Snapshot:
+def with_names(old: mutations.Data, new: Mapping[ElementKey, str]) -> mutations.Data:
     """The snapshot under new names, by an implementation of its own."""
-    data = copy.deepcopy(dict(old))
+    data = copy.deepcopy(old)
     for part in ("links", "joints"):
         targets = {name: new.get((part[:-1], name), name) for name in data[part]}
         for name in targets:
@@ -82,11 +92,11 @@ def test_links_joints_subtrees_and_whole_robots(names: Mapping[ElementKey, str])
     recognised = find_renames(old, new)
     assert recognised == names
     assert list(recognised) == sorted(names, key=lambda element: (element[0] != "link", element[1])), "links come first"
-    found = compare(Version(old), Version(new), DOMAIN, Options())
+    found = compare(Version(model(old)), Version(model(new)), DOMAIN, Options())
     assert {change.kind for change in found.changes} == {ChangeKind.RENAMED}
 
 
-def legs(*names: str, foot: Mapping[str, float] | None = None) -> Snapshot:
+def legs(*names: str, foot: Mapping[str, float] | None = None) -> mutations.Data:
     """A trunk with equal legs, unless their feet weigh differently."""
     elements: list[Link | Joint] = [link("trunk", 9)]
     for name in names:
@@ -106,7 +116,7 @@ FINGERS = snapshot(*PALM[:3], joint("one", "palm", "a"), joint("two", "palm", "b
 FIRST_AND_SECOND = {("joint", "one"): "first", ("joint", "two"): "second"}
 
 
-def followers(first: str, second: str, third: str, last: str, leader: str) -> Snapshot:
+def followers(first: str, second: str, third: str, last: str, leader: str) -> mutations.Data:
     """Four fingers; the third one follows one of the first two, and the last one the third."""
     return snapshot(
         *PALM,
@@ -117,7 +127,7 @@ def followers(first: str, second: str, third: str, last: str, leader: str) -> Sn
     )
 
 
-def arm(upper: str, mass: float, *more: Link | Joint, base: str = "base", base_mass: float = 1.0) -> Snapshot:
+def arm(upper: str, mass: float, *more: Link | Joint, base: str = "base", base_mass: float = 1.0) -> mutations.Data:
     """The arm with another upper link, and perhaps another base."""
     joints = joint("shoulder", base, upper), joint("elbow", upper, "lower")
     return snapshot(link(base, base_mass), link(upper, mass), ARM[2], *joints, *more)
@@ -127,7 +137,7 @@ OLD = snapshot(*ARM)
 SWAPPED = {("link", "lower"): "upper", ("link", "upper"): "lower"}
 TAKEN = {("link", "lower"): "hand", ("link", "upper"): "lower"}
 WAS_FOOT = snapshot(*ARM, link("foot", 7), joint("heel", "base", "foot"))
-CASES: dict[str, tuple[Snapshot, Snapshot, Mapping[ElementKey, str]]] = {
+CASES: dict[str, tuple[mutations.Data, mutations.Data, Mapping[ElementKey, str]]] = {
     "another mass": (OLD, arm("arm", 2.5), {("link", "upper"): "arm"}),
     "another mass, and a new link that looks as it did": (
         OLD,
@@ -171,7 +181,7 @@ CASES: dict[str, tuple[Snapshot, Snapshot, Mapping[ElementKey, str]]] = {
 
 
 @pytest.mark.parametrize(("old", "new", "names"), CASES.values(), ids=CASES)
-def test_what_is_certain_is_a_rename(old: Snapshot, new: Snapshot, names: Mapping[ElementKey, str]) -> None:
+def test_what_is_certain_is_a_rename(old: mutations.Data, new: mutations.Data, names: Mapping[ElementKey, str]) -> None:
     assert find_renames(old, new) == names
 
 
@@ -213,9 +223,8 @@ def test_the_only_loop_between_two_links_is_the_same(
 def test_what_is_recognised_is_true(random: Random, others: int) -> None:
     """Fresh names for some elements, some of them declared, and other changes beside: no match is ever wrong."""
     old = mutations.version(random)
-    edited = dict(old.snapshot)
+    edited = mutations.recorded(old.snapshot)
     if others and random.random() < 0.5:
-        edited = copy.deepcopy(edited)
         for _ in range(others):
             mutations.MUTATIONS[0](edited, random)
     names = {
@@ -225,9 +234,9 @@ def test_what_is_recognised_is_true(random: Random, others: int) -> None:
         if random.random() < 0.6
     }
     new = with_names(edited, names)
-    assert find_renames(old.snapshot, new).items() <= names.items()
+    assert find_renames(mutations.recorded(old.snapshot), new).items() <= names.items()
     declared = {name: renamed for (_, name), renamed in names.items() if random.random() < 0.3}
-    found = renames.find_matching(DOMAIN, old.snapshot, new, declared).renames
+    found = find_matching(DOMAIN, old.snapshot, model(new), declared).renames
     assert {key: renamed for key, renamed in names.items() if key[1] in declared}.items() <= found.items()
     assert found.items() <= names.items()
 

@@ -13,7 +13,6 @@ from hypothesis import strategies as st
 from urdfsync.domain import Lookup
 from urdfsync.urdf.meshes.lookup import as_is, candidates, dependencies, key, mesh, target
 from urdfsync.urdf.robot import Box, Collision, Link, Mesh, Robot, Visual
-from urdfsync.urdf.snapshot import to_snapshot
 
 LOOKUP = Lookup(Path("/ws/src/arm/urdf/arm.urdf"), (Path("/opt/robots"), Path("/opt/gripper")))
 
@@ -174,7 +173,7 @@ def test_each_mesh_is_a_dependency_once_with_its_first_line() -> None:
         "link l1 / visual 2 / geometry": 7,
         "link l1": 20,
     }
-    links = to_snapshot(_robot((base, wheel), (base, scaled)))["links"]
+    links = _robot((base, wheel), (base, scaled)).links
     found = dependencies(links, ("visual", "collision"), LOOKUP, lines, touches=True)
     assert [(d.key, d.uri, d.line) for d in found] == [
         ("base.dae scale 1.0 1.0 1.0", "base.dae", 7),

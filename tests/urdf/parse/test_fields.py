@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import get_args
 
 import pytest
+from support.robots import robot_extensions
 from support.urdfs import joint, link, robot
 
 from urdfsync.diagnostics import Diagnostic, Severity
@@ -103,7 +104,7 @@ def test_what_a_model_leaves_out_is_told(elements: str, message: str) -> None:
 def extensions(element: str) -> list[tuple[str, str]]:
     reading = read_robot(robot(*TREE, element).encode(), "a.urdf")
     assert reading.robot is not None
-    return [(extension.owner, extension.text) for extension in reading.robot.extensions]
+    return [(owner, text) for owner, _, text in robot_extensions(reading.robot)]
 
 
 IN_ARM = '<gazebo reference="arm">{}</gazebo>'

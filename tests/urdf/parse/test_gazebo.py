@@ -6,6 +6,7 @@ What else changes the motion of a robot in Gazebo has a warning that says so.
 from __future__ import annotations
 
 import pytest
+from support.robots import robot_extensions
 from support.urdfs import joint, link, robot
 
 from urdfsync.urdf.parse.source import read_robot
@@ -38,16 +39,16 @@ def read(*elements: str, inside: str = "") -> Robot:
 def test_the_forms_of_gazebo(inner: str) -> None:
     found = read(gazebo(inner))
     assert found.links[0].contact == ALL
-    assert found.extensions == ()
+    assert found.extensions == {}
 
 
 def test_the_forms_of_bullet() -> None:
     bullet = '<contact><lateral_friction value="0.9"/><stiffness value="2e4"/><damping value="7"/>{}</contact>'
     found = read(inside=bullet.format(""))
-    assert (found.links[0].contact, found.extensions) == (Contact(mu=0.9, kp=2e4, kd=7.0), ())
+    assert (found.links[0].contact, found.extensions) == (Contact(mu=0.9, kp=2e4, kd=7.0), {})
     found = read(inside=bullet.format('<rolling_friction value="0"/>'))
     assert found.links[0].contact == Contact(mu=0.9, kp=2e4, kd=7.0)
-    assert [(one.owner, one.text) for one in found.extensions] == [
+    assert [(owner, text) for owner, _, text in robot_extensions(found)] == [
         ("link foot", '<rolling_friction value="0"></rolling_friction>')
     ]
 
@@ -65,7 +66,7 @@ def test_the_first_number_counts_and_all_else_is_kept() -> None:
     ]
     assert found is not None
     assert found.links[0].contact == Contact(mu=3.0, kp=1.0)
-    assert [(one.owner, one.text) for one in found.extensions] == [
+    assert [(owner, text) for owner, _, text in robot_extensions(found)] == [
         ("gazebo foot", "<material>a</material>"),
         ("gazebo foot", "<mu2>9</mu2>"),
         ("gazebo x", "<mu1>4</mu1>"),

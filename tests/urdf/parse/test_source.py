@@ -8,6 +8,7 @@ import math
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from support.robots import robot_extensions
 
 from urdfsync.diagnostics import Severity
 from urdfsync.urdf.parse.fields import parse_numbers
@@ -18,7 +19,6 @@ from urdfsync.urdf.robot import (
     Collision,
     Cylinder,
     Dynamics,
-    Extension,
     Inertia,
     Inertial,
     Joint,
@@ -124,8 +124,8 @@ def test_a_whole_robot() -> None:
         calibration=Calibration(rising=0.1),
         safety_controller=SafetyController(1.0, 2.0, -0.9, 0.9),
     )
-    note = Extension("", "q:note", "<q:note>a &lt; b</q:note>")
-    assert robot_of(ARM) == Robot("arm", (Link("base"), arm), (turn,), (note,))
+    note = {"": {"q:note": ("<q:note>a &lt; b</q:note>",)}}
+    assert robot_of(ARM) == Robot("arm", (Link("base"), arm), (turn,), note)
 
 
 def test_lines_of_elements() -> None:
@@ -184,10 +184,10 @@ def test_undeclared_prefixes_are_tolerated() -> None:
     reading = read(text)
     assert reading.diagnostics == ()
     assert reading.robot is not None
-    assert [e.text for e in reading.robot.extensions] == [
-        "<q:note>a &lt; b</q:note>",
-        '<q:b p:z="1"></q:b>',
+    assert [text for *_, text in robot_extensions(reading.robot)] == [
         "<p:c></p:c>",
+        '<q:b p:z="1"></q:b>',
+        "<q:note>a &lt; b</q:note>",
     ]
     assert reading.robot.links == robot_of(ARM).links
 
@@ -442,14 +442,14 @@ def test_extensions_are_kept_with_their_place_in_canonical_form() -> None:
       <transmission name="t"><type> simple </type></transmission>
       <drake:filter/><q xmlns:p="u" p:b="2" p:a="1"/>one text<a> b <c/> d </a>and another
     </robot>"""
-    assert robot_of(text).extensions == (
-        Extension("", "transmission", '<transmission name="t"><type>simple</type></transmission>'),
-        Extension("", "drake:filter", "<drake:filter></drake:filter>"),
-        Extension("", "q", '<q p:a="1" p:b="2" xmlns:p="u"></q>'),
-        Extension("", "a", "<a>b<c></c>d</a>"),
-        Extension("link a", "surface", "<surface></surface>"),
-        Extension("link a", "touch", '<touch a="&lt;1&gt;" b="2"><stiffness value="3"></stiffness></touch>'),
-    )
+    assert robot_extensions(robot_of(text)) == [
+        ("", "a", "<a>b<c></c>d</a>"),
+        ("", "drake:filter", "<drake:filter></drake:filter>"),
+        ("", "q", '<q p:a="1" p:b="2" xmlns:p="u"></q>'),
+        ("", "transmission", '<transmission name="t"><type>simple</type></transmission>'),
+        ("link a", "surface", "<surface></surface>"),
+        ("link a", "touch", '<touch a="&lt;1&gt;" b="2"><stiffness value="3"></stiffness></touch>'),
+    ]
 
 
 @pytest.mark.parametrize(
@@ -458,7 +458,7 @@ def test_extensions_are_kept_with_their_place_in_canonical_form() -> None:
 def test_an_element_with_faulty_namespaces_is_kept(element: str) -> None:
     robot = read(f'<robot name="r"><link name="a"/>{element}<z/></robot>').robot
     assert robot is not None
-    assert [extension.text for extension in robot.extensions] == [element, "<z></z>"]
+    assert [text for *_, text in robot_extensions(robot)] == [element, "<z></z>"]
 
 
 NUMBERS = {

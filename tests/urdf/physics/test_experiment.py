@@ -71,7 +71,7 @@ def test_what_is_made_up_is_said_and_read_by_both_sides() -> None:
     )
     reading = DOMAIN.read(one.content, "robot.urdf", Options())
     assert reading.snapshot is not None
-    assert reading.snapshot["links"]["arm"]["inertial"]["mass"] > 0
+    assert next(link.inertial.mass for link in reading.snapshot.links if link.name == "arm") > 0
 
 
 def test_a_source_that_can_not_be_read_says_what_is_wrong() -> None:

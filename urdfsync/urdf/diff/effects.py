@@ -14,7 +14,6 @@ from urdfsync.urdf.kinematics.poses import compose, link_poses, pose
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Vector
-from urdfsync.urdf.snapshot import from_snapshot
 
 _JUMP = 9.99
 """Ratio of two masses that is likely a mistake: a factor of 10, less rounding."""
@@ -35,7 +34,7 @@ def effects(old: Version, new: Version) -> Sequence[Effect]:
 
     The centre is in metres, in the frame of the root link, with all joints at zero; None without mass.
     """
-    before, after = (KinematicTree.of(from_snapshot(snapshot)) for snapshot in (old.snapshot, new.snapshot))
+    before, after = (KinematicTree.of(version.snapshot) for version in (old, new))
     (old_mass, old_centre), (new_mass, new_centre) = _mass(before), _mass(after)
     return [
         Effect(("robot", "mass"), old_mass, new_mass, "kg"),
@@ -61,12 +60,12 @@ def _mass(tree: KinematicTree) -> tuple[float, Vector | None]:
 
 def find_doubtful(old: Version, new: Version, renames: Mapping[ElementKey, str]) -> Iterator[tuple[str, Diagnostic]]:
     """Yield one warning, at the first of all links that have ten times their mass, or a tenth of it."""
-    before = {renames.get(("link", name), name): link for name, link in old.snapshot["links"].items()}
+    before = {renames.get(("link", link.name), link.name): link.inertial for link in old.snapshot.links}
     jumps = []
-    for name, link in new.snapshot["links"].items():
-        mass, new_mass = (snapshot.get("inertial", {}).get("mass", 0.0) for snapshot in (before.get(name, {}), link))
+    for link in new.snapshot.links:
+        mass, new_mass = (part.mass if part else 0.0 for part in (before.get(link.name), link.inertial))
         if min(mass, new_mass) > 0 and max(mass, new_mass) >= _JUMP * min(mass, new_mass):
-            jumps.append((f"link {name}", f"{mass:g} kg → {new_mass:g} kg"))
+            jumps.append((f"link {link.name}", f"{mass:g} kg → {new_mass:g} kg"))
     if jumps:
         path, change = jumps[0]
         more = f" (and {len(jumps) - 1} more like it)" if len(jumps) > 1 else ""
@@ -88,7 +87,7 @@ def interface(
     if "package" not in options.approach:
         hint = brings_back('approach = ["package", "record"]')
         return [Effect(("robot", "model"), target.name, None, hint=hint)]
-    before, after = (KinematicTree.of(from_snapshot(version.snapshot), (target.name,)) for version in (old, new))
+    before, after = (KinematicTree.of(version.snapshot, (target.name,)) for version in (old, new))
     old_connectors, connectors = connector_names(before, earlier), connector_names(after, options)
     new_names, all_names = _names(connectors, options), _names(every_connector(after, options), options)
     all_names["robot", "", _INPUT] = input_vector(connectors)

@@ -7,20 +7,21 @@ differ then, a parameter if only data of records do, and else unmodelled.
 from __future__ import annotations
 
 import functools
-from collections.abc import Mapping, Sequence
-from typing import Any, TypeAlias
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, NamedTuple, TypeAlias
 
 import msgspec
 
-from urdfsync.domain import ChangeClass, ChangeKind, Difference, Import, Meaning, Version
+from urdfsync.changes import Change, Difference, find_differences
+from urdfsync.domain import ChangeClass, ChangeKind, ElementKey, Import, Version
 from urdfsync.urdf import robot
+from urdfsync.urdf.diff.renames import comparable, renamed
 from urdfsync.urdf.drives import can_be_driven, wanted_joints
 from urdfsync.urdf.meshes import lookup
 from urdfsync.urdf.model.joint import joint_model
 from urdfsync.urdf.model.shapes import link_model, link_shapes, touching
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import MOTION_KINDS, Collision, Joint, Link, Mesh, Unit, Visual, effective, structure
-from urdfsync.urdf.snapshot import joints_of
 
 _Fields: TypeAlias = Sequence[str | int]
 
@@ -31,51 +32,67 @@ _UNSCALED = lookup.key(Mesh(""))
 """End of the key of a mesh without a scale."""
 
 
-def describe(
-    differences: Sequence[Difference], old: Version, new: Version, options: Options
-) -> Sequence[Meaning | None]:
-    """Return the meaning of each difference of two comparable versions; None for one that another explains."""
-    return [_describe(difference, old, new, options) for difference in differences]
+class _Side(NamedTuple):
+    """One version, under the names of the new one."""
+
+    links: Mapping[str, Link]
+    joints: Mapping[str, Joint]
+    imports: Mapping[str, Import] | None
 
 
-def _describe(difference: Difference, old: Version, new: Version, options: Options) -> Meaning | None:
+def describe(old: Version, new: Version, renames: Mapping[ElementKey, str], options: Options) -> Iterator[Change]:
+    """Yield the changes of robots, but for those that others explain."""
+    sides = [
+        _Side({link.name: link for link in robot.links}, {joint.name: joint for joint in robot.joints}, imports)
+        for robot, imports in ((renamed(old.snapshot, renames), old.imports), (new.snapshot, new.imports))
+    ]
+    for difference in find_differences(old, new, *comparable(old.snapshot, new.snapshot, renames)):
+        if change := _describe(difference, sides[0], sides[1], options):
+            yield change
+
+
+def _describe(difference: Difference, old: _Side, new: _Side, options: Options) -> Change | None:
     match difference.path:
         case ("imports", str(key)):
-            return _of_import(key, old, new, options)
+            return _of_import(difference, key, old, new, options)
         case ("links" | "joints" as part, str(name)):
-            return Meaning((f"{part[:-1]} {name}",), ChangeClass.STRUCTURAL)
+            return difference.change((f"{part[:-1]} {name}",), ChangeClass.STRUCTURAL)
         case ("links", str(name), *fields):
             words = [f"link {name}", *fields]
             if fields[0] in _SHAPES and len(fields) > 1:  # visuals[0] is `visual 1`
                 words[1:3] = [f"{str(fields[0])[:-1]} {int(fields[1]) + 1}"]
-            return Meaning(_path(words), _reach(Link, difference, old, new, options), _unit(fields))
+            return difference.change(
+                _path(words), _reach(old.links[name], new.links[name], difference, old, new, options), _unit(fields)
+            )
         case ("joints", str(name), "drive"):
             # A drive that comes or goes follows from type or mimic, which is another difference. With the option
             # `driven`, the source does not decide it.
             by_source = options.driven is None and "package" in options.approach
             is_change = by_source and difference.kind is ChangeKind.CHANGED
-            return Meaning((f"joint {name}", "drive"), ChangeClass.STRUCTURAL) if is_change else None
+            return difference.change((f"joint {name}", "drive"), ChangeClass.STRUCTURAL) if is_change else None
         case ("joints", str(name), "command"):
-            driven = (name in wanted_joints(joints_of(version.snapshot["joints"]), options) for version in (old, new))
+            driven = (name in wanted_joints(side.joints.values(), options) for side in (old, new))
             reach = ChangeClass.STRUCTURAL if any(driven) else ChangeClass.UNMODELLED
-            return Meaning((f"joint {name}", "command"), reach)
+            return difference.change((f"joint {name}", "command"), reach)
         case ("joints", str(name), *fields):
             units = [
-                _joint_unit(name, version.snapshot["joints"], fields)
-                for version, value in ((old, difference.old), (new, difference.new))
+                _joint_unit(name, side.joints, fields)
+                for side, value in ((old, difference.old), (new, difference.new))
                 if value is not None
             ]
-            reach = _reach(Joint, difference, old, new, options)
-            return Meaning(_path([f"joint {name}", *fields]), reach, " → ".join(dict.fromkeys(filter(None, units))))
+            reach = _reach(old.joints[name], new.joints[name], difference, old, new, options)
+            return difference.change(
+                _path([f"joint {name}", *fields]), reach, " → ".join(dict.fromkeys(filter(None, units)))
+            )
         case ("sensors" | "loops" as part, str(name), *fields):
             is_structural = not fields or fields[0] in _STRUCTURE
             reach = ChangeClass.STRUCTURAL if is_structural else ChangeClass.PARAMETER
             if part == "sensors" and "package" not in options.approach:
                 reach = ChangeClass.UNMODELLED
-            return Meaning(_path([f"{part[:-1]} {name}", *fields]), reach, _unit(fields))
+            return difference.change(_path([f"{part[:-1]} {name}", *fields]), reach, _unit(fields))
         case ("extensions", str(owner), *fields):
-            return Meaning(_path([owner or "robot", *(fields or ["extensions"])]), ChangeClass.UNMODELLED)
-    return Meaning(_path(["robot", *difference.path]), ChangeClass.PARAMETER)
+            return difference.change(_path([owner or "robot", *(fields or ["extensions"])]), ChangeClass.UNMODELLED)
+    return difference.change(_path(["robot", *difference.path]), ChangeClass.PARAMETER)
 
 
 def _path(words: _Fields) -> tuple[str, ...]:
@@ -110,30 +127,29 @@ def _unit(fields: _Fields, motion: str | None = None) -> str:
     return unit.sliding if unit.sliding is not None and motion == "translational" else unit.name
 
 
-def _joint_unit(name: str, joints: Mapping[str, Any], fields: _Fields) -> str:
-    """Return the unit of a joint's number. `joints` are all joints of the version: a multiplier depends on its leader.
+def _joint_unit(name: str, joints: Mapping[str, Joint], fields: _Fields) -> str:
+    """Return the unit of a number of a joint; `joints` are all of the version: a multiplier depends on its leader.
 
     Losses of a planar joint have no unit: one number stands for sliding and turning.
     """
-    motion = MOTION_KINDS.get(joints[name]["type"])
-    if fields[-1] != "multiplier":
+    motion, mimic = MOTION_KINDS.get(joints[name].type), joints[name].mimic
+    if mimic is None or fields[-1] != "multiplier":
         return _unit(fields, motion)
-    leader = MOTION_KINDS.get(joints[joints[name]["mimic"]["joint"]]["type"])
+    leader = MOTION_KINDS.get(joints[mimic.joint].type)
     if motion is None or leader is None or motion == leader:
         return ""
     return "m/rad" if motion == "translational" else "rad/m"
 
 
 def _reach(
-    kind: type[Link | Joint], difference: Difference, old: Version, new: Version, options: Options
+    before: Link | Joint, after: Link | Joint, difference: Difference, old: _Side, new: _Side, options: Options
 ) -> ChangeClass:
-    """Return how far a change inside of a link or joint reaches, by an exchange of this value alone."""
-    part, name, *fields = difference.path
+    """Return how far a change inside of a link or joint reaches, by exchanging this value alone."""
+    fields = list(difference.path[2:])
     if fields[0] == "contact":  # as a whole: its entries have other names than the fields of `Contact`
         fields = ["contact"]
-    before, after = (msgspec.convert({"name": name, **v.snapshot[str(part)][name]}, kind) for v in (old, new))
     imports = None
-    if kind is Link and old.imports is not None and new.imports is not None:
+    if isinstance(before, Link) and old.imports is not None and new.imports is not None:
         imports = {**new.imports, **old.imports}
     reaches = []
     for element, other in ((before, after), (after, before)):
@@ -178,20 +194,20 @@ def _mesh_keys(link: Link) -> set[str]:
     return {lookup.key(shape.geometry) for shape in shapes if isinstance(shape.geometry, Mesh)}
 
 
-def _of_import(key: str, old: Version, new: Version, options: Options) -> Meaning | None:
-    """Return the meaning of a changed content of a mesh; None if no link has it in both versions.
+def _of_import(difference: Difference, key: str, old: _Side, new: _Side, options: Options) -> Change | None:
+    """Return the change to another content of a mesh; None if no link has it in both versions.
 
     A further file of a mesh belongs to its first one.
     """
     imports = {name: file for name, file in (old.imports or {}).items() if not name.startswith(key)}
     imports |= {name: file for name, file in (new.imports or {}).items() if name.startswith(key)}
     models = []
-    for name in old.snapshot["links"].keys() & new.snapshot["links"].keys():
-        link, new_link = (msgspec.convert({"name": name, **v.snapshot["links"][name]}, Link) for v in (old, new))
+    for name in old.links.keys() & new.links.keys():
+        link, new_link = old.links[name], new.links[name]
         if key in _mesh_keys(link) & _mesh_keys(new_link):
             models.append((_data(link, old.imports, options)[0], _data(link, imports, options)[0]))
     if not models:
         return None
     is_structural = any(model != new_model for model, new_model in models)
     words = f"mesh {key.removesuffix(_UNSCALED)}", "content"
-    return Meaning(words, ChangeClass.STRUCTURAL if is_structural else ChangeClass.PARAMETER)
+    return difference.change(words, ChangeClass.STRUCTURAL if is_structural else ChangeClass.PARAMETER)

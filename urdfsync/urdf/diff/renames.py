@@ -1,39 +1,52 @@
-"""Features by which links, joints and loops are found again, and snapshots under new names."""
+"""What links, joints and loops are found again by, and robots under new names."""
 
 from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import Any, TypeAlias
 
-from urdfsync.domain import ElementKey, Features, Snapshot, displaced
+from msgspec import to_builtins
+from msgspec.structs import replace
+
+from urdfsync.domain import ElementKey, Features, displaced, plain
 from urdfsync.urdf.drives import can_be_driven, passive_joints
-from urdfsync.urdf.snapshot import joints_of
+from urdfsync.urdf.robot import Collision, Mesh, Robot, Visual
 
-_NAMES = frozenset({"parent", "child", "joint", "actuated", "measured", "drive", "transmission", "command", "start"})
-"""Entries of joints and loops that are names, or follow from names, such as in the configuration."""
+_NAMES = frozenset(
+    {"name", "parent", "child", "joint", "actuated", "measured", "drive", "transmission", "command", "start"}
+)
+"""Entries of joints and loops that are names, or follow from names elsewhere, such as those of the configuration."""
+_Said: TypeAlias = tuple[Any, Mapping[str, str]]
+"""An element, and what else is said of it."""
+_KINDS = ("links", "joints", "sensors", "loops")
+_ENDS = {"parent": "link", "child": "link", "joint": "joint"}
+"""Fields that name another element, and its kind."""
+_LEFT_OUT = frozenset({"name", "actuated", "measured"})
 _PLACE = frozenset({"type", "kind", "origin", "child_origin", "axis", "child_axis"})
 
 
-def find_features(snapshot: Snapshot) -> Mapping[ElementKey, Features]:
+def find_features(snapshot: Robot) -> Mapping[ElementKey, Features]:
     """Return contents and neighbours of links, joints and loops."""
     features = dict[ElementKey, Features]()
-    leading = {joint["child"]: name for name, joint in snapshot["joints"].items()}
-    for name, link in snapshot["links"].items():
-        contents = {word: link[key] for key, word in (("inertial", "mass"), ("contact", "contact")) if key in link}
-        shapes = [shape for kind in ("visuals", "collisions") for shape in link[kind]]
-        if shapes:
-            contents["shape"] = [_without_names(shape) for shape in shapes]
-        files = tuple(shape["geometry"]["filename"] for shape in shapes if "filename" in shape["geometry"])
-        neighbours = {"joint": ("joint", leading[name])} if name in leading else {}
-        features["link", name] = Features(contents, neighbours, files)
-    for kind in ("joint", "loop"):
-        for name, joint in snapshot.get(f"{kind}s", {}).items():
-            contents = {"position": {key: value for key, value in joint.items() if key in _PLACE}}
-            more = {key: _without_names(joint[key]) for key in joint.keys() - _PLACE - _NAMES}
+    leading = {joint.child: joint.name for joint in snapshot.joints}
+    for link in snapshot.links:
+        shapes: tuple[Visual | Collision, ...] = (*link.visuals, *link.collisions)
+        contents = {"mass": to_builtins(link.inertial), "contact": to_builtins(link.contact)}
+        contents["shape"] = [_without_names(to_builtins(shape)) for shape in shapes]
+        contents = {aspect: content for aspect, content in contents.items() if content}
+        files = tuple(shape.geometry.filename for shape in shapes if isinstance(shape.geometry, Mesh))
+        neighbours = {"joint": ("joint", leading[link.name])} if link.name in leading else {}
+        features["link", link.name] = Features(contents, neighbours, files)
+    for kind, elements in (("joint", snapshot.joints), ("loop", snapshot.loops)):
+        for element in elements:
+            data = {key: value for key, value in to_builtins(element).items() if value is not None}
+            contents = {"position": {key: value for key, value in data.items() if key in _PLACE}}
+            more = {key: _without_names(data[key]) for key in data.keys() - _PLACE - _NAMES}
             contents |= {"limits": more} if more else {}
-            features[kind, name] = Features(contents, {end: ("link", joint[end]) for end in ("child", "parent")})
+            ends: dict[str, ElementKey] = {"child": ("link", element.child), "parent": ("link", element.parent)}
+            features[kind, element.name] = Features(contents, ends)
     return features
 
 
@@ -43,54 +56,75 @@ def _without_names(value: Any) -> Any:
     return value
 
 
-def comparable(snapshot: Snapshot, renames: Mapping[ElementKey, str]) -> Snapshot:
-    """Return the snapshot with these links, joints and loops renamed everywhere, and extensions keyed.
+def renamed(robot: Robot, renames: Mapping[ElementKey, str]) -> Robot:
+    """Return the robot with other names of links, joints and loops, and without `displaced` ones."""
+    gone = displaced(renames)
+
+    def new(kind: str, name: str) -> str:
+        return renames.get((kind, name), name)
+
+    def mentioning(value: Any) -> Any:
+        return replace(
+            value, **{end: new(kind, getattr(value, end)) for end, kind in _ENDS.items() if hasattr(value, end)}
+        )
+
+    def under_new_names(kind: str, elements: Iterable[Any]) -> Iterator[Any]:
+        for element in elements:
+            if (kind, element.name) not in gone:
+                yield replace(mentioning(element), name=new(kind, element.name))
+
+    places = {place: place.partition(" ") for place in robot.extensions}
+    kept = {place: (kind, name) for place, (kind, _, name) in places.items() if (kind, name) not in gone}
+    return replace(
+        robot,
+        links=tuple(under_new_names("link", robot.links)),
+        joints=tuple(
+            replace(joint, mimic=joint.mimic and mentioning(joint.mimic))
+            for joint in under_new_names("joint", robot.joints)
+        ),
+        sensors=tuple(
+            replace(one, at=new("joint" if one.kind == "force_torque" else "link", one.at)) for one in robot.sensors
+        ),
+        loops=tuple(under_new_names("loop", robot.loops)),
+        extensions={
+            f"{key[0]} {new(*key)}" if key[1] else place: robot.extensions[place] for place, key in kept.items()
+        },
+    )
+
+
+def comparable(
+    old: Robot, new: Robot, renames: Mapping[ElementKey, str]
+) -> tuple[Mapping[str, Any], Mapping[str, Any]]:
+    """Return the elements of two robots that differ as plain data by kind and name, with extensions keyed.
 
     Each joint that can be driven has an entry `drive` in place of `actuated` and `measured`: `driven` or `passive`, by
     the source. A transmission can change it for joints that the transmission does not name.
     """
-    displaced_elements = displaced(renames)
+    before, after = _elements(old, renames), _elements(new, {})
+    return {"name": old.name, **_differing(before, after)}, {"name": new.name, **_differing(after, before)}
 
-    def renamed(kind: str, name: str) -> str:
-        return renames.get((kind, name), name)
 
-    links = {
-        renamed("link", name): link
-        for name, link in snapshot["links"].items()
-        if ("link", name) not in displaced_elements
+def _elements(robot: Robot, renames: Mapping[ElementKey, str]) -> dict[tuple[str, str], _Said]:
+    """Return each element of a robot, and what else is said of it, by kind and new name."""
+    passive, new = passive_joints(robot.joints), renamed(robot, renames) if renames else robot
+    drives = {
+        renames.get(("joint", joint.name), joint.name): {"drive": "passive" if joint.name in passive else "driven"}
+        for joint in filter(can_be_driven, robot.joints)
     }
-    joints = {}
-    for name, joint in snapshot["joints"].items():
-        if ("joint", name) in displaced_elements:
-            continue
-        joint = {key: value for key, value in joint.items() if key not in ("actuated", "measured")}
-        if renames:
-            joint |= {end: renamed("link", joint[end]) for end in ("parent", "child")}
-            if mimic := joint.get("mimic"):
-                joint["mimic"] = {**mimic, "joint": renamed("joint", mimic["joint"])}
-        joints[renamed("joint", name)] = joint
-    all_joints = joints_of(snapshot["joints"])
-    passive = passive_joints(all_joints)
-    for drivable in filter(can_be_driven, all_joints):
-        name = drivable.name
-        if ("joint", name) not in displaced_elements:
-            joints[renamed("joint", name)]["drive"] = "passive" if name in passive else "driven"
-    extensions = {}
-    for owner, tags in snapshot["extensions"].items():
-        kind, _, name = owner.partition(" ")
-        if (kind, name) not in displaced_elements:
-            extensions[f"{kind} {renamed(kind, name)}" if name else owner] = _keyed(tags)
-    sensors = {
-        name: {**sensor, "at": renamed("joint" if sensor["kind"] == "force_torque" else "link", sensor["at"])}
-        for name, sensor in snapshot.get("sensors", {}).items()
+    elements: dict[tuple[str, str], _Said] = {
+        (kind, element.name): (element, {}) for kind in _KINDS for element in getattr(new, kind)
     }
-    loops = {
-        renamed("loop", name): {**loop, **{end: renamed("link", loop[end]) for end in ("parent", "child")}}
-        for name, loop in snapshot.get("loops", {}).items()
-        if ("loop", name) not in displaced_elements
-    }
-    others = {"sensors": sensors, "loops": loops, "extensions": extensions}
-    return {"name": snapshot["name"], "links": links, "joints": joints, **others}
+    elements |= {("joints", joint.name): (joint, drives.get(joint.name, {})) for joint in new.joints}
+    return elements | {("extensions", owner): (None, _keyed(tags)) for owner, tags in new.extensions.items()}
+
+
+def _differing(elements: Mapping[tuple[str, str], Any], others: Mapping[tuple[str, str], Any]) -> dict[str, Any]:
+    parts: dict[str, dict[str, Any]] = {kind: {} for kind in (*_KINDS, "extensions")}
+    for key, value in elements.items():
+        if others.get(key) != value:
+            data = {word: item for word, item in (plain(value[0]) or {}).items() if word not in _LEFT_OUT}
+            parts[key[0]][key[1]] = data | value[1]
+    return parts
 
 
 def _keyed(tags: Mapping[str, Sequence[str]]) -> Mapping[str, Any]:

@@ -14,14 +14,11 @@ import re
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path, PurePosixPath
-from typing import Any
 from urllib.parse import unquote
-
-import msgspec
 
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Dependency, Import, Lookup
-from urdfsync.urdf.robot import Mesh, Vector
+from urdfsync.urdf.robot import Collision, Link, Mesh, Vector, Visual
 
 UNIT_SCALE: Vector = (1.0, 1.0, 1.0)
 BOUNDS, HULL = "bounds", "hull"
@@ -82,10 +79,9 @@ def as_is(mesh: Mesh) -> bool:
     return suffix(mesh.filename) in AS_IS and mesh.scale == UNIT_SCALE
 
 
-def _has_colors(mesh: Mesh, visual: Mapping[str, Any]) -> bool:
-    """Return whether a visual has the colours of its mesh, because the URDF gives it none."""
-    material = visual.get("material") or {}
-    return suffix(mesh.filename) in COLORED and material.get("rgba") is None
+def _has_colors(mesh: Mesh, visual: Visual) -> bool:
+    """Return whether a visual has the colours of its mesh: the URDF gives it none."""
+    return suffix(mesh.filename) in COLORED and (visual.material is None or visual.material.rgba is None)
 
 
 def mentioned(dependency: Dependency, file: str, content: bytes) -> Sequence[str]:
@@ -143,23 +139,23 @@ def target(mesh: Mesh) -> str:
 
 
 def dependencies(
-    links: Mapping[str, Any], kinds: Sequence[str], lookup: Lookup, lines: Mapping[str, int], *, touches: bool
+    links: Sequence[Link], kinds: Sequence[str], lookup: Lookup, lines: Mapping[str, int], *, touches: bool
 ) -> tuple[Dependency, ...]:
-    """Return the mesh files of a snapshot, each URI and scale once, in the order of their keys.
+    """Return the mesh files of links, each URI and scale once, in the order of their keys.
 
     `kinds` are the shapes that count: `visual`, `collision`. Collisions need outermost points if the robot `touches`
     the ground. `lines` has the source's line of each element by its path. A dependency has the line of a shape, for
     example `link wheel / visual 2 / geometry`, or else of its link.
     """
     shapes_of = defaultdict[Mesh, list[tuple[str, int, bool]]](list)
-    for name, link in links.items():
+    for link in links:
         for kind in kinds:
-            for number, shape in enumerate(link[f"{kind}s"], start=1):
-                if shape["geometry"]["kind"] == "mesh":
-                    place = f"link {name} / {kind} {number} / geometry"
-                    line = lines.get(place, lines.get(f"link {name}", 0))
-                    mesh = msgspec.convert(shape["geometry"], Mesh)
-                    shapes_of[mesh].append((kind, line, kind == "visual" and _has_colors(mesh, shape)))
+            shapes: Sequence[Visual | Collision] = link.visuals if kind == "visual" else link.collisions
+            for number, shape in enumerate(shapes, start=1):
+                if isinstance(mesh := shape.geometry, Mesh):
+                    place = f"link {link.name} / {kind} {number} / geometry"
+                    line = lines.get(place, lines.get(f"link {link.name}", 0))
+                    shapes_of[mesh].append((kind, line, isinstance(shape, Visual) and _has_colors(mesh, shape)))
     return tuple(
         Dependency(
             key(mesh),

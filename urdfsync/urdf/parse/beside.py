@@ -13,7 +13,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from pathlib import Path
 from typing import Any
 from xml.etree.ElementTree import SubElement
 
@@ -22,7 +21,8 @@ from urdfsync.spelling import counted
 from urdfsync.urdf.parse import xml
 
 AXES = "joint_axes"
-"""Element of a joint that turns about several axes, one after the other: `<joint_axes joint axes>`."""
+"""Element of a joint that turns about other axes than URDF says, one after the other: `<joint_axes joint axes>`."""
+SUFFIX = ".yaml"
 _KINDS = {"3d": "ball", "6d": "fixed"}
 _TYPES = {
     "FIXED": "",
@@ -37,11 +37,6 @@ _DEEPEST = 50
 _MOST = 10_000_000
 """The most characters of all elements: aliases may repeat a long name 10,000 times."""
 _DIRECTIONS = {"x": "1 0 0", "y": "0 1 0", "z": "0 0 1"}
-
-
-def find(source: Path) -> Path:
-    """Return the place of the YAML with the loops of a robot."""
-    return source.with_suffix(".yaml")
 
 
 def join(content: bytes, other: bytes, file: str) -> tuple[bytes, Sequence[tuple[int, int]]]:

@@ -236,7 +236,7 @@ def with_drives(reader: Reader, joints: Iterable[Joint], drives: Iterable[Drive]
 def _with_drives(reader: Reader, joint: Joint, drives: list[Drive]) -> Joint:
     is_driven = any(drive.is_driven for drive in drives)
     if joint.type not in MOTION_KINDS:
-        return msgspec.structs.replace(joint, actuated=is_driven)
+        return msgspec.structs.replace(joint, actuated=is_driven or None)
     reader.used.update(drive.element for drive in drives if drive.element is not None and not drive.is_coupled)
 
     def first(field: str) -> Drive | None:
@@ -270,10 +270,10 @@ def _with_drives(reader: Reader, joint: Joint, drives: list[Drive]) -> Joint:
         start = None
     return msgspec.structs.replace(
         joint,
-        actuated=is_driven,
-        measured=not is_driven and any(drive.is_measured for drive in drives),
+        actuated=is_driven or None,
+        measured=(not is_driven and any(drive.is_measured for drive in drives)) or None,
         transmission=gear.transmission if gear else None,
         mimic=mimic.mimic if mimic else None,
         start=start.start if start else None,
-        command=(command and command.command) or "position",
+        command=command.command if command and command.command != "position" else None,
     )

@@ -1,7 +1,7 @@
 """Reads elements into the structs of `urdf.robot`.
 
-Every fault becomes a diagnostic with its line. A field of numbers or text is the attribute of its name. A struct is the
-child element of its name. A field without a default is required. Other elements are kept as text (see `Extension`).
+A field of numbers or text is the attribute of its name. A field that is a struct is the child element of its name. One
+without a default is required. What no field asks for is kept as text (see `Robot.extensions`).
 
 Numbers are decimals as ROS's urdfdom accepts them: no `nan`, `inf`, hexadecimals, underscores or decimal commas. An
 unreadable value is an error. A default replaces it, so that the reading goes on and finds the next fault.

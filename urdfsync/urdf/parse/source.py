@@ -25,7 +25,7 @@ from urdfsync.urdf.parse.fields import Reader, quoted, summary
 from urdfsync.urdf.parse.gazebo import read_contacts, warn_of_left_out
 from urdfsync.urdf.parse.loops import TAGS, find_loop_elements, read_loops
 from urdfsync.urdf.parse.sensors import read_sensors
-from urdfsync.urdf.robot import Extension, Robot
+from urdfsync.urdf.robot import Robot
 
 _MODELLED = ("link", "joint", "material")
 _LONGEST, _KINDS = 60, 12
@@ -176,7 +176,10 @@ def _read(reader: Reader, document: xml.Document, options: Options) -> Robot:
     defined = {material.get("name", "") for material in root.iter("material") if len(material)}
     linked = resolve_materials(reader, by_path, materials, defined)
     sensors = read_sensors(reader, root, {link.name for link in links}, joints) if complete else ()
-    extensions = tuple(Extension(owner, part.tag, xml.canonical(part)) for owner, part in reader.unmodelled())
+    extensions = dict[str, dict[str, tuple[str, ...]]]()
+    for owner, tag, text in sorted((owner, part.tag, xml.canonical(part)) for owner, part in reader.unmodelled()):
+        tags = extensions.setdefault(owner, {})
+        tags[tag] = (*tags.get(tag, ()), text)
     robot = Robot(name, tuple(linked), tuple(joints), extensions, sensors)
     reader.extend(validate.check(robot, complete=complete))
     if complete:  # else the joint that a transmission names may be one of those left out

@@ -29,7 +29,7 @@ _MOST_AXES = 20
 
 
 def experiment(sample: Sample, step: float | None = None) -> Experiment | str:
-    """Return the comparison, see `urdfsync.domain.Domain.experiment`. Links that move without any mass get inertias.
+    """Return the comparison, see `urdfsync.checks.experiment.Checks`. Links that move without any mass get inertias.
 
     Raises SourceError if the source has errors, or if Pinocchio is not installed or can't read it.
     """
