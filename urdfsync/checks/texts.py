@@ -137,7 +137,7 @@ def _decoded(package: PackageTexts, path: str) -> str | Diagnostic:
 def missing_resources(package: RobotPackage) -> Iterator[Diagnostic]:
     """Yield a finding for each missing file below the package's own folders to which a text refers."""
     own, output = package.robot.target.package, package.robot.output
-    hint = "build to bring back an imported file, or put the file there"
+    hint = "build to restore an imported file, or put the file there"
     for path in sorted(package.on_disk):
         text, addresses = package.files.text(path), set[str]()
         for match in _URI.finditer(text):

@@ -51,8 +51,8 @@ _KINDS = {"model": ("model", "block", "class"), "record": ("record", "operator r
 _TOO_LONG = Diagnostic(
     Severity.WARNING,
     "too-long",
-    f"the file {TOO_LONG.faults[0].reason}: names in it are not looked at",
-    hint="`urdfsync check` looks at them",
+    f"the file {TOO_LONG.faults[0].reason}: names in it are not checked",
+    hint="`urdfsync check` checks them",
 )
 
 

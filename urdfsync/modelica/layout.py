@@ -86,7 +86,7 @@ def check_places(
 
     `paths` are its files, and `declarations` the lines of what a `package.mo` declares.
     """
-    places, hint = dict[tuple[str, ...], str](), "put all of it into one of them, and take the other away"
+    places, hint = dict[tuple[str, ...], str](), "put all of it into one file, and delete the other"
     for path in sorted(path for path in paths if path.endswith(".mo")):
         parts = class_parts(path)
         if (first := places.setdefault(parts, path)) != path:
@@ -95,7 +95,7 @@ def check_places(
     for path, lines in declarations.items():
         for name, line in lines.items():
             if other := places.get((*class_parts(path), name)):
-                message = f"`{name}` is declared here, and has the file {other} as well"
+                message = f"`{name}` is declared here, and also has the file {other}"
                 yield path, Diagnostic(Severity.ERROR, "class-twice", message, line=line, hint=hint)
 
 

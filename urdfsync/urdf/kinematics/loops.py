@@ -84,5 +84,5 @@ def find_loop_findings(closed: Assembly) -> Iterator[Finding]:
             yield Finding("loop-weaker", f"loop {name}", f"loop {name!r} is {closure.weaker}")
     if closed.excess:
         names, freedoms = ", ".join(map(repr, closed.excess)), counted(len(closed.states), "freedom")
-        message = f"the drives of {names} are left out: the loops leave {freedoms}, which others move"
+        message = f"the drives of {names} are left out: other joints already drive the {freedoms}"
         yield Finding("loop-excess", f"loop {closed.tree.loops[0].name}", message)
