@@ -92,7 +92,7 @@ def check_around(output: Path, files: Mapping[str, bytes]) -> list[Diagnostic]:
 
 
 def _check_file(package: PackageTexts, path: str, name: str) -> tuple[StoredText | None, list[Diagnostic]]:
-    """Check one file; returns what it declares, None if it can't be read. `name` is the full name of its class."""
+    """Check one file; returns its declarations, None if it can't be read. `name` is the full name of its class."""
     text = _decoded(package, path)
     if isinstance(text, Diagnostic):
         return None, [text]

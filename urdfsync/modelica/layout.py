@@ -82,9 +82,9 @@ def check_class_file(
 def check_places(
     paths: Iterable[str], declarations: Mapping[str, Mapping[str, int]]
 ) -> Iterator[tuple[str, Diagnostic]]:
-    """Yield a finding for each class of a package that has two places, with one of them.
+    """Yield a finding for each class of a package that has two places, at one of them.
 
-    `paths` are its files, and `declarations` the lines of what a `package.mo` declares.
+    `paths` are its files, and `declarations` the lines of classes in each `package.mo`.
     """
     places, hint = dict[tuple[str, ...], str](), "put all of it into one file, and delete the other"
     for path in sorted(path for path in paths if path.endswith(".mo")):

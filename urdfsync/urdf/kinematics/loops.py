@@ -30,7 +30,7 @@ class Gap(msgspec.Struct, frozen=True):
 
 
 class Closure(msgspec.Struct, frozen=True):
-    """The equations by which a model closes a loop: independent of each other, and of those of all other loops."""
+    """The equations by which a model closes a loop: independent of each other, and of all other loops' equations."""
 
     translations: tuple[Vector, ...]
     """Unit vectors in the frame of the parent, along which the origins of both frames coincide."""
