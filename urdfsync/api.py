@@ -89,7 +89,7 @@ class WholeRecord(msgspec.Struct, frozen=True):
     within: str
     diagnostics: tuple[Diagnostic, ...]
     file: Path | None = None
-    """The file that holds it: that of `urdfsync record --output`."""
+    """The file of `urdfsync record --output`."""
     is_written: bool = False
     """Whether the file was written; False if it held the record already."""
 

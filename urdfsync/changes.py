@@ -128,7 +128,7 @@ class Changes(msgspec.Struct, frozen=True):
     KEYS = ("change_class", "generator", "options", "changes", "doubts")
 
     changes: tuple[Change, ...] = ()
-    """Structure first, then numbers, then rounding and what is not modelled."""
+    """Structure first, then numbers, then rounding and unmodelled parts."""
     renames: Mapping[ElementKey, str] = msgspec.field(default_factory=dict)
     doubts: tuple[Doubt, ...] = ()
     """Elements of an old name that may be other parts."""

@@ -25,8 +25,9 @@ _ABSENT = (errno.ENOENT, errno.ENOTDIR, errno.ELOOP, errno.EBADF)
 _NONBLOCK = getattr(os, "O_NONBLOCK", 0)
 
 LSTAT, STAT = "lstat", "stat"
-"""How the content of a file is checked: by its `Stat`, and by its hash if that is known; with `LSTAT` links themselves,
-with `STAT` what they lead to. Files that builds write are read by `LSTAT`, all others by `STAT`."""
+"""How the content of a file is checked: by its `Stat`, and by its hash if that is known; `LSTAT` checks links
+themselves, `STAT` their targets. Files that builds write are read by `LSTAT`, all others by `STAT`.
+"""
 CONTENTS = (LSTAT, STAT)
 LSTAT_TYPE, STAT_TYPE = "lstat type", "stat type"
 """How a path is checked by its file type alone."""

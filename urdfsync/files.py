@@ -135,7 +135,7 @@ class Tree:
 
         A path that is a string is absolute and without detours.
 
-        Raises OutputError for a link, for anything else that is no regular file, and for what can't be read.
+        Raises OutputError for a link, for another irregular file, and for an unreadable one.
         """
         path = os.fspath(path)
         if not self.check_folder(path.rpartition(os.sep)[0]):

@@ -75,7 +75,7 @@ class Stream:
 
 
 class SafeStreams:
-    """Replaces both standard streams by a `Stream` inside a `with` block, which gets that of the output."""
+    """Replaces both standard streams by a `Stream` inside a `with` block; the block gets the stream of the output."""
 
     def __init__(self, transcript: Transcript | None = None) -> None:
         self._before = sys.stdout, sys.stderr

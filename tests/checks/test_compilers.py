@@ -22,7 +22,8 @@ def test_a_missing_program_is_told_by_the_name_of_its_compiler(monkeypatch: pyte
     compiler = checks.Compiler()
     compiler.is_missing = True
     monkeypatch.setitem(COMPILERS, "fake", compiler)
-    for program, reason in (("", "`fake` is not on the PATH"), ("x", "`x`, which `fake` in the table `[check]` names")):
+    no_program = "`x` is no program; `fake` in the table `[check]` names it"
+    for program, reason in (("", "`fake` is not on the PATH"), ("x", no_program)):
         missing = find_missing(Tool("fake", program))
         assert missing is not None
         assert reason in missing.message

@@ -84,7 +84,7 @@ def test_the_package_is_not_compiled_if_names_in_it_mean_nothing(arm: Path, with
     (line,) = lines(result)
     assert "error: robot: Arm has no `sholder`; did you mean `shoulder.frame_b`?" in line
     assert line.endswith("the file was edited by hand")
-    assert result.gaps == ("nothing was compiled, since names in the package do not exist",)
+    assert result.gaps == ("nothing was compiled, since the package uses missing names",)
 
 
 def test_a_frame_that_the_configuration_does_not_list_is_told_with_its_key(arm: Path, without_library: None) -> None:

@@ -121,7 +121,7 @@ def test_lines_are_as_on_the_page(capsys: Capture, monkeypatch: pytest.MonkeyPat
         f"hoist: out of step{rest}",
         "  the package is out of step; run `urdfsync build`",
         f"lift: out of step{rest}",
-        "  files are in conflict; settle that with `urdfsync resolve`",
+        "  files are in conflict; settle them with `urdfsync resolve`",
         "not compared: shapes (arm, loader and 5 more)",
         "for the comparison: inertias were made up for 3 links (arm)",
         "8 robots: 2 right, 1 incomplete, 2 out of step, 1 not built, 1 differs, 1 failed",
@@ -201,7 +201,7 @@ def edited(capsys: Capture, effect: EditEffect) -> str:
 @pytest.mark.parametrize(
     ("files", "deviations", "said"),
     [
-        (["a.mo"], [], "a.mo (edited) changes nothing that is compared"),
+        (["a.mo"], [], "a.mo (edited) changes no compared quantity"),
         (["a.mo", "b.mo"], [ELBOW], f"a.mo and b.mo (edited) change {AT_ELBOW}"),
         (
             ["a.mo", "b.mo", "c.mo", "d.mo"],

@@ -123,7 +123,7 @@ def test_a_robot_of_which_a_joint_is_left_out_agrees_with_nothing(
     rebuild()
     result = check(physics=True)
     assert result.gaps == (
-        "poses, efforts and masses were not compared: loop bar has type='planar', by which no loop can be closed",
+        "poses, efforts and masses were not compared: loop bar has type='planar', which is no kind of loop",
     )
     assert status(result, strict=False) is CheckStatus.INCOMPLETE
     assert "agree" not in result.summary

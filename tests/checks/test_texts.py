@@ -98,8 +98,8 @@ CAN_NOT = "can't be the name of a class; rename the file, or move it elsewhere [
         ({"Joints/Elbow (copy).mo": arm.text()}, f"Joints/Elbow (copy).mo: error: `Elbow (copy)` {CAN_NOT}"),
         (
             {"Joints/package.mo": INSIDE},
-            "Joints/package.mo:3: error: `Elbow` is declared here, and has the file Joints/Elbow.mo as well; "
-            "put all of it into one of them, and take the other away [class-twice]",
+            "Joints/package.mo:3: error: `Elbow` is declared here, and also has the file Joints/Elbow.mo; "
+            "put all of it into one file, and delete the other [class-twice]",
         ),
         (
             {ORDER: arm.text(ORDER).replace("Turret\n", "")},

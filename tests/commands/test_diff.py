@@ -72,7 +72,7 @@ def test_a_file_with_a_loop_is_compared(arm: Path, execute: Execute) -> None:
     new.write_text(new.read_text().replace("</robot>", f"{loop}</robot>"))
     printed = execute("diff", "new.urdf", "--against", "arm.urdf", code=1)
     assert "54 → 60" in printed.out
-    assert "warning: loop bar has type='prismatic', by which no loop can be closed" in printed.words
+    assert "warning: loop bar has type='prismatic', which is no kind of loop" in printed.words
 
 
 def refused(execute: Execute, *arguments: str) -> str:

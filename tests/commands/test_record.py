@@ -38,7 +38,7 @@ def test_what_a_model_leaves_out_is_told(execute: Execute) -> None:
     Path("arm.urdf").write_text(f'<robot name="arm"><link name="world"/>{loop}</robot>')
     said = execute("record", "arm.urdf")
     assert 'name = "arm"' in said.out
-    assert "warning: loop bar has type='prismatic', by which no loop can be closed" in said.words
+    assert "warning: loop bar has type='prismatic', which is no kind of loop" in said.words
 
 
 def test_a_terminal_shows_the_same_text(execute: Execute, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -198,7 +198,7 @@ def test_the_folders_of_programs_are_no_outputs(output: str) -> None:
     for folder, owner in ((".urdfsync", "urdfsync"), (".git", "git")):
         found = output.replace(".URDFSYNC", folder.upper()).replace(".urdfsync", folder)
         assert failures(robot(f"output = '{found}'")) == [
-            f"urdfsync.toml:5: error: `output` can't be in {folder}: that is where {owner} keeps its own files; "
+            f"urdfsync.toml:5: error: `output` can't be in {folder}: {owner} keeps its own files there; "
             "name another folder [wrong-value]"
         ]
 

@@ -34,7 +34,7 @@ def test_a_leaf_that_gets_a_child_loses_its_frame_and_both_commands_say_so(arm: 
     assert f"link arm frame arm_link_be5539Frame is gone ({hint}) link hand frame now handFrame" in printed.words
     assert printed.err == "", "what the effects say is not said twice"
     notes = [
-        "arm.urdf: note: there is more to connect to: `handFrame` [connector-changed]",
+        "arm.urdf: note: new connectors and variables: `handFrame` [connector-changed]",
         f"arm.urdf:4: note: link arm: its frame `arm_link_be5539Frame` is gone; {hint} [connector-changed]",
     ]
     assert execute("status", code=1).errors == notes
@@ -69,7 +69,9 @@ def test_what_goes_with_its_element_is_named_and_of_much_that_is_new_only_the_nu
     assert all(f"its {name} is gone" in found for name in ("frame `arm_link_be5539Frame`", "axis `swingAxis`"))
     joints = [urdfs.joint(f"j{number}", "continuous", "base", f"l{number}") for number in range(2)]
     (arm / "arm.urdf").write_text(urdfs.robot(LINKS[0], *(urdfs.link(f"l{n}", 1.0) for n in range(2)), *joints))
-    words = "more to connect to: `l0Frame`, `l1Frame`, `j0Axis`, `j0Support`, `j0_phi`, `j0_tau`, 4 more [conn"
+    words = (
+        "new connectors and variables: `l0Frame`, `l1Frame`, `j0Axis`, `j0Support`, `j0_phi`, `j0_tau`, 4 more [conn"
+    )
     assert words in execute("build").words
 
 

@@ -153,7 +153,7 @@ def test_a_file_that_cant_be_converted_is_told(project: Path, before: bool, bad:
     [
         (
             "package://ladder_data/step.csv",
-            "put it into the package `ladder_data`, or add the folder that holds that to `package_paths`",
+            "put it into the package `ladder_data`, or add the folder around it to `package_paths`",
         ),
         ("modelica://Ladder.Data/step.csv", "put the folder that holds the library `Ladder` on MODELICAPATH"),
         ("tables/step.csv", "add the folder that holds it to `package_paths`"),
@@ -230,9 +230,9 @@ def test_missing_meshes_are_one_warning_for_each_package(workspace: Path) -> Non
 
     warnings = [
         "warning: 6 meshes (such as `package://six_axis_arm/meshes/base_casting.stl`) not found; left out; "
-        "put it into the package `six_axis_arm`, or add the folder that holds that to `package_paths` [mesh-not-found]",
+        "put it into the package `six_axis_arm`, or add the folder around it to `package_paths` [mesh-not-found]",
         "warning: mesh `package://turntable/carousel.obj` not found; left out; "
-        "put it into the package `turntable`, or add the folder that holds that to `package_paths` [mesh-not-found]",
+        "put it into the package `turntable`, or add the folder around it to `package_paths` [mesh-not-found]",
     ]
     assert told() == warnings
     source.write_text(source.read_text().replace('<mass value="', '<mass value="1'))
@@ -248,8 +248,8 @@ def test_meshes_from_a_folder_of_another_name_are_one_warning_for_each_package(w
     (found,) = crashes.run(workspace).diagnostics
     assert (found.severity, found.code) == (Severity.WARNING, "mesh-guessed")
     assert found.message == (
-        "7 meshes (such as `package://six_axis_arm/meshes/base_casting.stl`) are taken from a folder that is not "
-        "called like the package `six_axis_arm`"
+        "7 meshes (such as `package://six_axis_arm/meshes/base_casting.stl`) are taken from a folder "
+        "with another name than the package `six_axis_arm`"
     )
     for mesh in (workspace / "ws/src/arm-main/meshes").iterdir():
         if mesh.name != "carousel.obj":

@@ -230,7 +230,7 @@ def test_a_clone_needs_no_xacro(built: Path, execute: Execute, monkeypatch: pyte
     for command in ("build", "status", "build --check"):
         printed = execute(*command.split())
         assert printed.lines == ["arm: in step, 15 files"]
-    assert "as recorded, not checked: xacro is not installed" in execute("build", "--check", "--verbose").err
+    assert "recorded source is used, unchecked: xacro is not installed" in execute("build", "--check", "--verbose").err
     (built / "urdf/masses.yaml").write_text("upper: 2\n")
     assert "pip install xacro [no-xacro]" in execute("status", code=2).err
     assert "pip install xacro [no-xacro]" in execute("build", code=2).err
@@ -256,7 +256,7 @@ def test_a_package_that_is_not_here_counts_as_unchanged(
     assert execute("status").lines == ["arm: in step, 15 files"]
     shutil.rmtree(project / ".urdfsync/notes")
     printed = execute("build", "--check", "--verbose")
-    assert "as recorded, not checked: package://beams/beam.xacro is not on this machine" in printed.err
+    assert "recorded source is used, unchecked: package://beams/beam.xacro is not on this machine" in printed.err
 
 
 def test_a_recorded_text_that_xacro_does_not_give_is_out_of_step(built: Path, execute: Execute) -> None:

@@ -86,10 +86,10 @@ def test_the_within_clause_follows_the_class(text: str, name: str, expected: str
 def test_a_class_has_one_place() -> None:
     paths = ["Joints/package.mo", "Joints/Elbow.mo", "Joints.mo", "package.mo", "package.order"]
     declared = {"Joints/package.mo": {"Elbow": 3, "Other": 5}, "package.mo": {"Other": 2}}
-    hint = "put all of it into one of them, and take the other away [class-twice]"
+    hint = "put all of it into one file, and delete the other [class-twice]"
     assert [(path, *lines([one])) for path, one in check_places(paths, declared)] == [
         ("Joints.mo", f"0: error: `Joints` has two files, this one and Joints/package.mo; {hint}"),
-        ("Joints/package.mo", f"3: error: `Elbow` is declared here, and has the file Joints/Elbow.mo as well; {hint}"),
+        ("Joints/package.mo", f"3: error: `Elbow` is declared here, and also has the file Joints/Elbow.mo; {hint}"),
     ]
 
 

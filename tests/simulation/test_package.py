@@ -78,7 +78,7 @@ def test_a_parameter_that_does_not_exist_is_refused_with_the_nearest(compiler: C
     assert [bool(job.tasks[0].runs) for job in compiler.jobs[1:]] == [True, False]
     compiler.results = [CompileResult("unbalanced model: 4 equations, 3 unknowns"), CompileResult()]
     assert "1 equation too many" in (found := refused(values=("b=1",)))
-    assert "look whether one of these is final, or gets the wrong kind of value: b" in found
+    assert "check whether one of these is final, or has a value of the wrong type: b" in found
 
 
 def test_a_file_that_can_not_be_read_is_told_in_place_of_what_the_compiler_says(compiler: Compiler) -> None:

@@ -43,7 +43,7 @@ def test_what_is_no_value_is_refused(given: list[str], words: str) -> None:
 
 @pytest.mark.parametrize("given", [["a=1", "a.b=2"], ["a.b=2", "a=1"], ["a.b=1", "a.b.c.d=2"]])
 def test_a_part_and_the_whole_contradict_each_other(given: list[str]) -> None:
-    with pytest.raises(ConfigError, match="what it is a part of"):
+    with pytest.raises(ConfigError, match="the whole around it"):
         modifiers(read_values(given))
 
 

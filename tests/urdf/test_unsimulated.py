@@ -118,7 +118,7 @@ def test_a_caster_without_a_mass_is_named_with_its_line_and_what_to_do() -> None
     (found,) = passive_warnings(CART)
     assert found.severity is Severity.WARNING
     assert str(found) == (
-        "own.urdf:7: warning: joint 'caster' is not driven and moves no mass where it starts, so nothing determines "
+        "own.urdf:7: warning: joint 'caster' is not driven and moves no mass at its start, so nothing determines "
         "its motion in Run and Test; give a link behind it an <inertial>, drive it (`driven`), or make it a fixed "
         "joint [passive-moves-no-mass]"
     )

@@ -46,7 +46,7 @@ class BuildChecker:
         return fingerprint(self._config, robot, self._options)
 
     def find_earlier(self, key: str | None) -> BuildCheck | None:
-        """Return an earlier check with this key, with findings about the machine alone; None if there is none."""
+        """Return an earlier check with this key, with its findings about the machine only; None without one."""
         result = None if self._options.fresh or key is None else UserCache.default().load(key, CheckResult)
         if result is None:
             return None

@@ -155,7 +155,7 @@ class Compilation:
         )
 
     def _model_jobs(self, count: int) -> dict[str, _Job]:
-        """Return jobs that compile all models: those of the package in `count` parts, then the user's."""
+        """Return jobs that compile all models: the package's in `count` parts, then the user's."""
         package, own = self._package, self._package.robot.target.package
         tasks = [msgspec.structs.replace(compile_task(f"{own}.{model}"), title=model) for model in package.models]
         jobs: dict[str, _Job] = {
@@ -339,7 +339,7 @@ def edit_effects(
 def explain(problem: str, compiler: Compiler, package: PackageTexts, file: Path | None = None) -> list[Diagnostic]:
     """Return findings for a compiler's text about a model, with the user's files in place of the copies.
 
-    `file` is that of a model of the user's.
+    `file` is the file of a user's model.
     """
     users_file = str(file) if file else ""
     if (balance := _BALANCE.search(problem)) and balance[1] != balance[2]:

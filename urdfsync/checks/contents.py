@@ -59,7 +59,7 @@ def _refuse_bad_link(top: str, link: str) -> None:
     elif os.path.isdir(target):  # noqa: PTH112
         problem = "the link leads to a folder"
     if problem:
-        raise _refusal(Path(link), problem, "put the files themselves in its place")
+        raise _refusal(Path(link), problem, "replace it by the files themselves")
 
 
 def copy_library(

@@ -99,9 +99,9 @@ def find_library(name: str, places: Iterable[Path]) -> Path | None:
 
 
 def class_finder(package: str, standard: Mapping[str, Path], places: Sequence[Path]) -> Callable[[str], Path | None]:
-    """Return a function that finds the folder or file of a top-level class other than that of a robot's package.
+    """Return a function that finds the folder or file of a top-level class outside of a robot's package.
 
-    Of the Modelica Standard Library only the parts in `standard` count.
+    In the Modelica Standard Library it finds only the parts in `standard`.
     """
 
     def find(name: str) -> Path | None:
@@ -116,7 +116,7 @@ class Libraries(msgspec.Struct, frozen=True):
     """The libraries that a package needs, but for UrdfSync."""
 
     standard: Mapping[str, Path]
-    """The Modelica Standard Library; empty if there is none that suits."""
+    """The Modelica Standard Library; empty without a suitable one."""
     others: Mapping[str, Path]
     problem: Diagnostic | None = None
     """Why there is no Modelica Standard Library."""
@@ -140,7 +140,9 @@ def search_path(robot: RobotConfig) -> list[Path]:
 def needed_libraries(
     texts: Iterable[bytes], top: str, places: Sequence[Path], wanted: Iterable[str]
 ) -> dict[str, Path]:
-    """Find the libraries in `places` that texts of the top-level package `top` name, `wanted` ones, and what they name.
+    """Find the libraries in `places` that texts of the top-level package `top` need.
+
+    These are named ones, `wanted` ones, and the libraries that they name.
 
     A text names a library in an import, or by a name that begins with the library's name and a dot. The Modelica
     Standard Library and UrdfSync are left out. Raises OutputError for an unreadable library.

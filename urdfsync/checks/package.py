@@ -93,7 +93,7 @@ class RobotPackage(msgspec.Struct):
 def read_package(config: Config, robot: RobotConfig, options: BuildOptions) -> RobotPackage:
     """Read and generate the package of a robot, without writing.
 
-    Raises UrdfsyncError for whatever is wrong with source, state or templates, OSError for what can't be read.
+    Raises UrdfsyncError for faults of source, state or templates, OSError for unreadable files.
     """
     (built,) = build(config, [robot], options)
     if built.failed:
@@ -219,7 +219,7 @@ def _models_in(classes: Sequence[Class], around: tuple[str, ...]) -> Iterator[st
 
 
 def write_package(folder: Path, robot: RobotConfig, texts: Mapping[str, bytes], around: Mapping[str, bytes]) -> Path:
-    """Write the package in `texts` with what is around it below `folder`. Returns the top-level package."""
+    """Write the package in `texts`, with the files around it, below `folder`. Returns the top-level package."""
     place = robot.target.package.replace(".", "/")
     for name, content in {**around, **{f"{place}/{path}": content for path, content in texts.items()}}.items():
         path = folder / name

@@ -32,7 +32,7 @@ _STYLES = {
     CheckStatus.FAILED: ("✗", "bold red"),
 }
 _STATED = {
-    Quantity.WARNING: "the warning “{detail}” does not come where it should, or comes elsewhere",
+    Quantity.WARNING: "the warning “{detail}” is missing, or comes elsewhere",
     Quantity.CONNECTION: "{detail} is not connected as it should be",
 }
 """Differences that are no amounts."""
@@ -57,12 +57,12 @@ def _sentences(result: CheckResult) -> list[tuple[str, str]]:
     for effect in result.effects:
         changed = "; ".join(_change(*each) for each in _by_kind(effect.deviations, effect.owners))
         style = "dim" if not changed else "bold red" if result.strict else "cyan"
-        sentences.append((f"{_edited(effect)} {changed or 'nothing that is compared'}", style))
+        sentences.append((f"{_edited(effect)} {changed or 'no compared quantity'}", style))
     sentences += [(gap, "magenta") for gap in result.gaps]
     if not result.built:
         sentences.append(("there is no package yet, so what `urdfsync build` would write was checked", "yellow"))
     elif result.conflicting:
-        sentences.append(("files are in conflict; settle that with `urdfsync resolve`", "yellow"))
+        sentences.append(("files are in conflict; settle them with `urdfsync resolve`", "yellow"))
     elif not result.in_step:
         sentences.append(("the package is out of step; run `urdfsync build`", "yellow"))
     return sentences

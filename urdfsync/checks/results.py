@@ -33,7 +33,7 @@ class RunOptions(msgspec.Struct, frozen=True, kw_only=True):
     timeout: float = 600.0
     """Seconds."""
     memory: float | None = None
-    """Gigabytes for all processes together; None for what is free."""
+    """Gigabytes for all processes together; None for the free memory."""
     wait: float = 60.0
     """Seconds to wait for a build that is writing."""
     package_paths: tuple[Path, ...] = msgspec.field(default_factory=ros_package_path)

@@ -100,7 +100,7 @@ def _check(
     names = check_names(package, needed.standard)
     result.add([*names.package, *names.users])
     if any(finding.severity is Severity.ERROR for finding in names.package):
-        result.gaps = ("nothing was compiled, since names in the package do not exist",)
+        result.gaps = ("nothing was compiled, since the package uses missing names",)
         return
     if problem := _find_missing(config, options, needed, result):
         result.gaps = (f"nothing was compiled: {problem.message}; {problem.hint}",)
@@ -156,7 +156,7 @@ def _experiment(package: RobotPackage, options: CheckOptions, result: CheckResul
     result.notes, result.reference = experiment.notes, experiment.reference
     result.unchecked += experiment.unchecked
     if package.edits and experiment.options != robot.options:
-        result.gaps += ("the effect of your edits was not measured, since the package that is compared is simpler",)
+        result.gaps += ("the effect of your edits was not measured, since the compared package is simpler",)
     if package.on_disk and not package.in_step:
         result.unchecked += ("the effect of your edits was not measured: the package is not in step with its source",)
     return experiment

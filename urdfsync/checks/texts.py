@@ -92,7 +92,7 @@ def check_around(output: Path, files: Mapping[str, bytes]) -> list[Diagnostic]:
 
 
 def _check_file(package: PackageTexts, path: str, name: str) -> tuple[StoredText | None, list[Diagnostic]]:
-    """Check one file; returns what it declares, None if it can't be read. `name` is the full name of its class."""
+    """Check one file; returns its declarations, None if it can't be read. `name` is the full name of its class."""
     text = _decoded(package, path)
     if isinstance(text, Diagnostic):
         return None, [text]
@@ -137,7 +137,7 @@ def _decoded(package: PackageTexts, path: str) -> str | Diagnostic:
 def missing_resources(package: RobotPackage) -> Iterator[Diagnostic]:
     """Yield a finding for each missing file below the package's own folders to which a text refers."""
     own, output = package.robot.target.package, package.robot.output
-    hint = "build to bring back an imported file, or put the file there"
+    hint = "build to restore an imported file, or put the file there"
     for path in sorted(package.on_disk):
         text, addresses = package.files.text(path), set[str]()
         for match in _URI.finditer(text):

@@ -1,4 +1,4 @@
-"""The configuration `urdfsync.toml`: what a user may set, how it is read, and the folders of urdfsync itself."""
+"""The configuration `urdfsync.toml`: its keys, its reader, and the folders of urdfsync itself."""
 
 from urdfsync.config.load import find as find
 from urdfsync.config.load import load as load

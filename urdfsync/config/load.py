@@ -258,7 +258,7 @@ class _Reader:
         output = self._absolute(keys.output)
         for folder, owner in ((STATE_FOLDER, "urdfsync"), (".git", "git")):
             if Path(_folded(output)).is_relative_to(_folded(self._root / folder)):
-                message = f"`output` can't be in {folder}: that is where {owner} keeps its own files"
+                message = f"`output` can't be in {folder}: {owner} keeps its own files there"
                 self._report("wrong-value", lines["output"], message, "name another folder")
         if len(self.problems) > before:
             return None

@@ -155,6 +155,6 @@ class Config(msgspec.Struct, frozen=True):
         chosen = self.select(robots)
         if len(chosen) > 1:
             names = ", ".join(robot.name for robot in chosen)
-            message = f"{len(chosen)} robots are meant; `urdfsync {command}` takes one at a time"
+            message = f"{len(chosen)} robots match; `urdfsync {command}` takes one at a time"
             raise ConfigError.of("robots", message, hint=f"name one: {names}")
         return chosen[0]

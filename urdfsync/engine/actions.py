@@ -88,15 +88,15 @@ class Reason(enum.StrEnum):
     RESTORE = ("restore", Kind.WRITE, FileStatus.MISSING, "you deleted it",
                "{n} to restore", "{n} restored because you deleted {them}")
     DELETE = "delete", Kind.DELETE, FileStatus.STALE, "no longer generated", "{n} to delete", "{n} deleted"
-    MERGE = ("merge", Kind.WRITE, FileStatus.STALE, "your edits and what is new, merged",
+    MERGE = ("merge", Kind.WRITE, FileStatus.STALE, "your edits and the generated changes, merged",
              "{n} to merge with your edits", "{n} merged with your edits")
     UNDO = ("undo", Kind.WRITE, FileStatus.STALE, "it is as you had it before",
             "{n} to give back as you had {them}", "{n} given back as you had {them}")
     MOVE = ("move", Kind.WRITE, FileStatus.STALE, "its path is new; your edits move here",
             "{n} to move with your edits", "{n} moved with your edits")
-    INCLUDED = ("included", Kind.LEAVE, FileStatus.EDITED, "you edited it, and it already has what is new",
-                "{n} that you edited already {have} what is new")
-    KEEP = ("keep", Kind.LEAVE, FileStatus.EDITED, "you edited it; there is nothing new for it",
+    INCLUDED = ("included", Kind.LEAVE, FileStatus.EDITED, "you edited it, and it already has all changes",
+                "{n} that you edited already {have} all changes")
+    KEEP = ("keep", Kind.LEAVE, FileStatus.EDITED, "you edited it; its generated text did not change",
             "{n} kept because you edited {them}")
     ORPHAN = ("orphan", Kind.LEAVE, FileStatus.ORPHAN, "no longer generated, but you edited it; kept",
               "{n} no longer generated but kept because you edited {them}")
@@ -173,7 +173,7 @@ class Action(msgspec.Struct, frozen=True):
     @property
     def replaces(self) -> str:
         """Say, as a clause, that it replaces git's text of two versions; empty if it does not."""
-        return "in the place of what git left there" if self.is_left_by_git and self.kind is not Kind.CONFLICT else ""
+        return "in place of git's text" if self.is_left_by_git and self.kind is not Kind.CONFLICT else ""
 
     @property
     def text(self) -> str:

@@ -39,7 +39,7 @@ class EditedFile(msgspec.Struct, frozen=True):
 
 
 class RobotEdits(msgspec.Struct, frozen=True):
-    """What the user edited in the package of one robot."""
+    """The user's edits in the package of one robot."""
 
     KEYS = ("robot", "failed", "files")
 

@@ -123,7 +123,7 @@ def _is_there(path: Path | None) -> bool:
 
 
 def file_hash(path: Path) -> str | None:
-    """Return the hash of a file, whatever its line ends are; None if there is none that can be read."""
+    """Return the hash of a file, without regard to line ends; None for an unreadable file."""
     try:
         return text_digest(read_file(path))
     except (OSError, ValueError):  # a name may be a stranger's, and none of a file

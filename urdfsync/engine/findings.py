@@ -45,7 +45,7 @@ def find_all(generation: Generation, decision: Decision) -> tuple[Diagnostic, ..
         place = shown(inputs.config.file), inputs.robot.lines[""]
         findings.append(Diagnostic(Severity.NOTE, "renamed-robot", f"{message} goes on under the new name", *place))
     if inputs.users_files.is_too_wide:
-        message = "no model of yours is looked at: the folders to look through are too many"
+        message = "your models were not checked: there are too many folders to search"
         hint = "put urdfsync.toml into a folder of the project, and narrower folders into `users`"
         place = shown(inputs.config.file), inputs.robot.lines.get("users", 0)
         findings.append(Diagnostic(Severity.WARNING, "too-many-folders", message, *place, hint=hint))
@@ -146,7 +146,7 @@ def _changed_connectors(generation: Generation) -> Iterator[Diagnostic]:
         return
     connectors = effects.interface(complete, generation.now, changes.renames, robot.target, robot.options)
     if new := [f"`{connector_change.new}`" for connector_change in connectors if connector_change.old is None]:
-        message = f"there is more to connect to: {_first(new, _NEW)}"
+        message = f"new connectors and variables: {_first(new, _NEW)}"
         yield Diagnostic(Severity.NOTE, CONNECTORS, message, shown(robot.source))
     for connector_change in connectors:
         element, connector = connector_change.path

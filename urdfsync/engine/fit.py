@@ -51,8 +51,8 @@ _KINDS = {"model": ("model", "block", "class"), "record": ("record", "operator r
 _TOO_LONG = Diagnostic(
     Severity.WARNING,
     "too-long",
-    f"the file {TOO_LONG.faults[0].reason}: names in it are not looked at",
-    hint="`urdfsync check` looks at them",
+    f"the file {TOO_LONG.faults[0].reason}: names in it are not checked",
+    hint="`urdfsync check` checks them",
 )
 
 
@@ -211,7 +211,7 @@ class Package(PackageAfter):
             yield Misfit(self._inputs.files.path(file.key), finding, file.key, is_broken)
 
     def _declared(self, path: str) -> dict[str, int] | None:
-        """Return the lines of what a `package.mo` declares, by name; None if it is missing or no Modelica."""
+        """Return the lines of a `package.mo`'s declarations, by name; None if it is missing or no Modelica."""
         stored = self._reading(self[path]).stored if path in self else None
         if stored is None or stored.is_broken:
             return None

@@ -35,7 +35,7 @@ _HINTS = {
     # a place on this machine, to which search paths make no difference
     r"file:(?!/*\$)|[/\\]|[a-z]:[/\\]": "put it there, or let the source refer to it by a package or a relative path",
     _IN_LIBRARY: "put the folder that holds the library `{}` on MODELICAPATH",
-    "[a-z]+://([^/]+)/": "put it into the package `{}`, or add the folder that holds that to `package_paths`",
+    "[a-z]+://([^/]+)/": "put it into the package `{}`, or add the folder around it to `package_paths`",
     "": "add the folder that holds it to `package_paths`",
 }
 """Hints for a missing file by the beginning of its URI; the first one counts."""
@@ -138,8 +138,8 @@ def import_files(
         result.diagnostics.append(first)
     for (noun, package), alike in guessed.items():
         be = "is" if len(alike) == 1 else "are"
-        message = f"{_named(alike)} {be} taken from a folder that is not called like the package `{package}`"
-        hint = "rename the folder, or add that of the right package to `package_paths`"
+        message = f"{_named(alike)} {be} taken from a folder with another name than the package `{package}`"
+        hint = "rename the folder, or add the right package's folder to `package_paths`"
         line = min(dependency.line for dependency in alike)
         result.diagnostics.append(Diagnostic(Severity.WARNING, f"{noun}-guessed", message, source, line, hint=hint))
     return result

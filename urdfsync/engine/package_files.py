@@ -109,7 +109,7 @@ class PackageFiles:
         return tree.read(path) if tree else None
 
     def text(self, key: str) -> str | None:
-        """Return a file as text. Raises OutputError as `read`, and for what is not UTF-8."""
+        """Return a file as text. Raises OutputError as `read`, and for other encodings than UTF-8."""
         content = self.read(key)
         if key not in self.overlay:
             self._states.setdefault(self._place(key), None if content is None else state_of(content))

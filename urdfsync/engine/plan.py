@@ -19,7 +19,7 @@ from urdfsync.engine.stage import Plan, stage
 
 
 def plan_robot(config: Config, robot: RobotConfig, options: BuildOptions) -> Plan:
-    """Decide which files one build of a robot writes. Raises UrdfsyncError for whatever is wrong."""
+    """Decide which files one build of a robot writes. Raises UrdfsyncError for all faults."""
     inputs = inspect(config, robot, options)
     if inputs.source.is_missing:
         name, package, stale = robot.name, robot.target.package, inputs.source.stale

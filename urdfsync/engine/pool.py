@@ -48,7 +48,7 @@ class Pool:
         self._waiting, self._futures = deque(robots), dict[str, Future[_Planned]]()
 
     def plan(self, robot: RobotConfig) -> Plan:
-        """Plan one robot. Raises UrdfsyncError for whatever is wrong."""
+        """Plan one robot. Raises UrdfsyncError for all faults."""
         if robot not in self._waiting and robot.name not in self._futures:
             return plan_robot(self._config, robot, self._options)
         options = msgspec.structs.replace(self._options, progress=no_progress, executor="")

@@ -146,7 +146,7 @@ def read_source(config: Config, robot: RobotConfig, store: Store, options: Build
     place = shown(config.file), robot.lines.get("arguments", 0)
     told = list(_warnings(made, robot.source, place, f"robot `{robot.name}`: "))
     if reason and not changed:
-        message = f"the source is taken as recorded, not checked: {reason}"
+        message = f"the recorded source is used, unchecked: {reason}"
         told.append(Diagnostic(Severity.NOTE, "as-recorded", message, shown(robot.source)))
     return Source(content, shown(robot.source), inputs.places(made), tuple(told), made, changed, not reason)
 
@@ -276,7 +276,7 @@ def _check_templates(folder: Path) -> None:
             file_type(path, follow=False)
             if path.is_symlink() and not path.resolve().is_relative_to(folder.resolve()):
                 message = "the link leads out of the template folder"
-                hint = "put a copy of what it leads to in its place"
+                hint = "replace it by a copy of its target"
             elif path.is_file() and path.stat().st_size > MAX_TEMPLATE:
                 depend_on(path)
                 message = f"the file has more than {MAX_TEMPLATE:,} bytes, which is too large for a template"

@@ -255,7 +255,7 @@ def _content(generation: Generation, decision: Decision, action: Action) -> byte
     if action.role is Role.IMPORT:
         content = generation.imported.contents.get(path)
         if content is None:
-            message, file = "it can't be written: the file that it is imported from is missing", shown(files.path(key))
+            message, file = "it can't be written: its source file is missing", shown(files.path(key))
             hint = "restore that file, or the imported copy"
             raise OutputError.of("no-source", message, file, hint=hint)
         return content

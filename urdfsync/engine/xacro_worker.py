@@ -178,7 +178,7 @@ class _Files:
         pattern = os.path.abspath(pattern)  # noqa: PTH100
         folder = os.path.dirname(pattern)  # noqa: PTH120
         if has_magic(folder) and not os.path.isdir(folder):  # noqa: PTH112
-            raise PatternError(f"{pattern}: only the name of the file may be a pattern, not that of a folder")
+            raise PatternError(f"{pattern}: only the file's name may have wildcards")
         self.patterns[pattern] = None
         return find_matches(pattern)
 

@@ -1,1 +1,1 @@
-"""Modelica as text: names, literals, tokens, syntax trees, and what names mean."""
+"""Modelica as text: names, literals, tokens, syntax trees, and the resolution of names."""

@@ -82,11 +82,11 @@ def check_class_file(
 def check_places(
     paths: Iterable[str], declarations: Mapping[str, Mapping[str, int]]
 ) -> Iterator[tuple[str, Diagnostic]]:
-    """Yield a finding for each class of a package that has two places, with one of them.
+    """Yield a finding for each class of a package that has two places, at one of them.
 
-    `paths` are its files, and `declarations` the lines of what a `package.mo` declares.
+    `paths` are its files, and `declarations` the lines of classes in each `package.mo`.
     """
-    places, hint = dict[tuple[str, ...], str](), "put all of it into one of them, and take the other away"
+    places, hint = dict[tuple[str, ...], str](), "put all of it into one file, and delete the other"
     for path in sorted(path for path in paths if path.endswith(".mo")):
         parts = class_parts(path)
         if (first := places.setdefault(parts, path)) != path:
@@ -95,7 +95,7 @@ def check_places(
     for path, lines in declarations.items():
         for name, line in lines.items():
             if other := places.get((*class_parts(path), name)):
-                message = f"`{name}` is declared here, and has the file {other} as well"
+                message = f"`{name}` is declared here, and also has the file {other}"
                 yield path, Diagnostic(Severity.ERROR, "class-twice", message, line=line, hint=hint)
 
 

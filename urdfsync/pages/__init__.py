@@ -1,1 +1,1 @@
-"""Pages to look at: a robot in 3D, its tree and diagram, what changed, and what the user edited."""
+"""Pages: a robot in 3D, its tree and diagram, its changes, and the user's edits."""

@@ -78,7 +78,7 @@ class Model:
             after = text[component.name.starts[0] + len(name) :].split(";", 1)[0]
             size = _SIZE.match(after)
             if component.type.parts[-1] != "RealInput" or (_ARRAY.match(after) and not size):
-                message = f"the input `{name}` can't be driven: it is no RealInput, or the text does not say its size"
+                message = f"the input `{name}` can't be driven: it is no RealInput, or its size is not in the text"
                 file, line = shown(Path(node.file)), component.name.line
                 raise ConfigError.of("inputs", message, file, line)
             units = re.findall(r'"([^"]*)"', unit[1]) if (unit := _UNIT.search(after)) else []

@@ -59,7 +59,7 @@ def read_motion(file: Path, inputs: Sequence[Input]) -> Motion:
         before, time = columns["time"][-2:] if len(columns["time"]) > 1 else (-math.inf, columns["time"][-1])
         if time <= before:
             hint = "sort the rows by time"
-            _refuse(file, f"the time does not go on: {before:g} s, then {time:g} s", line, hint)
+            _refuse(file, f"the time does not increase: {before:g} s, then {time:g} s", line, hint)
     if (start := columns["time"][0]) != 0:
         _refuse(file, f"the time begins at {start:g} s", rows[0][0], "let it begin at 0")
     return Motion(tuple(columns["time"]), tuple((signal, tuple(columns[signal.name])) for signal in inputs))
@@ -80,7 +80,7 @@ def _read_rows(file: Path) -> list[tuple[int, list[str]]]:
             if any(cell.strip() for cell in row):
                 rows.append((reader.line_num, row))
             if len(rows) > MOST_ROWS + 1:
-                hint = "leave out rows: what is between is interpolated"
+                hint = "leave out rows: values between rows are interpolated"
                 _refuse(file, f"the file has more than {MOST_ROWS} rows", hint=hint)
     except csv.Error as error:
         _refuse(file, f"the file is no CSV: {error}", reader.line_num)

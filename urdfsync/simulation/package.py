@@ -137,7 +137,9 @@ def run_task(
     faults = find_unknown(model.name, task.parameters, result.parameters)
     for name in result.without_effect:
         message = f"`{name}` can't be changed: nothing in the compiled model depends on it"
-        faults.append(Diagnostic(Severity.ERROR, "set", message, hint="change what its value is made from"))
+        faults.append(
+            Diagnostic(Severity.ERROR, "set", message, hint="change the parameters that its value depends on")
+        )
     if result.problem:
         # of files that it can't read a compiler says little; to look at them first takes 0.2 s of each simulation
         unread = [*check_layout(package.files), *check_around(package.robot.output, package.around)]
@@ -147,7 +149,7 @@ def run_task(
         outside = None if package.files.folder in file.parents else file
         complaints = explain(result.problem, compilers.COMPILERS[options.tool.name], package.files, file=outside)
         if names_set := ", ".join(task.parameters):
-            hint = f"look whether one of these is final, or gets the wrong kind of value: {names_set}"
+            hint = f"check whether one of these is final, or has a value of the wrong type: {names_set}"
             complaints = [msgspec.structs.replace(finding, hint=hint) for finding in complaints]
         faults += complaints
     if faults:

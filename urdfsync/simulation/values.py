@@ -73,7 +73,7 @@ def modifiers(values: Mapping[str, str]) -> list[str]:
             if isinstance(inside, str):
                 break
         if isinstance(inside, str) or last in inside:
-            _refuse(f"`{name}` gets a value, and so does a part of it or what it is a part of", "give one of them")
+            _refuse(f"`{name}` gets a value, and so does a part of it or the whole around it", "give one of them")
         inside[last] = value
     return [_modifier(name, value) for name, value in tree.items()]
 

@@ -152,7 +152,7 @@ class Inertial(msgspec.Struct, frozen=True, gc=False):
 
 
 class Contact(msgspec.Struct, frozen=True, gc=False, rename="camel", omit_defaults=True):
-    """Contact properties of a link's collisions at the ground; None for those of the ground itself."""
+    """Contact properties of a link's collisions at the ground; None: the ground's own values."""
 
     mu: float | None = None
     kp: Annotated[float | None, Unit("N/m")] = None

@@ -28,7 +28,7 @@ def find_unsimulated(tree: KinematicTree, closed: Assembly, options: Options) ->
     passive = {joint.name for joint in tree.joints if can_be_driven(joint)} - closed.driven - closed.dependent
     for name in find_massless_joints(tree, passive) if passive else ():
         if name in passive:
-            message = f"joint '{name}' is not driven and moves no mass where it starts, so nothing determines its "
+            message = f"joint '{name}' is not driven and moves no mass at its start, so nothing determines its "
             yield Finding("passive-moves-no-mass", f"joint {name}", f"{message}motion in Run and Test")
 
 

@@ -167,7 +167,7 @@ _WARNINGS = {
 _NOTES = {
     "loop-by-name": "state it as `loops` in the configuration if it is of another kind",
     "loop-closed": "the models of a package begin where it is closed",
-    "loop-weaker": "nothing is to be done: the motion is the same",
+    "loop-weaker": "nothing to do: the motion is the same",
     "second-reader-failed": "go by the reading of urdfsync alone",
     "not-in-record": 'add "package" to `approach` for them',
     "not-modelled": "list them with their lines by --verbose",
@@ -243,7 +243,7 @@ def check_loops(loops: Sequence[Loop], links: Collection[str]) -> Iterator[Findi
         elif (turns and not any(loop.axis)) or (tilts and not any(loop.child_axis)):
             yield Finding("loop-axis", path, f"loop {loop.name!r}: an axis has no direction")
         elif same in seen:
-            yield Finding("loop-twice", path, f"loop {loop.name!r} says the same as loop {seen[same]!r}")
+            yield Finding("loop-twice", path, f"loop {loop.name!r} equals loop {seen[same]!r}")
         seen.setdefault(same, loop.name)
 
 

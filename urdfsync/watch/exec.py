@@ -60,7 +60,7 @@ class CommandRunner:
         yield events.Ran(ended.robot, ended.code)
         if ended.problem:
             message = f"robot `{ended.robot}`: the command of --exec {ended.problem}"
-            hint = "mend it: it runs again after the next build that changes something"
+            hint = "correct it: it runs again after the next build that changes something"
             yield events.Noted((Diagnostic(Severity.WARNING, "exec", message, hint=hint),))
         if waiting := self._waiting.pop(ended.robot, None):
             yield from self.run(*waiting)

@@ -181,7 +181,7 @@ class Report:
                     yield self._line(clock, "", f"configuration read again, {words}" if again else words)
             case events.Viewing(address):
                 if not self._console.quiet:
-                    yield self._line(clock, "", f"to be seen at {address}")
+                    yield self._line(clock, "", f"pages at {address}")
             case events.Built(result):
                 self._finish(result, clock)
                 yield from self._built(event, clock)

@@ -94,7 +94,7 @@ def test_a_robot_with_a_joint_that_nothing_drives_is_not_compared(kind: str, app
     loose = ELBOW.replace('type="revolute"', f'type="{kind}"').encode()
     options = Options(approach=approach)  # type: ignore[arg-type]
     assert DOMAIN.checks.experiment(Sample(loose, "robot.urdf", BOT, options, {})) == (
-        f"joint elbow is {kind}, and nothing prescribes how it moves"
+        f"joint elbow is {kind}, and nothing prescribes its motion"
     )
 
 
@@ -115,8 +115,8 @@ def test_laws_that_the_reference_does_not_have_are_named_and_made_simple() -> No
     assert one.options == Options()
     assert one.trials == experiment(ARM).trials
     assert one.unchecked[:2] == (
-        "friction of elbow (lugre): the package that is compared has a smooth one",
-        "drive of a slide, elbow (elastic): the package that is compared has a rigid one",
+        "friction of elbow (lugre): the compared package has a smooth one",
+        "drive of a slide, elbow (elastic): the compared package has a rigid one",
     )
 
 

@@ -61,7 +61,7 @@ def find_missing(tool: Tool) -> Diagnostic | None:
         if importlib.util.find_spec(module) is None:
             return _missing(compiler, f"{module} is not installed")
     if tool.problem is None and compiler.program(tool.program) is None:
-        named = f"`{tool.program}`, which `{tool.name}` in the table `[check]` names, is no program"
+        named = f"`{tool.program}` is no program; `{tool.name}` in the table `[check]` names it"
         return _missing(compiler, named if tool.program else f"`{tool.name}` is not on the PATH")
     return tool.problem
 

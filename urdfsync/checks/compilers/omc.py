@@ -141,7 +141,7 @@ def complaints(problem: str) -> list[Complaint]:
 
 
 def work(job: CompileJob) -> Iterator[CompileResult]:
-    """See `Compiler`: all in one script. What can't be loaded is the problem of each task."""
+    """See `Compiler`: all in one script. A file that can't be loaded is the problem of each task."""
     folder = Path(tempfile.mkdtemp())
     version = _ask(job, folder, ["getVersion()"])[0].value
     is_webassembly = version.endswith("-rust")  # which needs no C compiler, and has no other target

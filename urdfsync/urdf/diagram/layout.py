@@ -44,7 +44,7 @@ Path: TypeAlias = tuple[Point, ...]
 LineKind: TypeAlias = Literal["frame", "rotational", "translational"]
 _Cell: TypeAlias = tuple[int, int]
 _End: TypeAlias = tuple[str, str]
-"""A loop and one of its frames, or a link and `below`: what hangs on it in other rows."""
+"""A loop and one of its frames, or a link and `below`: its joints and sensors in other rows."""
 _Spans: TypeAlias = dict[str | _End, list[int]]
 """Places per leader, or end; its lines run from the first to the last of them."""
 
@@ -255,7 +255,7 @@ class _Cells(NamedTuple):
     """A joint stands in its parent's column and in its child's row."""
     sensors: Mapping[str, _Cell]
     below: list[tuple[str, int]]
-    """Links, and rows of what hangs on them there."""
+    """Links, and the rows of their joints and sensors there."""
 
 
 def _cells(tree: KinematicTree) -> _Cells:
@@ -313,7 +313,7 @@ def _cells(tree: KinematicTree) -> _Cells:
 
 
 def _carriers(tree: KinematicTree) -> dict[str, str]:
-    """Return the link below which each sensor stands: that of force and torque below the joint's child."""
+    """Return the link above each sensor; a force-torque sensor stands below the joint's child."""
     children = {joint.name: joint.child for joint in tree.joints}
     return {sensor.name: children[sensor.at] if sensor.kind == "force_torque" else sensor.at for sensor in tree.sensors}
 

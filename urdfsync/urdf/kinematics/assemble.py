@@ -292,7 +292,7 @@ def _closure(loop: Loop, candidates: Rows, rows: Rows, k: int, normal: Vector | 
     if len(mine) < whole and not (is_planar and len(rotations) == (loop.kind == "fixed")):
         weaker = f"closed by {len(mine)} of {whole} equations: the others follow from these and the rest of the robot"
     if not mine:
-        message = f"loop {loop.name!r} holds nothing that the other loops and joints do not hold already"
+        message = f"loop {loop.name!r} is redundant: other loops and joints hold the same"
         raise _UnclosableError(Finding("loop-redundant", f"loop {loop.name}", message))
     return Closure(translations, rotations, normal if is_planar and not rotations else None, weaker)
 

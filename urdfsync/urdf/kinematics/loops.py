@@ -30,7 +30,7 @@ class Gap(msgspec.Struct, frozen=True):
 
 
 class Closure(msgspec.Struct, frozen=True):
-    """The equations by which a model closes a loop: independent of each other, and of those of all other loops."""
+    """The equations by which a model closes a loop: independent of each other, and of all other loops' equations."""
 
     translations: tuple[Vector, ...]
     """Unit vectors in the frame of the parent, along which the origins of both frames coincide."""
@@ -84,5 +84,5 @@ def find_loop_findings(closed: Assembly) -> Iterator[Finding]:
             yield Finding("loop-weaker", f"loop {name}", f"loop {name!r} is {closure.weaker}")
     if closed.excess:
         names, freedoms = ", ".join(map(repr, closed.excess)), counted(len(closed.states), "freedom")
-        message = f"the drives of {names} are left out: the loops leave {freedoms}, which others move"
+        message = f"the drives of {names} are left out: other joints already drive the {freedoms}"
         yield Finding("loop-excess", f"loop {closed.tree.loops[0].name}", message)

@@ -43,7 +43,7 @@ class MeshError(Exception):
 
 
 class Request(msgspec.Struct, frozen=True):
-    """A line for the process; the bytes of a mesh, and those of other files, follow."""
+    """A line for the process; the bytes of a mesh and of other files follow."""
 
     suffix: str
     scale: Vector = (1.0, 1.0, 1.0)

@@ -139,7 +139,7 @@ def _unit(loop: Loop) -> Loop:
 def _kind(reader: Reader, element: Element, path: str) -> LoopKind | None:
     text = element.get("type", "")
     if text not in _KINDS:
-        message = f"{path} has type={quoted(text)}, by which no loop can be closed"
+        message = f"{path} has type={quoted(text)}, which is no kind of loop"
         reader.add(element, "loop-joint", message, validate.perhaps(text, _KINDS))
     return _KINDS.get(text)
 

@@ -40,7 +40,7 @@ def experiment(sample: Sample, step: float | None = None) -> Experiment | str:
         return left_out[0]
     robot = _robot(reading)
     if loose := obstacles(robot.joints):
-        return f"joint {loose[0].name} is {loose[0].type}, and nothing prescribes how it moves"
+        return f"joint {loose[0].name} is {loose[0].type}, and nothing prescribes its motion"
     completed, notes = completion.completed_for_pinocchio(sample.content)
     completed, made_up = completion.with_inertias(completed, KinematicTree.of(robot))
     tree = KinematicTree.of(_robot(read_robot(completed, file, options)), (sample.target.name,))
@@ -51,7 +51,7 @@ def experiment(sample: Sample, step: float | None = None) -> Experiment | str:
         try:
             subject = Subject(msgspec.structs.replace(sample, content=completed, options=simplified), tree)
         except OpenLoopError:
-            return "Pinocchio closes its loops neither where they start nor around"
+            return "Pinocchio can't close its loops at the start or near it"
         for approach in options.approach:
             if approach == "package" or not tree.loops:
                 trials += _trials(subject, approach, step)
@@ -106,7 +106,7 @@ def _free(subject: Subject, names: RobotVariables, name: str) -> Iterator[Trial]
     response = reference.free_gains(state, efforts, is_free)
     reference.model.gravity.linear = np.array([0, 0, -motion.GRAVITY])
     if response is None:
-        subject.unchecked["free motion: some axis moves no mass, so that any acceleration goes with its effort"] = None
+        subject.unchecked["free motion: some axis moves no mass, so its effort determines no acceleration"] = None
         return
     gains, doubt = response
     pairs = list(quantities.poses(subject, names, [reference.solve(state)], time, Part.FREE_MOTION))
@@ -140,7 +140,7 @@ def _simplified(tree: KinematicTree, options: Options) -> Iterator[str]:
         if names:
             part, plain = ("drive", "rigid") if law in ("elastic", "saturated") else ("friction", "smooth")
             who = ", ".join(names) if len(names) <= 3 else f"{len(names)} joints"
-            yield f"{part} of {who} ({law}): the package that is compared has a {plain} one"
+            yield f"{part} of {who} ({law}): the compared package has a {plain} one"
 
 
 def _not_compared(subject: Subject) -> Iterator[str]:

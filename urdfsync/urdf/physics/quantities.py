@@ -87,7 +87,7 @@ def loops(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
         times = tuple(map(float, Instant))
         yield Compared(Quantity.CLOSURE, element, "m", values, times, Part.LOOPS), [each.gap for each in reactions]
         if subject.assembly.closures[loop.name].weaker:
-            subject.unchecked[f"the force in loop {loop.name}, which depends on the equations that are left out"] = None
+            subject.unchecked[f"the force in loop {loop.name}, which depends on the omitted equations"] = None
             continue
         for unit, variable in (("N", "f"), ("N·m", "t")):
             values = tuple(f"{names.loops[loop.name]}.{variable}[{i}]" for i in (1, 2, 3))
