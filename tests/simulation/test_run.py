@@ -163,7 +163,7 @@ package Twin
     Part part(numbers = whole.first);
   end Robot;
   model Both
-    parameter Arm.Links.HandParameters hand;
+    extends Arm.ArmTest;
     Robot other;
   end Both;
 end Twin;
