@@ -292,26 +292,16 @@ def two_conflicts(project: Path) -> tuple[str, str]:
     return RECORD, other
 
 
-@pytest.mark.parametrize("moves", [False, True], ids=["in place", "while the package can not move"])
 @pytest.mark.parametrize("choice", [Choice.KEEP, Choice.TAKE])
-def test_a_choice_holds_until_the_others_are_made(two_conflicts: tuple[str, str], choice: Choice, moves: bool) -> None:
-    if moves:
-        edit("urdfsync.toml", '"Ladder"', '"Plant.Ladder"\ncreate_parents = true')
-    one, two = (path.replace("modelica/", "modelica/Plant/") if moves else path for path in two_conflicts)
+def test_a_choice_holds_until_the_package_can_move(two_conflicts: tuple[str, str], choice: Choice) -> None:
+    edit("urdfsync.toml", '"Ladder"', '"Plant.Ladder"\ncreate_parents = true')
+    one, two = (path.replace("modelica/", "modelica/Plant/") for path in two_conflicts)
     assert conflicts() == [one, two]
     assert conflicts(choices={one: choice}) == [two]
     assert conflicts() == [two]
     assert not conflicts(choices={two: choice})
     assert all(("+ 1" in Path(path).read_text()) is (choice is Choice.KEEP) for path in (one, two))
     assert run().in_step
-
-
-def test_of_two_choices_on_one_file_the_last_counts(two_conflicts: tuple[str, str]) -> None:
-    one, two = two_conflicts
-    assert conflicts(choices={one: Choice.KEEP}) == [two]
-    assert conflicts(choices={one: Choice.TAKE}) == [two]
-    run(choices={two: Choice.TAKE})
-    assert "+ 1" not in Path(one).read_text()
 
 
 def test_what_is_put_aside_goes_with_the_robots_name(two_conflicts: tuple[str, str], project: Path) -> None:
