@@ -135,7 +135,7 @@ LINES = {
     "urdfsync bui\tfil\t": "<build> <filter>",
     "urdfsync build --dry\tlad\t": "<build> <--dry-run> <ladder>",
     "urdfsync check --tool=o\t": "<check> <--tool=omc>",
-    "urdfsync resolve --moved=nothing lad\t": "<resolve> <--moved=nothing> <ladder.json>",
+    "urdfsync resolve --moved=nothing lad\t": "<resolve> <--moved=nothing> <ladder>",
     "urdfsync diff --edits mod\t": "<diff> <--edits> <modelica/>",
     "urdfsync init lad\t": "<init> <ladder.json>",
 }

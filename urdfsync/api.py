@@ -24,8 +24,9 @@ from urdfsync.engine.options import BuildOptions, Progress, no_progress
 from urdfsync.engine.result import Result
 from urdfsync.files import shown
 from urdfsync.modelica.names import class_name, is_class_name
-from urdfsync.output.console import Console, StyledLine, findings, html, line
-from urdfsync.output.results import build_lines
+from urdfsync.output.build_section import build_lines
+from urdfsync.output.console import StyledLine, findings, html, line
+from urdfsync.output.terminal import text
 
 if TYPE_CHECKING:
     from urdfsync.checks.results import CheckResult
@@ -126,7 +127,7 @@ def build(
     if merge:
         chosen = [msgspec.structs.replace(robot, on_conflict="merge") for robot in chosen]
     built = build_and_check(loaded, chosen, BuildOptions(**given))
-    return Results(built, lambda result: build_lines(result, Console()), on_result)
+    return Results(built, build_lines, on_result)
 
 
 def build_and_check(config: Config, robots: Sequence[RobotConfig], options: BuildOptions) -> Iterator[Result]:
@@ -145,9 +146,9 @@ def status(*robots: str, **given: Any) -> Results[Result]:
 
     No `command` runs; `stale` names its changed inputs.
     """
-    from urdfsync.output.status import lines
+    from urdfsync.output.status import status_section
 
-    return Results(build(*robots, dry=True, **given), lines)
+    return Results(build(*robots, dry=True, **given), lambda result: text(status_section(result)))
 
 
 def diff(
@@ -160,8 +161,8 @@ def diff(
     """Show what changed in sources since the last build, or since the version `against`: a git revision, else a file.
 
     `sources` are files or robots; without any, all sources are compared. No configuration is needed for files and
-    `against`. Raises UrdfsyncError for what can't be compared at all; where the
-    version can't be read, the `result` of a comparison has `failed`.
+    `against`. Raises UrdfsyncError for what can't be compared at all; where the version can't be read, the `result` of
+    a comparison has `failed`.
     """
     from urdfsync.versions import comparison, report
 
@@ -170,7 +171,8 @@ def diff(
     loaded = load(config) if is_near or config or not sources else None
     pairs = list(comparison.select_sources(sources, against, loaded, folder))
     compared = (comparison.compare_sources(chosen, against, known, options, folder) for known, chosen in pairs)
-    return Results((each for group in compared for each in group), report.robot_lines, on_result)
+    all_compared = (each for group in compared for each in group)
+    return Results(all_compared, lambda each: text(report.to_section(each, verbose=False)), on_result)
 
 
 def edits(
@@ -184,10 +186,10 @@ def edits(
     Raises ConfigError for a path that means no robot.
     """
     from urdfsync.engine.edits import find_edits
-    from urdfsync.output.edits import robot_lines
+    from urdfsync.output.edits import to_section
 
     loaded, options = load(config), BuildOptions(dry=True, **given)
-    return Results(find_edits(paths, loaded, options), robot_lines, on_result)
+    return Results(find_edits(paths, loaded, options), lambda each: text(to_section(each, verbose=False)), on_result)
 
 
 def check(
@@ -205,13 +207,13 @@ def check(
     robot, an untrusted compiler, and a cache that can't be written.
     """
     from urdfsync.checks import compilers, run
-    from urdfsync.checks.report import robot_lines
+    from urdfsync.checks.report import to_section
     from urdfsync.checks.results import CheckOptions
 
     loaded = load(config)
     chosen, tools = loaded.select(robots), compilers.choose(loaded, tool, trusted=trusted)
     checked = run.check_robots(loaded, chosen, CheckOptions(tools=tools, **given), progress)
-    return Results(checked, robot_lines, on_result)
+    return Results(checked, lambda result: text(to_section(result, verbose=False)), on_result)
 
 
 def simulate(

@@ -105,8 +105,8 @@ def test_lines_are_as_on_the_page(capsys: Capture, monkeypatch: pytest.MonkeyPat
     signs = {
         "arm": "✓",
         "loader": "✓",
-        "welder": "?",
-        "picker": "≠",
+        "welder": "!",
+        "picker": "✗",
         "cart": "✗",
         "new": "!",
         "hoist": "!",

@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 from markdown_it import MarkdownIt
 
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.output.markdown import FOLDED, LONGEST, MOST_ROWS, comment
+from urdfsync.output.console import line
+from urdfsync.output.markdown import FOLDED, LONGEST, MOST_ROWS, document
 from urdfsync.output.sections import Mark, Section, Table
 
 RENDER = MarkdownIt("commonmark").enable(["table", "strikethrough"]).render
@@ -32,7 +33,9 @@ def cells(rendered: str) -> list[str]:
 @example("`a|b`")
 @example("</td><br>")
 def test_quoted_text_shows_as_it_is(text: str) -> None:
-    written = comment([Section(text, text, Mark.OPEN, points=[text], tables=[Table("Changes", ("",), [(text,)])])])
+    written = document(
+        [Section(text, text, Mark.OPEN, points=[line((text, ""))], tables=[Table("Changes", ("",), [(text,)])])]
+    )
     rendered = RENDER(written)
     assert rendered == written  # no line of it is read as Markdown
     assert cells(rendered) == [re.sub("([@#])", "\\1\u2060", re.sub("`([^`]+)`", r"\1", text.replace("\n", "\\n")))]
@@ -40,38 +43,40 @@ def test_quoted_text_shows_as_it_is(text: str) -> None:
 
 
 def test_nobody_is_called_and_no_issue_is_linked() -> None:
-    assert "<li>@\u2060octocat #\u206012</li>" in comment([Section("arm", "", Mark.OPEN, points=["@octocat #12"])])
+    assert "<li>@\u2060octocat #\u206012</li>" in document(
+        [Section("arm", "", Mark.OPEN, points=[line(("@octocat #12", ""))])]
+    )
 
 
 def test_names_with_signs_of_tables_stay_in_their_cell() -> None:
-    assert cells(RENDER(comment([section(("link a|b", HOSTILE))])))[0] == "link a|b"
+    assert cells(RENDER(document([section(("link a|b", HOSTILE))])))[0] == "link a|b"
 
 
 def test_of_a_short_table_all_is_open_and_a_long_one_is_folded() -> None:
     rows = [(f"link {number}", "added") for number in range(FOLDED + 1)]
-    assert "<details>" not in comment([section(*rows[:-1])])
-    folded = comment([section(*rows)])
+    assert "<details>" not in document([section(*rows[:-1])])
+    folded = document([section(*rows)])
     assert f"<details><summary>{FOLDED + 1} changes</summary>\n<table>\n<tr><th>Element</th>" in folded
     assert RENDER(folded).count("<tr>") == FOLDED + 2
 
 
 def test_of_very_many_rows_the_rest_is_counted_and_a_comment_fits_in_a_comment() -> None:
     rows = [(f"link {number}", "x" * 80) for number in range(MOST_ROWS + 5)]
-    assert "… and 5 more" in comment([section(*rows)])
-    whole = comment([section(*rows, robot=f"arm{number}") for number in range(20)])
+    assert "… and 5 more" in document([section(*rows)])
+    whole = document([section(*rows, robot=f"arm{number}") for number in range(20)])
     assert len(whole) < LONGEST + 20 * 200
     assert "<li>⚠️ arm19: 1 file to write (the rest is too long for a comment: the command" in whole
 
 
 def test_what_needs_attention_comes_first_and_what_is_fine_takes_a_line() -> None:
     wrong = section(("link a", "added"), mark=Mark.WRONG, robot="legs")
-    text = comment([FINE, section(("link a", "added")), wrong])
+    text = document([FINE, section(("link a", "added")), wrong])
     assert re.findall("^<(?:h3|li)>(.*): ", text, re.MULTILINE) == ["❌ legs", "⚠️ arm", "✅ arm"]
 
 
 def test_findings_have_their_place_and_the_worst_are_first() -> None:
     note = Diagnostic(Severity.NOTE, "texture", "textures become colours")
     error = Diagnostic(Severity.ERROR, "no-link", "there is no link", "arm.urdf", 3, hint="export it again")
-    found = cells(RENDER(comment([], [note, error])))
+    found = cells(RENDER(document([], [note, error])))
     assert found[:4] == ["❌ error", "arm.urdf:3", "there is no link; export it again", "no-link"]
     assert found[4] == "ℹ️ note"

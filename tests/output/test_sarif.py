@@ -13,7 +13,7 @@ import pytest
 from support.schemas import validate
 
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.output.sarif import log, read_meanings
+from urdfsync.output.sarif import document, read_meanings
 from urdfsync.output.sections import Mark, Section
 
 CYCLE = Diagnostic(Severity.ERROR, "cycle", "link a|b is below itself", "cad/my arm.urdf", 7, 3, hint="correct it")
@@ -24,9 +24,9 @@ LOCKED = Diagnostic(Severity.ERROR, "locked", "another build is running")
 def run_of(*findings: Diagnostic, code: int = 0, verdict: Diagnostic | None = None) -> Any:
     """The run in a valid log of one robot's findings."""
     section = Section("arm", "1 error", Mark.WRONG, findings=findings, verdict=verdict)
-    document = json.loads(log([section], [], code))
-    validate(document, "sarif")
-    (run,) = document["runs"]
+    log = json.loads(document([section], [], code))
+    validate(log, "sarif")
+    (run,) = log["runs"]
     return run
 
 
@@ -35,10 +35,10 @@ def places(run: Any) -> Iterator[Any]:
 
 
 def test_the_schema_refuses_a_log_without_a_message() -> None:
-    document = json.loads(log([Section("arm", "", Mark.WRONG, findings=[CYCLE])], [], 2))
-    del document["runs"][0]["results"][0]["message"]
+    log = json.loads(document([Section("arm", "", Mark.WRONG, findings=[CYCLE])], [], 2))
+    del log["runs"][0]["results"][0]["message"]
     with pytest.raises(jsonschema.ValidationError):
-        validate(document, "sarif")
+        validate(log, "sarif")
 
 
 def test_a_finding_stands_at_its_line_below_the_top_of_the_repository(

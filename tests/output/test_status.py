@@ -10,7 +10,8 @@ from urdfsync.changes import Change, Changes
 from urdfsync.domain import ChangeClass, ChangeKind, Role
 from urdfsync.engine.actions import Action, Actions, FileStatus, Kind, Reason
 from urdfsync.engine.result import Result
-from urdfsync.output.status import lines, summary
+from urdfsync.output.status import status_section, summary
+from urdfsync.output.terminal import text
 
 
 def action(reason: Reason, waits: bool = False, path: str = "") -> Action:
@@ -24,7 +25,7 @@ def result_of(*actions: Action, changes: Changes | None = None) -> Result:
 
 
 def said(result: Result, *, verbose: bool = False) -> list[str]:
-    return list(map(str, lines(result, verbose=verbose)))
+    return list(map(str, text(status_section(result, verbose=verbose), verbose=verbose)))
 
 
 def changed(*classes: ChangeClass, noise: bool = False) -> Changes:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import itertools
 import math
-import sys
 from collections import Counter
 from collections.abc import Collection, Iterator, Sequence
 
@@ -19,34 +18,16 @@ from urdfsync.checks.results import (
     worst,
 )
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.output.console import StyledLine, has_marks, line
+from urdfsync.output.console import StyledLine, line
 from urdfsync.output.sections import Mark, Section, Table
 from urdfsync.spelling import counted
 
-_STYLES = {
-    CheckStatus.RIGHT: ("✓", "green"),
-    CheckStatus.INCOMPLETE: ("?", "magenta"),
-    CheckStatus.OUT_OF_STEP: ("!", "yellow"),
-    CheckStatus.NOT_BUILT: ("!", "yellow"),
-    CheckStatus.DIFFERS: ("≠", "bold red"),
-    CheckStatus.FAILED: ("✗", "bold red"),
-}
+_MARKS = {CheckStatus.RIGHT: Mark.FINE, CheckStatus.DIFFERS: Mark.WRONG, CheckStatus.FAILED: Mark.WRONG}
 _STATED = {
     Quantity.WARNING: "the warning “{detail}” is missing, or comes elsewhere",
     Quantity.CONNECTION: "{detail} is not connected as it should be",
 }
 """Differences that are no amounts."""
-
-
-def robot_lines(result: CheckResult, *, verbose: bool = False) -> Iterator[StyledLine]:
-    """Yield all lines about one robot alone."""
-    mark, style = _STYLES[result.status]
-    sign = f"{mark} " if has_marks(sys.stdout) else ""
-    yield line((sign, style), (result.robot, "bold"), (f": {result.summary}", ""))
-    sentences = _sentences(result)
-    if verbose:
-        sentences += [(sentence, "dim") for sentence in _details(result)]
-    yield from (line(("  ", ""), sentence) for sentence in sentences)
 
 
 def _sentences(result: CheckResult) -> list[tuple[str, str]]:
@@ -172,9 +153,12 @@ def closing_lines(results: Sequence[CheckResult]) -> Iterator[StyledLine]:
         yield line((f"{counted(len(results), 'robot')}: {tally}", "bold"))
 
 
-def to_section(result: CheckResult) -> Section:
-    """Return a result for a comment: its sentences, and the greatest deviation of each part."""
-    status, sentences = result.status, [sentence.strip() for sentence, _ in _sentences(result)]
+def to_section(result: CheckResult, *, verbose: bool | None = None) -> Section:
+    """Return the sentences about a robot, and how far each part agrees with the reference.
+
+    In a document nothing else says what was not compared; on a terminal, `verbose` adds each number.
+    """
+    status, sentences = result.status, _sentences(result)
     rows = [
         (part, f"{part_word(each)}, to {each.relative:.1e}", f"{each.element}, {each.quantity}")
         for part, each in worst(result.deviations).items()
@@ -183,14 +167,16 @@ def to_section(result: CheckResult) -> Section:
     if status not in (CheckStatus.RIGHT, CheckStatus.FAILED):
         file = f"{result.folder}/package.mo" if result.folder else ""
         # what is wrong comes first; gaps, and that files are out of step, come last
-        told = sentences[0 if status is CheckStatus.DIFFERS else -1]
+        told = sentences[0 if status is CheckStatus.DIFFERS else -1][0].strip()
         severity = Severity.NOTE if status is CheckStatus.INCOMPLETE else Severity.WARNING
         finding = Diagnostic(severity, status.replace(" ", "-"), f"{result.package}: {told}", file)
-    marks = {CheckStatus.RIGHT: Mark.FINE, CheckStatus.FAILED: Mark.WRONG}
-    points = [*sentences, *(f"not compared: {sentence}" for sentence in dict.fromkeys(result.unchecked))]
+    more = _details(result) if verbose else ()
+    if verbose is None:
+        more = (f"not compared: {sentence}" for sentence in dict.fromkeys(result.unchecked))
+    points = [line(("  ", ""), sentence) for sentence in (*sentences, *((words, "dim") for words in more))]
     table = Table(f"Compared with {result.reference}", ("", "", "Worst"), rows)
-    mark = marks.get(status, Mark.OPEN)
-    return Section(result.robot, result.summary, mark, points, [table], result.diagnostics, finding)
+    about = result.robot, result.summary, _MARKS.get(status, Mark.OPEN)
+    return Section(*about, points, [table], result.diagnostics, finding, most=len(points))
 
 
 def _by_kind(deviations: Sequence[Deviation], owners: Collection[str] = ()) -> Iterator[tuple[Deviation, str]]:

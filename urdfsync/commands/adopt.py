@@ -11,16 +11,17 @@ from urdfsync.commands import arguments
 from urdfsync.config import Config, RobotConfig
 from urdfsync.engine.actions import Reason
 from urdfsync.engine.build import build
-from urdfsync.engine.edits import find_edited
+from urdfsync.engine.edits import RobotEdits, find_edited
 from urdfsync.engine.generation import generate_robot
 from urdfsync.engine.inputs import inspect
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.package_files import key_of
 from urdfsync.engine.result import Result, exit_code
 from urdfsync.modelica.files import modelica_files
+from urdfsync.output.build_section import show_result
 from urdfsync.output.console import Console, StyledLine
-from urdfsync.output.edits import edit_lines
-from urdfsync.output.results import file_line, show_result
+from urdfsync.output.edits import to_section
+from urdfsync.output.terminal import details, file_line
 
 _EDITS = 5
 """So many edits of a file are listed at most, without --verbose."""
@@ -61,10 +62,11 @@ def _lines(
     configuration: Config, robot: RobotConfig, result: Result, looking: BuildOptions, *, verbose: bool
 ) -> Iterator[StyledLine]:
     """Yield the edited files with what is edited, then those that nothing generates."""
-    for file in find_edited(generate_robot(inspect(configuration, robot, looking))):
-        yield from edit_lines(file, result.root, verbose, _EDITS)
+    files = tuple(find_edited(generate_robot(inspect(configuration, robot, looking))))
+    edits = to_section(RobotEdits(robot.name, result.root, files), verbose=verbose, most=_EDITS)
+    yield from details(edits, verbose=verbose)
     generated = {action.path for action in result.actions if action.reason is not Reason.UNKNOWN}
     for place in sorted(modelica_files(result.folder)):
         path = key_of(Path(place), result.root)
         if path not in generated:
-            yield file_line(result.shown(path), "unknown", "yellow", "yours: no export changes it")
+            yield file_line(result.shown(path), "unknown", "yours: no export changes it")

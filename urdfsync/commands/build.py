@@ -13,8 +13,8 @@ from urdfsync.commands import arguments
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Result, exit_code
 from urdfsync.files import shown
+from urdfsync.output.build_section import show_result
 from urdfsync.output.console import Console, StyledLine, line
-from urdfsync.output.results import show_result
 
 _NEXT_COMMANDS = {
     "library": "prints how these tools find the library UrdfSync",

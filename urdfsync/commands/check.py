@@ -7,11 +7,12 @@ from pathlib import Path
 
 from urdfsync.api import check
 from urdfsync.checks.compilers import BOTH, COMPILERS
-from urdfsync.checks.report import closing_lines, robot_lines, to_section
+from urdfsync.checks.report import closing_lines, to_section
 from urdfsync.checks.results import CheckOptions, CheckResult, CheckStatus, exit_code
 from urdfsync.commands import arguments
 from urdfsync.commands.report import prepare_page
 from urdfsync.output.console import Console, line
+from urdfsync.output.terminal import text
 
 
 def add(commands: arguments.Commands) -> None:
@@ -63,5 +64,5 @@ def show_result(console: Console, result: CheckResult) -> None:
     if console.is_document:
         console.add(result, to_section)
     elif not console.quiet or result.status is not CheckStatus.RIGHT:
-        console.print(robot_lines(result, verbose=console.verbose))
+        console.print(text(to_section(result, verbose=console.verbose)))
     console.findings(result.diagnostics)

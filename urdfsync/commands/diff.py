@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 from urdfsync.api import diff, edits
 from urdfsync.commands import arguments
 from urdfsync.engine.result import Exit
+from urdfsync.output.build_section import show
 from urdfsync.output.console import Console
-from urdfsync.output.results import show_lines
 from urdfsync.versions import report
 from urdfsync.versions.comparison import Comparison, exit_code
 
@@ -52,14 +52,10 @@ def run(args: argparse.Namespace, console: Console) -> int:
 
 
 def _show_changes(console: Console, compared: Comparison) -> None:
-    lines = report.robot_lines(compared, verbose=console.verbose)
-    console.add(compared, report.to_section)
-    show_lines(console, compared.result, lines, compared.diagnostics)
+    show(console, compared, report.to_section, compared.result)
 
 
 def _show_edits(console: Console, edited: RobotEdits) -> None:
-    from urdfsync.output.edits import robot_lines, to_section  # the merge takes a while to load
+    from urdfsync.output.edits import to_section  # the merge takes a while to load
 
-    console.add(edited, to_section)
-    console.findings(edited.diagnostics)
-    console.tell(robot_lines(edited, verbose=console.verbose))
+    show(console, edited, to_section)

@@ -27,8 +27,8 @@ from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Exit, Result, exit_code
 from urdfsync.facts import LISTINGS, LSTAT, VARIABLE
 from urdfsync.files import shown
+from urdfsync.output.build_section import show_result
 from urdfsync.output.console import Console
-from urdfsync.output.results import show_result
 from urdfsync.spelling import counted
 
 _FEW = 4

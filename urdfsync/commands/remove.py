@@ -14,8 +14,10 @@ from urdfsync.engine.actions import ORPHANS, Action, Reason
 from urdfsync.engine.build import build
 from urdfsync.engine.result import Result, exit_code
 from urdfsync.files import shown
-from urdfsync.output.console import Console, first_lines
-from urdfsync.output.results import action_line, headline, show_result
+from urdfsync.output.build_section import show_result
+from urdfsync.output.console import Console
+from urdfsync.output.sections import Mark, Section, Table
+from urdfsync.output.terminal import file_line, text
 from urdfsync.state.transaction import save
 
 _FILES = 20
@@ -66,10 +68,11 @@ def _show(console: Console, result: Result, words: str) -> None:
         show_result(console, result)
         return
     console.findings(result.diagnostics)
-    console.tell([headline(result, "; ".join([words, *result.counts(ORPHANS)]), is_fine=True)])
     decided = [action for action in result.actions.decided if action.writes or action.reason in ORPHANS]
-    files = [action_line(result, action, _reason(action)) for action in decided]
-    console.tell(first_lines(files, _FILES, "file", verbose=console.verbose))
+    rows = [(result.shown(action.path), str(action.reason), _reason(action)) for action in decided]
+    files = Table("Files", ("File", "", "Why"), rows, file_line, _FILES, "file")
+    section = Section(result.robot, "; ".join([words, *result.counts(ORPHANS)]), Mark.FINE, tables=[files])
+    console.tell(text(section, verbose=console.verbose))
 
 
 def _reason(action: Action) -> str:

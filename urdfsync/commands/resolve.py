@@ -20,8 +20,8 @@ from urdfsync.engine.build import build
 from urdfsync.engine.package_files import key_of
 from urdfsync.engine.result import Exit, Result, exit_code
 from urdfsync.files import shown
+from urdfsync.output.build_section import show_result
 from urdfsync.output.console import Console
-from urdfsync.output.results import show_result
 
 
 def add(commands: arguments.Commands) -> None:

@@ -7,11 +7,10 @@ import argparse
 from urdfsync.api import status
 from urdfsync.commands import arguments
 from urdfsync.engine.options import BuildOptions
-from urdfsync.engine.result import Result, exit_code
-from urdfsync.output.build_section import build_section
+from urdfsync.engine.result import exit_code
+from urdfsync.output.build_section import show
 from urdfsync.output.console import Console
-from urdfsync.output.results import show_lines
-from urdfsync.output.status import lines
+from urdfsync.output.status import status_section
 
 
 def add(commands: arguments.Commands) -> None:
@@ -29,10 +28,7 @@ def add(commands: arguments.Commands) -> None:
 
 def run(args: argparse.Namespace, console: Console) -> int:
     """Show how each robot's package stands."""
-
-    def show(result: Result) -> None:
-        console.add(result, build_section)
-        show_lines(console, result, lines(result, verbose=console.verbose), result.diagnostics)
-
-    results = arguments.call(status, BuildOptions, args, console, on_result=show)
+    results = arguments.call(
+        status, BuildOptions, args, console, on_result=lambda result: show(console, result, status_section, result)
+    )
     return console.end(exit_code(results, check=True))

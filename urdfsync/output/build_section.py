@@ -1,41 +1,98 @@
-"""The result of a build as a section."""
+"""The result of a build as a section, and how commands show it."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Container, Iterable, Iterator, Sequence
+from functools import partial
+from typing import Any
 
 from urdfsync.changes import Changes
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import ChangeClass
-from urdfsync.engine.actions import CONFLICTS, Kind, Reason
+from urdfsync.engine.actions import CONFLICTS, ORPHANS, USERS, Action, Reason
 from urdfsync.engine.result import Checked, DisputedFile, Result
 from urdfsync.files import shown
-from urdfsync.output.conflicts import settle_hint
-from urdfsync.output.outline import outline
+from urdfsync.output.conflicts import conflict_lines, settle_hint
+from urdfsync.output.console import Console, StyledLine
+from urdfsync.output.outline import Row, outline
 from urdfsync.output.phrases import change_counts, generator_change, reason
+from urdfsync.output.repeated import show_findings
 from urdfsync.output.sections import Mark, Section, Table
+from urdfsync.output.terminal import change_line, file_line, text
 from urdfsync.spelling import same_count
 
 _BUILD = "run `urdfsync build`, and commit what it writes"
 _SETTLE = "run `urdfsync build` for both sides, and settle the conflicts with `urdfsync resolve`"
 _FIT = "correct the files that do not fit"
-_SILENT = {Reason.UNCHANGED, Reason.KEEP, Reason.FORGET} | CONFLICTS
+_SILENT = {Reason.FORGET} | CONFLICTS
 """Reasons of actions that no table has; conflicts are findings."""
+_ALWAYS_LISTED = {Reason.MERGE, Reason.MOVE, Reason.UNDO} | ORPHANS
+EDITED = USERS | {Reason.MOVED_AWAY}
+"""Actions on files that the user edited."""
+_ORPHANS = "of an orphan: `urdfsync resolve FILE --keep` makes it yours, --take deletes it"
 
 
-def build_section(result: Result) -> Section:
-    """Return what was done with one robot, or would be."""
-    changes = result.effective_changes
-    points, tables = change_parts(changes)
+def build_section(result: Result, *, verbose: bool | None = None, named: Container[str] = ()) -> Section:
+    """Return what was done with one robot, or would be, with all files that do not stay as they are.
+
+    If `verbose`, edited files that stay are listed, too, and numbers have all digits. If False, only the files are
+    listed that still have a text of the user's, and those that are `named` by their keys.
+    """
+    points, tables = change_parts(result.effective_changes, verbose=bool(verbose))
+    silent = _SILENT if verbose or named else _SILENT | {Reason.KEEP}
+    listed = [action for action in result.actions.decided if action.reason not in silent]
+    if verbose is False:
+        important = {action.path for action in listed if action.reason in _ALWAYS_LISTED and not action.is_waiting}
+        listed = [action for action in listed if action.path in important or action.path in named]
+    hints = [_ORPHANS] if any(action.reason is Reason.ORPHAN for action in listed) else []
+    hints += [f"diagram: {shown(result.drawing)}"] if result.drawing else []
     return Section(
         result.robot,
         result.summary,
         mark_of(result),
         points,
-        (*tables, file_table(result)),
+        (*tables, file_table(result, listed)),
         (*result.diagnostics, *_conflicts(result)),
         None if result.failed else out_of_step(result),
+        hints,
     )
+
+
+def show_result(console: Console, result: Result, *, named: Container[str] = ()) -> None:
+    """Show what was done with one robot; `named` files are listed."""
+    show(console, result, partial(build_section, named=named), result, quiet=console.quiet)
+    if not console.is_document and result.conflicts:
+        console.print(conflict_lines(result, console))
+
+
+def show(
+    console: Console,
+    told: Any,
+    to_section: Callable[..., Section],
+    result: Result | None = None,
+    *,
+    quiet: bool = False,
+) -> None:
+    """Show what is `told` about one robot; with --quiet, people see only what they have to look after.
+
+    With `quiet`, the first line and what to do are enough of that. Without a `result`, no finding was told before.
+    """
+    if console.is_document:
+        console.add(told, to_section)
+        return
+    if result:
+        show_findings(console, result, told.diagnostics)
+    else:
+        console.findings(told.diagnostics)
+    if not console.quiet or (result and (result.conflicts or result.is_broken)):
+        section = to_section(told, verbose=console.verbose)
+        console.print(text(section, verbose=console.verbose, quiet=quiet), error=bool(result and result.failed))
+
+
+def build_lines(result: Result) -> Iterator[StyledLine]:
+    """Yield what was done with one robot, without its findings."""
+    yield from text(build_section(result, verbose=False))
+    yield from conflict_lines(result, Console()) if result.conflicts else ()
 
 
 def mark_of(result: Result) -> Mark:
@@ -70,24 +127,30 @@ def _edited_line(target: DisputedFile) -> int:
     return min(same_count(base, mine) + 1, len(mine))
 
 
-def change_parts(changes: Changes | None) -> tuple[list[str], list[Table]]:
-    """Return changes of a model: those of its structure as lines, all others as a table."""
+def change_parts(
+    changes: Changes | None, most: int = 12, *, verbose: bool = False
+) -> tuple[list[StyledLine], list[Table]]:
+    """Return changes of a model: those of its structure as lines, all others as a table, of which so many are shown."""
     if changes is None:
         return [], []
     structure = tuple(each for each in changes.changes if each.change_class is ChangeClass.STRUCTURAL)
     others = tuple(each for each in changes.changes if each.change_class is not ChangeClass.STRUCTURAL)
     points = [generator_change(changes)] if changes.generator else []
     points += [change_counts(changes)] if len(changes.changes) > 1 else []
-    points += [f"{title}: {row}" for title, rows in outline(Changes(structure)) for row in rows]
-    rows = [(title, *row) for title, rows in outline(Changes(others)) for row in rows]
-    return points, [Table("Changes", ("Element", "Property", "Change", "By"), rows)]
+    points += [f"{title}: {row}" for title, rows in outline(Changes(structure), everything=verbose) for row in rows]
+    rows = [(title, *row) for title, rows in outline(Changes(others), everything=verbose) for row in rows]
+
+    def line(element: str, *row: str) -> StyledLine:
+        return change_line(f"{element}: {Row(*row)}")
+
+    return [*map(change_line, points)], [Table("Changes", ("Element", "Property", "Change", "By"), rows, line, most)]
 
 
-def file_table(result: Result) -> Table:
-    """Return what happens to the files of a package, without those that stay."""
-    actions = [action for action in result.actions if action.reason not in _SILENT]
-    actions.sort(key=lambda action: (action.kind is Kind.LEAVE, action.path.rpartition("/")))
-    words = ["waiting" if action.is_waiting else action.reason for action in actions]
+def file_table(result: Result, actions: Sequence[Action], **options: Any) -> Table:
+    """Return what happens to files, to those that the user edited first; `options` are those of the table."""
+    actions = sorted(actions, key=lambda action: (action.reason not in EDITED, action.path.rpartition("/")))
+    words = ["waiting" if action.is_waiting else str(action.reason) for action in actions]
     reasons = [reason(action, result.effective_changes, brief=True) for action in actions]
-    paths = [result.shown(action.path) for action in actions]
-    return Table("Files", ("File", "", "Why"), list(zip(paths, words, reasons, strict=True)))
+    rows = list(zip([result.shown(action.path) for action in actions], words, reasons, strict=True))
+    options = {"line": file_line, "most": len(rows), **options}
+    return Table("Files", ("File", "", "Why"), rows, **options)

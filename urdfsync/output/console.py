@@ -6,6 +6,7 @@ quotes from files can command a terminal: `visible` escapes it.
 
 from __future__ import annotations
 
+import importlib
 import io
 import json
 import os
@@ -26,8 +27,6 @@ if TYPE_CHECKING:
     import rich.console
     from rich.progress import Progress, TaskID
     from rich.text import Text
-
-    from urdfsync.output.sections import Section
 
 R = TypeVar("R", bound=msgspec.Struct)
 Format: TypeAlias = Literal["text", "json", "markdown", "sarif"]
@@ -148,7 +147,7 @@ class Console:
         self._command, self.config = command, config
         self.format, self.quiet, self.verbose = format, quiet, verbose
         self._results: list[msgspec.Struct] = []
-        self._sections: list[Section] = []
+        self._sections: list[Any] = []
         self._warnings: Sequence[Diagnostic] = ()
         self._begin = time.monotonic()
         self._bar: tuple[Progress, TaskID] | None = None
@@ -178,7 +177,7 @@ class Console:
         self._warnings = diagnostics
         self.findings(diagnostics)
 
-    def add(self, result: R, to_section: Callable[[R], Section] | None = None) -> None:
+    def add(self, result: R, to_section: Callable[[R], Any] | None = None) -> None:
         """Add a result to the document; those of a command that fails later are in its document, too."""
         self.stop_progress()
         if self.format == "json":
@@ -197,17 +196,14 @@ class Console:
 
     def _document(self, code: int, diagnostics: Sequence[Diagnostic]) -> str:
         """Return the document that takes the place of lines; `diagnostics` belong to no robot."""
-        if self.format == "markdown":
-            from urdfsync.output.markdown import comment  # most commands write none
-
-            return comment(self._sections, diagnostics)
-        if self.format == "sarif":
-            from urdfsync.output.sarif import log
-
-            return log(self._sections, diagnostics, code)
-        document = Document(command=self._command, exit=int(code), results=self._results, diagnostics=diagnostics)
+        if self.format != "json":  # each other format is a module, which most commands do without
+            document: str = importlib.import_module(f"urdfsync.output.{self.format}").document(
+                self._sections, diagnostics, code
+            )
+            return document
+        values = Document(command=self._command, exit=int(code), results=self._results, diagnostics=diagnostics)
         indent = None if self._command == "watch" else 2  # its output is one object per line
-        return json.dumps(plain(document), indent=indent) + "\n"
+        return json.dumps(plain(values), indent=indent) + "\n"
 
     def progress(self, what: str, done: int, total: int) -> None:
         """Show a step of the work, once the work takes long enough for anybody to wonder."""

@@ -27,7 +27,7 @@ _TOO_LONG = " (the rest is too long for a comment: the command without `--format
 _CODE = re.compile("`([^`]+)`")
 
 
-def comment(sections: Iterable[Section], findings: Sequence[Diagnostic] = ()) -> str:
+def document(sections: Iterable[Section], findings: Sequence[Diagnostic] = (), _code: int = 0) -> str:
     """Return robots, those that need attention first, and findings that belong to none, as one comment."""
     environment = html_environment(Path(__file__).parent)
     environment.filters |= {"quoted": _quoted, "findings": findings_table}

@@ -7,7 +7,7 @@ from collections import Counter
 from urdfsync.changes import Changes
 from urdfsync.domain import ChangeClass, ChangeKind, Role
 from urdfsync.engine.actions import Action, Choice, Reason
-from urdfsync.output.outline import change_row, outline
+from urdfsync.output.outline import change_row
 from urdfsync.spelling import counted
 
 _NAMED = {
@@ -70,23 +70,6 @@ def generator_change(changes: Changes) -> str:
         return "a template, an option or urdfsync itself changed"
     names = " and ".join(f"`{name}`" for name in changes.options)
     return f"the option{'s' if len(changes.options) > 1 else ''} {names} changed"
-
-
-def change_lines(changes: Changes, most: int | None = None, *, everything: bool = False) -> list[str]:
-    """Return what changed in the model, one line each: `joint elbow: limit / effort 54 → 60 N.m (+11.1 %)`.
-
-    How much it is comes first, if it is several things. Where that takes more than `most` lines, each element has one.
-    """
-    lines = [generator_change(changes)] if changes.generator else []
-    elements = outline(changes, everything=everything)
-    count = sum(len(rows) for _, rows in elements)
-    if count > 1:
-        lines.append(change_counts(changes))
-    if most is None or len(lines) + count <= most:
-        return [*lines, *(f"{title}: {row}" for title, rows in elements for row in rows)]
-    for title, (first, *others) in elements:
-        lines.append(f"{title}: {first}{f', and {len(others)} more' if others else ''}")
-    return lines
 
 
 def change_counts(changes: Changes) -> str:

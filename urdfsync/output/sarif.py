@@ -24,7 +24,7 @@ _ESCAPES = str.maketrans({**{char: f"\\{char}" for char in "[]\\"}, "{": "{{", "
 """Signs of embedded links, and of placeholders (3.11.5, 3.11.6): names in a message may be a stranger's."""
 
 
-def log(sections: Iterable[Section], findings: Sequence[Diagnostic], code: int) -> str:
+def document(sections: Iterable[Section], findings: Sequence[Diagnostic], code: int) -> str:
     """Return a log of one run with the findings of robots and those of none; `code` is the exit code.
 
     What names no file is a notification about the run.

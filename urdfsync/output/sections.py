@@ -1,13 +1,15 @@
-"""What a command found out about one robot, as values: `markdown` and `sarif` write them, `pages` shows them."""
+"""What a command found out about one robot, as values: `terminal`, `markdown`, `sarif` and `pages` show them."""
 
 from __future__ import annotations
 
 import enum
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from typing import Any
 
 import msgspec
 
 from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.output.console import StyledLine
 
 
 class Mark(enum.StrEnum):
@@ -29,21 +31,32 @@ class Table(msgspec.Struct, frozen=True):
     title: str
     columns: tuple[str, ...]
     """Heads; of a column whose cells are all empty, nothing is written."""
-    rows: Sequence[Sequence[str]]
+    rows: Sequence[Sequence[Any]]
+    line: Callable[..., StyledLine] | None = None
+    """The line of a terminal for the cells of a row; None if a terminal does not show them."""
+    most: int = 12
+    """So many rows are lines of a terminal without --verbose."""
+    noun: str = "line"
+    heading: Sequence[StyledLine] = ()
+    """Lines above these on a terminal."""
 
 
 class Section(msgspec.Struct, frozen=True):
-    """All that a comment says of one robot."""
+    """All that a command says of one robot."""
 
     robot: str
     summary: str
     mark: Mark
-    points: Sequence[str] = ()
+    points: Sequence[StyledLine] = ()
     """Sentences before the tables, the structure first."""
     tables: Sequence[Table] = ()
     findings: Sequence[Diagnostic] = ()
     verdict: Diagnostic | None = None
     """The finding that the package as a whole is not as it should be; its `hint` says what to do."""
+    hints: Sequence[str] = ()
+    """Lines of a terminal about what to do next."""
+    most: int = 12
+    """So many points are lines of a terminal without --verbose."""
 
     @property
     def has_details(self) -> bool:

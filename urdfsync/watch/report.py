@@ -20,19 +20,13 @@ from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.engine.actions import CONFLICTS, ORPHANS, Actions, Reason
 from urdfsync.engine.result import Checked, Result, check_result
 from urdfsync.files import shown
+from urdfsync.output.build_section import build_section
 from urdfsync.output.conflicts import conflict_lines
-from urdfsync.output.console import (
-    Console,
-    StyledLine,
-    findings,
-    has_marks,
-    line,
-    rich_console,
-    write_lines,
-)
+from urdfsync.output.console import Console, StyledLine, findings, has_marks, line, rich_console, write_lines
 from urdfsync.output.documents import JSON_VERSION, plain
-from urdfsync.output.phrases import change_counts, change_lines
-from urdfsync.output.results import result_lines
+from urdfsync.output.outline import outline
+from urdfsync.output.phrases import change_counts, generator_change
+from urdfsync.output.terminal import details
 from urdfsync.spelling import counted
 from urdfsync.watch import events
 from urdfsync.watch.terminal import StatusArea
@@ -253,7 +247,7 @@ class Report:
             hidden = frozenset() if verbose else CONFLICTS | untold
             actions = Actions(action for action in result.actions if action.reason not in hidden)
             seen = msgspec.structs.replace(result, actions=actions, changes=result.changes if verbose else None)
-            yield from map(LogLine, result_lines(seen, verbose=verbose))
+            yield from map(LogLine, details(build_section(seen, verbose=verbose), verbose=verbose))
         if conflicts or (verbose and result.conflicts):
             yield from map(LogLine, conflict_lines(result, self._console))
 
@@ -350,11 +344,12 @@ def _changes(result: Result) -> list[str]:
     """Return the changes of the model: a few in words, else their number."""
     if result.effective_changes is None:
         return []
-    changes, lines = result.effective_changes, change_lines(result.effective_changes)
-    words = "; ".join(lines[-_FEW:])
+    changes = result.effective_changes
     if changes.generator:
-        return lines[:1]
-    return [words if len(lines) <= _FEW + 1 and len(words) <= _MAX_LENGTH else change_counts(changes)]
+        return [generator_change(changes)]
+    rows = [f"{title}: {row}" for title, rows in outline(changes) for row in rows]
+    words = "; ".join(rows)
+    return [words if len(rows) <= _FEW and len(words) <= _MAX_LENGTH else change_counts(changes)]
 
 
 def _with_error(words: str, diagnostics: Sequence[Diagnostic]) -> str:

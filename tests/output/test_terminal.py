@@ -1,4 +1,4 @@
-"""Results in words: the changes of a model, line by line."""
+"""The changes of a model on a terminal, line by line."""
 
 from __future__ import annotations
 
@@ -6,7 +6,9 @@ from typing import Any
 
 from urdfsync.changes import Change, Changes
 from urdfsync.domain import ChangeClass, ChangeKind
-from urdfsync.output.phrases import change_lines
+from urdfsync.output.build_section import change_parts
+from urdfsync.output.sections import Mark, Section
+from urdfsync.output.terminal import details
 
 STRUCTURAL = ChangeClass.STRUCTURAL
 
@@ -24,7 +26,8 @@ def test_a_change_is_one_line_of_a_build() -> None:
             change("joint a / limit / effort", 54.0, 60.0, ChangeKind.CHANGED),
         )
     )
-    assert change_lines(found) == [
+    points, tables = change_parts(found)
+    assert [str(line).strip() for line in details(Section("arm", "", Mark.NONE, points, tables))] == [
         "~3 (1 structural and 2 parameter and 1 unmodelled change)",
         "link a: renamed to b: c",
         "link a: visual 1 added: name x",
