@@ -10,8 +10,8 @@ import pytest
 from support import hostile
 from support.networks import configure
 
-from urdfsync import cli, render
-from urdfsync.engine import source
+from urdfsync import cli
+from urdfsync.engine import render, source
 
 Capture = pytest.CaptureFixture[str]
 

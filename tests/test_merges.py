@@ -23,7 +23,7 @@ from support.git import NEEDS_GIT, Repository
 from support.networks import LADDER, MODEL, R2, configure, failure, kinds, run
 
 from urdfsync.engine.actions import Choice, Reason
-from urdfsync.markers import find_markers, join_sides, read_sides
+from urdfsync.modelica.markers import find_markers, join_sides, read_sides
 
 pytestmark = NEEDS_GIT
 

@@ -6,8 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from urdfsync import dependencies, registry
-from urdfsync.facts import NAMES
+from urdfsync import registry
+from urdfsync.answers import dependencies
+from urdfsync.answers.facts import NAMES
 
 
 def test_domains_that_are_installed_depend_on_what_else_is(rc_domain: None, rc_site: Path) -> None:

@@ -10,16 +10,16 @@ def main() -> int:
     # else Python looks for garbage in all that is loaded, and then ends: 40 of 290 ms of a build, 3 of 40 of no work
     atexit.register(gc.freeze)
     try:
-        from urdfsync import uptodate  # here, so that Ctrl-C during the import leaves no traceback
+        from urdfsync.answers import uptodate  # here, so that Ctrl-C during the import leaves no traceback
 
         try:
             if sys.argv[1:2] == ["hook"]:
-                from urdfsync import hook  # 6 ms, which other commands do without
+                from urdfsync.git import hook  # 6 ms, which other commands do without
 
                 if hook.is_answered(sys.argv[1:]):
                     return 0
             if sys.argv[1:2] == ["completion"]:
-                from urdfsync import completion  # likewise
+                from urdfsync.shells import completion  # likewise
 
                 if completion.answer(sys.argv[2:]):
                     return 0

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 import msgspec
 
 from urdfsync import config as configuration
-from urdfsync import dependencies
+from urdfsync.answers import dependencies
 from urdfsync.config import Config, RobotConfig
 from urdfsync.config import library_folder as library_folder
 from urdfsync.diagnostics import ConfigError, Diagnostic

@@ -11,9 +11,9 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-from urdfsync.dependencies import Dependencies, file_type, note_content, read_file, read_stat, walk_files
+from urdfsync.answers.dependencies import Dependencies, file_type, note_content, read_file, read_stat, walk_files
+from urdfsync.answers.facts import LSTAT, read_unrecorded
 from urdfsync.diagnostics import OutputError
-from urdfsync.facts import LSTAT, read_unrecorded
 
 TEMPORARY = ".urdfsync-tmp"
 """Suffix of new files before they replace their targets."""

@@ -9,7 +9,7 @@ import sys
 from pathlib import Path
 from typing import cast
 
-from urdfsync.dependencies import Dependencies, include, list_folder, read_file
+from urdfsync.answers.dependencies import Dependencies, include, list_folder, read_file
 from urdfsync.diagnostics import ConfigError
 from urdfsync.domain import Domain
 from urdfsync.spelling import nearest

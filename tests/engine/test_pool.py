@@ -20,15 +20,15 @@ from support.networks import edit, run_all
 from support.replay import contents
 
 from urdfsync import config
+from urdfsync.answers.dependencies import Dependencies
+from urdfsync.answers.facts import STAT
 from urdfsync.config import Config, RobotConfig
-from urdfsync.dependencies import Dependencies
 from urdfsync.diagnostics import ConfigError, UrdfsyncError
 from urdfsync.engine import pool
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.pool import plan_in_worker
-from urdfsync.facts import STAT
-from urdfsync.workers import Workers, workers
+from urdfsync.processes.workers import Workers, workers
 
 COUNT = 8
 
@@ -155,7 +155,7 @@ def test_a_cluster_plans_what_this_process_writes(robots: Path, tmp_path_factory
 
 
 def test_a_cluster_that_does_not_answer_is_an_error_in_words(robots: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("urdfsync.workers.PATIENCE", 1)
+    monkeypatch.setattr("urdfsync.processes.workers.PATIENCE", 1)
     with pytest.raises(ConfigError, match="no Dask scheduler answers"):
         run_all(executor="tcp://127.0.0.1:9")
 

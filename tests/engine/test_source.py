@@ -21,7 +21,7 @@ from support.meshes import stl
 from support.replay import contents
 from support.xacros import EXPANDED, RECORD
 
-from urdfsync import facts
+from urdfsync.answers import facts
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.engine.source import Source
 from urdfsync.state.expansion import dumps, loads

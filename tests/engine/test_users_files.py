@@ -10,7 +10,7 @@ import pytest
 from support.networks import C1, configure, drop, rename, run
 
 from urdfsync import config
-from urdfsync.dependencies import Dependencies
+from urdfsync.answers.dependencies import Dependencies
 from urdfsync.engine import users_files
 from urdfsync.engine.result import Result
 

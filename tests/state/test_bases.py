@@ -10,9 +10,9 @@ import pytest
 from support.git import NEEDS_GIT, Repository
 from support.networks import BASES, LADDER, R1, RECORD, configure, edit, mentioned, own_model, resistor, run, stored
 
-from urdfsync.dependencies import Dependencies
+from urdfsync.answers.dependencies import Dependencies
+from urdfsync.answers.facts import LSTAT
 from urdfsync.engine.actions import Reason
-from urdfsync.facts import LSTAT
 from urdfsync.files import text_digest
 from urdfsync.state import bases
 

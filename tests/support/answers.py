@@ -9,7 +9,8 @@ from pathlib import Path
 from unittest import mock
 
 from support.meshes import stl
-from urdfsync import cli, facts, uptodate
+from urdfsync import cli
+from urdfsync.answers import facts, uptodate
 
 LIMIT = 60.0
 """Seconds after which an answer is not saved any more."""

@@ -21,7 +21,7 @@ from urdfsync.checks.process import LimitError, Limits
 from urdfsync.checks.results import CheckOptions, CheckResult, CheckStatus, CompiledModel, ToolResult
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
-from urdfsync.workers import Workers, tell
+from urdfsync.processes.workers import Workers, tell
 
 FAULT = Diagnostic(Severity.ERROR, "fault", "as it was asked for")
 

@@ -16,9 +16,9 @@ import jsonschema
 import pytest
 
 from urdfsync import config, registry
+from urdfsync.answers.dependencies import Dependencies
 from urdfsync.config import Config
 from urdfsync.config.schema import config_schema
-from urdfsync.dependencies import Dependencies
 from urdfsync.diagnostics import ConfigError, Diagnostic
 
 ROOT = Path(os.path.abspath("/project"))  # noqa: PTH100 - a drive on Windows

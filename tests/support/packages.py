@@ -11,7 +11,7 @@ from typing import Any, get_args
 from support.corpus import REPOSITORY
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.domain import Import, Lookup, Order, Reading, Role, Target
-from urdfsync.render import Renderer
+from urdfsync.engine.render import Renderer
 from urdfsync.state.record import as_read, as_recorded
 from urdfsync.urdf.artifacts import record
 from urdfsync.urdf.domain import DOMAIN

@@ -8,7 +8,7 @@ import pytest
 from support.networks import configure, run
 
 from urdfsync import config
-from urdfsync.facts import LSTAT, MODELICA, NAMES, STAT, Entry
+from urdfsync.answers.facts import LSTAT, MODELICA, NAMES, STAT, Entry
 from urdfsync.watch.paths import WatchedFolders, find_watched_folders
 
 

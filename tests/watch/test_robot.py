@@ -10,9 +10,10 @@ from pathlib import Path
 import msgspec
 import pytest
 
-from urdfsync import config, facts
-from urdfsync.dependencies import Dependencies, file_type, list_folder, read_file, read_variable, scan_modelica
-from urdfsync.facts import STAT
+from urdfsync import config
+from urdfsync.answers import facts
+from urdfsync.answers.dependencies import Dependencies, file_type, list_folder, read_file, read_variable, scan_modelica
+from urdfsync.answers.facts import STAT
 from urdfsync.files import Tree
 from urdfsync.watch.robot import WatchedRobot
 

@@ -42,8 +42,8 @@ from urdfsync.checks.results import (
 from urdfsync.diagnostics import Diagnostic, Severity, findings_of
 from urdfsync.engine.generation import generated_texts
 from urdfsync.files import shown
+from urdfsync.processes.workers import tell
 from urdfsync.spelling import counted
-from urdfsync.workers import tell
 
 _USERS = "users"
 """The job that compiles models of the user's."""

@@ -12,8 +12,8 @@ import shutil
 from collections.abc import Callable, Collection, Iterable
 from pathlib import Path
 
+from urdfsync.answers.facts import read_unrecorded
 from urdfsync.diagnostics import OutputError, UrdfsyncError
-from urdfsync.facts import read_unrecorded
 from urdfsync.files import shown
 
 MOST_BYTES = 2**29

@@ -12,11 +12,11 @@ from typing import TypeAlias
 
 import msgspec
 
+from urdfsync.answers.facts import read_unrecorded
 from urdfsync.checks.cache import UserCache, cache_errors, digest
 from urdfsync.checks.contents import RESOURCES, content_hash, copy_library, package_texts
 from urdfsync.config import Config, RobotConfig, find_own_library
 from urdfsync.diagnostics import Diagnostic, UrdfsyncError
-from urdfsync.facts import read_unrecorded
 from urdfsync.modelica.names import LIBRARY, STANDARD_LIBRARIES
 
 Version: TypeAlias = tuple[int, ...]

@@ -24,7 +24,7 @@ from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError, findings_of
 from urdfsync.engine.options import BuildOptions
 from urdfsync.files import shown
-from urdfsync.workers import tell
+from urdfsync.processes.workers import tell
 
 _STEP = 0.04
 """Seconds between two points of a curve."""

@@ -10,14 +10,14 @@ from pathlib import Path
 import msgspec
 import psutil
 
-from urdfsync import machine
 from urdfsync.checks.cache import UserCache
 from urdfsync.checks.results import CheckOptions, CheckResult
 from urdfsync.checks.robot import check_robot
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.engine.options import Progress
-from urdfsync.workers import Workers, workers
+from urdfsync.processes import machine
+from urdfsync.processes.workers import Workers, workers
 
 _EXPECTED_MEMORY = 1.5e9  # bytes that the check of a robot usually takes, at most
 _SHARE_OF_FREE_MEMORY = 0.9

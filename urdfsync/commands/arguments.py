@@ -12,11 +12,11 @@ from typing import Any, NoReturn, TypeAlias, TypeVar, get_args
 
 import msgspec
 
+from urdfsync.answers.facts import read_unrecorded
 from urdfsync.api import load
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.engine.options import BuildOptions
-from urdfsync.facts import read_unrecorded
 from urdfsync.output.console import Console, Format
 
 CODES = (

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import argparse
 
-from urdfsync import completion
 from urdfsync.commands import arguments
 from urdfsync.engine.result import Exit
 from urdfsync.output.console import Console
+from urdfsync.shells import completion
 
 
 def add(commands: arguments.Commands) -> None:

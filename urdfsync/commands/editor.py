@@ -14,10 +14,10 @@ import tempfile
 from collections.abc import Sequence
 from pathlib import Path, PurePosixPath
 
+from urdfsync.answers.facts import read_unrecorded
 from urdfsync.diagnostics import UrdfsyncError
 from urdfsync.engine.conflicts import Conflict
 from urdfsync.engine.package_files import encode
-from urdfsync.facts import read_unrecorded
 from urdfsync.merge.texts import find_flaw
 from urdfsync.modelica.parser import parse
 

@@ -15,18 +15,20 @@ from pathlib import Path, PurePosixPath
 import msgspec
 
 from urdfsync import config as configuration
-from urdfsync import git, hook, uptodate
+from urdfsync import git
+from urdfsync.answers import uptodate
+from urdfsync.answers.dependencies import Dependencies
+from urdfsync.answers.facts import LISTINGS, LSTAT, VARIABLE
 from urdfsync.commands import arguments
 from urdfsync.config import STATE_FOLDER, Config, RobotConfig
-from urdfsync.dependencies import Dependencies
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError, findings_of
 from urdfsync.engine import parents
 from urdfsync.engine.actions import ORPHANS, Reason
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Exit, Result, exit_code
-from urdfsync.facts import LISTINGS, LSTAT, VARIABLE
 from urdfsync.files import shown
+from urdfsync.git import hook
 from urdfsync.output.build_section import show_result
 from urdfsync.output.console import Console
 from urdfsync.spelling import counted

@@ -8,11 +8,11 @@ from pathlib import Path
 
 import msgspec
 
+from urdfsync.answers.facts import read_unrecorded
 from urdfsync.api import record
 from urdfsync.commands import arguments
 from urdfsync.diagnostics import OutputError
 from urdfsync.engine.result import Exit
-from urdfsync.facts import read_unrecorded
 from urdfsync.files import normalised, shown
 from urdfsync.modelica.names import is_class_name
 from urdfsync.output.console import Console, line

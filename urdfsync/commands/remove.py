@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import argparse
 
-from urdfsync import tomlfile
 from urdfsync.api import load
 from urdfsync.commands import arguments
 from urdfsync.commands.init import write_errors
-from urdfsync.config import Config
+from urdfsync.config import Config, tomlfile
 from urdfsync.diagnostics import ConfigError
 from urdfsync.engine.actions import ORPHANS, Action, Reason
 from urdfsync.engine.build import build

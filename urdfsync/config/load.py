@@ -18,7 +18,9 @@ from typing import Annotated, Any, Literal, NamedTuple, Union, get_args, get_ori
 
 import msgspec
 
-from urdfsync import dependencies, registry, tomlfile
+from urdfsync import registry
+from urdfsync.answers import dependencies
+from urdfsync.config import tomlfile
 from urdfsync.config.names import find_name_problems, is_robot_name, model_class
 from urdfsync.config.settings import (
     DEFAULT_DOMAIN,

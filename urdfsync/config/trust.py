@@ -7,7 +7,8 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync import dependencies, tomlfile
+from urdfsync.answers import dependencies
+from urdfsync.config import tomlfile
 from urdfsync.config.settings import Config, RobotConfig
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
 from urdfsync.files import shown

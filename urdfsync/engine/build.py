@@ -12,10 +12,10 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
-from urdfsync import dependencies, machine
+from urdfsync.answers import dependencies
+from urdfsync.answers.dependencies import Dependencies
 from urdfsync.config import STATE_FOLDER, Config, RobotConfig
 from urdfsync.config.trust import find_untrusted_output
-from urdfsync.dependencies import Dependencies
 from urdfsync.diagnostics import (
     ConfigError,
     Diagnostic,
@@ -32,6 +32,7 @@ from urdfsync.engine.plan import plan_robot
 from urdfsync.engine.result import Result
 from urdfsync.engine.stage import Plan
 from urdfsync.files import shown
+from urdfsync.processes import machine
 from urdfsync.state import notes
 from urdfsync.state.lock import Lock, LockedError, build_lock
 from urdfsync.state.store import Store

@@ -25,9 +25,9 @@ from urdfsync.engine.parents import SharedFile, merge_order
 from urdfsync.engine.renames import describe_doubt
 from urdfsync.engine.rules import File, decide, put_off
 from urdfsync.files import shown
-from urdfsync.markers import find_markers, join_sides
 from urdfsync.matching import Doubt
 from urdfsync.modelica.literals import numbers_only
+from urdfsync.modelica.markers import find_markers, join_sides
 from urdfsync.modelica.names import is_identifier
 from urdfsync.state.record import role_of
 

@@ -32,7 +32,7 @@ from urdfsync.state.record import FileRecord, as_read
 if TYPE_CHECKING:
     import pygit2
 
-    from urdfsync.revisions import Revision
+    from urdfsync.git.revisions import Revision
 
 _MOST = 50
 """So many branches are looked at, and so many commits that were checked out."""
@@ -72,7 +72,7 @@ def _commits(generation: Generation) -> Iterator[Revision]:
     """Yield the commits that an edit may come from: merged ones, and this machine's if it builds here."""
     import pygit2  # 55 ms, which most builds do without
 
-    from urdfsync.revisions import Revision, open_repository
+    from urdfsync.git.revisions import Revision, open_repository
 
     root = generation.inputs.config.root
     try:

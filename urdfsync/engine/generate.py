@@ -15,7 +15,7 @@ from urdfsync.files import Templates, digest, normalised, shown, text_digest
 from urdfsync.modelica.files import class_path
 
 if TYPE_CHECKING:
-    from urdfsync.render import Renderer
+    from urdfsync.engine.render import Renderer
 
 _FORBIDDEN = frozenset('\\:*?"<>|')
 """Characters that a path can't have on every system."""
@@ -114,7 +114,7 @@ Dropping it changes no byte: artifacts follow from the key.
 def _renderer(templates: Templates) -> Renderer:
     """Return one renderer for all robots with the same templates, so that each template is compiled once."""
     # Jinja takes 10 ms to import: most builds have nothing to render
-    from urdfsync.render import Renderer
+    from urdfsync.engine.render import Renderer
 
     return Renderer(templates.folders, is_trusted=len(templates.folders) == 1)
 

@@ -14,13 +14,13 @@ from typing import Any, Protocol
 
 import msgspec
 
+from urdfsync.answers.dependencies import file_type, read_file
+from urdfsync.answers.facts import MAX_FILE
 from urdfsync.config import RobotConfig
-from urdfsync.dependencies import file_type, read_file
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError, StateError
 from urdfsync.domain import Dependency, Domain, Import, Lookup, Snapshot, further_key
 from urdfsync.engine import ros_packages
 from urdfsync.engine.options import BuildOptions
-from urdfsync.facts import MAX_FILE
 from urdfsync.files import digest
 
 _POINTER = b"version https://git-lfs"

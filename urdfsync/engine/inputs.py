@@ -8,8 +8,8 @@ from functools import cached_property
 import msgspec
 
 from urdfsync import __version__, registry
+from urdfsync.answers.dependencies import file_type
 from urdfsync.config import Config, RobotConfig
-from urdfsync.dependencies import file_type
 from urdfsync.diagnostics import Diagnostic, OutputError, UrdfsyncError
 from urdfsync.domain import Domain
 from urdfsync.engine import parents, source

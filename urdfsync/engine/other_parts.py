@@ -13,7 +13,7 @@ from typing import Any
 
 import msgspec
 
-from urdfsync import dependencies
+from urdfsync.answers import dependencies
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.engine.actions import Reason
 from urdfsync.engine.decide import Decision

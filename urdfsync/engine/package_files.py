@@ -8,12 +8,12 @@ from collections.abc import Collection
 from pathlib import Path
 from typing import NamedTuple
 
-from urdfsync import dependencies
+from urdfsync.answers import dependencies
+from urdfsync.answers.facts import is_young
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import OutputError
 from urdfsync.domain import Role
 from urdfsync.engine.rules import CLASS_FOLDER, OnDisk
-from urdfsync.facts import is_young
 from urdfsync.files import Tree, digest, placed, shown, text_digest
 
 

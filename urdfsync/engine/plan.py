@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from urdfsync import dependencies
+from urdfsync.answers import dependencies
 from urdfsync.config import Config, RobotConfig
 from urdfsync.engine.decide import decide_package
 from urdfsync.engine.findings import find_all

@@ -10,14 +10,15 @@ from typing import TypeAlias
 
 import msgspec
 
-from urdfsync import dependencies, machine
+from urdfsync.answers import dependencies
+from urdfsync.answers.dependencies import Dependencies
 from urdfsync.config import Config, RobotConfig
-from urdfsync.dependencies import Dependencies
 from urdfsync.diagnostics import OutputError, UrdfsyncError, findings_of
 from urdfsync.engine.options import BuildOptions, no_progress
 from urdfsync.engine.plan import plan_robot
 from urdfsync.engine.stage import Plan
-from urdfsync.workers import Workers, workers
+from urdfsync.processes import machine
+from urdfsync.processes.workers import Workers, workers
 
 _AHEAD = 3
 """Unfinished and waiting plans per worker: each holds the texts of a robot."""

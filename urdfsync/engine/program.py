@@ -9,7 +9,7 @@ from collections.abc import Iterator
 
 import urdfsync
 from urdfsync import registry
-from urdfsync.facts import stat_of
+from urdfsync.answers.facts import stat_of
 from urdfsync.files import digest
 
 

@@ -10,8 +10,8 @@ from pathlib import Path
 
 import msgspec
 
+from urdfsync.answers.dependencies import Dependencies
 from urdfsync.changes import Changes
-from urdfsync.dependencies import Dependencies
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.engine.actions import Action, Actions, Choice, Reason
 from urdfsync.engine.conflicts import Conflict

@@ -21,8 +21,8 @@ from urdfsync.engine.inputs import Inputs
 from urdfsync.engine.package_files import PackageFiles, encode, text_hash, with_line_ends
 from urdfsync.engine.package_names import names_of
 from urdfsync.files import shown
-from urdfsync.markers import find_markers
 from urdfsync.modelica.files import class_parts
+from urdfsync.modelica.markers import find_markers
 from urdfsync.spelling import nearest
 from urdfsync.state.record import FileRecord, role_of
 

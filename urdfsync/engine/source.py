@@ -15,13 +15,21 @@ from typing import TYPE_CHECKING, Any, Protocol
 import msgspec
 
 from urdfsync import registry
+from urdfsync.answers.dependencies import (
+    depend_on,
+    file_type,
+    is_file,
+    is_folder,
+    mark_incomplete,
+    note_names,
+    read_file,
+)
+from urdfsync.answers.facts import read_unrecorded
 from urdfsync.config import Config, RobotConfig, templates_folder
 from urdfsync.config.trust import find_untrusted_command
-from urdfsync.dependencies import depend_on, file_type, is_file, is_folder, mark_incomplete, note_names, read_file
 from urdfsync.diagnostics import ConfigError, Diagnostic, Severity, SourceError, UrdfsyncError
 from urdfsync.domain import Domain, Reading, Snapshot
 from urdfsync.engine.options import BuildOptions
-from urdfsync.facts import read_unrecorded
 from urdfsync.files import Templates, digest, kind_of, shown, templates_digest
 from urdfsync.state.expansion import Expansion, dumps
 from urdfsync.state.store import Store

@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import msgspec
 
-from urdfsync import dependencies, git, markers
+from urdfsync import git
+from urdfsync.answers import dependencies
 from urdfsync.diagnostics import SourceError, StateError
 from urdfsync.engine.actions import ORPHANS, Action, Reason
 from urdfsync.engine.conflicts import over_bases
@@ -20,7 +21,8 @@ from urdfsync.engine.inputs import Inputs
 from urdfsync.engine.last_build import LastBuild
 from urdfsync.engine.package_files import PackageFiles, encode, text_hash
 from urdfsync.engine.rules import NEVER_WRITTEN
-from urdfsync.revisions import Revision
+from urdfsync.git.revisions import Revision
+from urdfsync.modelica import markers
 from urdfsync.state import statefile
 from urdfsync.state.record import FileRecord
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync import dependencies
+from urdfsync.answers import dependencies
 from urdfsync.config import FILE_NAME, Config, RobotConfig
 from urdfsync.modelica.files import TooManyFoldersError, class_of_file, files_that_use, modelica_files
 

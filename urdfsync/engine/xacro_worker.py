@@ -27,10 +27,10 @@ from xml.parsers import expat
 
 import msgspec
 
-from urdfsync.dependencies import list_folder
+from urdfsync.answers.dependencies import list_folder
+from urdfsync.answers.facts import MAX_FILE, read_unrecorded
 from urdfsync.engine import ros_packages
-from urdfsync.facts import MAX_FILE, read_unrecorded
-from urdfsync.file_kinds import FileKind, find_conflict, find_kind
+from urdfsync.engine.file_kinds import FileKind, find_conflict, find_kind
 from urdfsync.files import text_digest
 from urdfsync.processes import limits, reserve_stdout
 

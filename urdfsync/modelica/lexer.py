@@ -7,7 +7,7 @@ from bisect import bisect_left
 from functools import cached_property
 from typing import NamedTuple
 
-from urdfsync import markers
+from urdfsync.modelica import markers
 from urdfsync.modelica.names import KEYWORDS
 
 _STRING = r'"(?:[^"\\]++|\\.)*+"'

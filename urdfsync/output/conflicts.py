@@ -9,7 +9,7 @@ from pathlib import Path
 from urdfsync.engine.actions import Choice, Reason
 from urdfsync.engine.conflicts import Conflict
 from urdfsync.engine.result import DisputedFile, Result
-from urdfsync.markers import find_markers
+from urdfsync.modelica.markers import find_markers
 from urdfsync.output.console import Console, StyledLine, line
 from urdfsync.output.phrases import reason
 from urdfsync.spelling import counted

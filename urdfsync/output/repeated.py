@@ -9,8 +9,8 @@ from collections.abc import Sequence
 
 import msgspec
 
+from urdfsync.answers.dependencies import depend_on
 from urdfsync.config import STATE_FOLDER
-from urdfsync.dependencies import depend_on
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.engine.result import Result
 from urdfsync.files import digest

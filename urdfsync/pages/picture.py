@@ -8,9 +8,9 @@ from typing import NamedTuple
 
 import msgspec
 
+from urdfsync.answers.dependencies import read_file
 from urdfsync.checks import cache as caches
 from urdfsync.checks.fingerprint import program
-from urdfsync.dependencies import read_file
 from urdfsync.diagnostics import UrdfsyncError
 from urdfsync.domain import Import
 from urdfsync.engine.generation import Generation

@@ -15,8 +15,8 @@ from typing import NoReturn
 
 import msgspec
 
+from urdfsync.answers.facts import read_unrecorded
 from urdfsync.diagnostics import SourceError
-from urdfsync.facts import read_unrecorded
 from urdfsync.files import shown
 from urdfsync.simulation.models import Input
 from urdfsync.spelling import nearest

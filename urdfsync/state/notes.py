@@ -13,8 +13,8 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync.dependencies import note_content
-from urdfsync.facts import MAX_FILE, STAT
+from urdfsync.answers.dependencies import note_content
+from urdfsync.answers.facts import MAX_FILE, STAT
 from urdfsync.files import TEMPORARY
 from urdfsync.state import file_operations
 

@@ -25,7 +25,7 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync.dependencies import file_type
+from urdfsync.answers.dependencies import file_type
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.files import TEMPORARY, Tree, digest, failure, placed, shown
 from urdfsync.state import file_operations

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from urdfsync import machine
+from urdfsync.processes import machine
 from urdfsync.urdf.kinematics.loops import Assembly
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import FrictionLaw, Options

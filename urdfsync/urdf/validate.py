@@ -11,8 +11,9 @@ from typing import NamedTuple, TypeVar
 
 import msgspec
 
-from urdfsync import file_kinds, spelling
+from urdfsync import spelling
 from urdfsync.diagnostics import Diagnostic, Severity
+from urdfsync.engine import file_kinds
 from urdfsync.urdf.robot import (
     JOINT_KINDS,
     Box,

@@ -34,9 +34,9 @@ from urdfsync.engine.result import Exit, Result, error_count
 from urdfsync.engine.result import exit_code as exit_code_of
 from urdfsync.engine.source import Source
 from urdfsync.files import shown
+from urdfsync.git.revisions import Revision
 from urdfsync.modelica.names import class_name
 from urdfsync.output.phrases import change_counts, generator_change
-from urdfsync.revisions import Revision
 from urdfsync.state import expansion
 from urdfsync.state.store import Store
 

@@ -22,12 +22,12 @@ from queue import Empty, SimpleQueue
 import msgspec
 
 from urdfsync import config
+from urdfsync.answers.facts import STAT
 from urdfsync.config import STATE_FOLDER, Config, warnings
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
 from urdfsync.engine.build import WAITING, build
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.result import Result
-from urdfsync.facts import STAT
 from urdfsync.files import shown
 from urdfsync.state.lock import Lock, LockedError
 from urdfsync.watch import events, precommit

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import msgspec
 
+from urdfsync.answers.facts import LISTINGS, Entry
 from urdfsync.config import Config
-from urdfsync.facts import LISTINGS, Entry
 
 _MAX_STEPS = 1000
 """The most folders and links on the way to a file: links may lead in a circle."""

@@ -9,11 +9,11 @@ from typing import TypeAlias
 
 import msgspec
 
+from urdfsync.answers.dependencies import Dependencies
+from urdfsync.answers.facts import CONTENTS, LSTAT, STAT, STAT_TYPE, VARIABLE, Entry, check_path, read_unrecorded
 from urdfsync.config import RobotConfig
-from urdfsync.dependencies import Dependencies
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.engine.package_files import note_state, unchanged_state
-from urdfsync.facts import CONTENTS, LSTAT, STAT, STAT_TYPE, VARIABLE, Entry, check_path, read_unrecorded
 
 _TOLD = (STAT, STAT_TYPE, LSTAT)
 """Checks whose changes are reported, an input before outputs: no names in a folder, no states of other robots."""

@@ -12,10 +12,10 @@ from support import meshes
 from support.commands import Execute
 
 from urdfsync import config
+from urdfsync.answers.facts import STAT
 from urdfsync.domain import Conversion, Dependency
 from urdfsync.engine.build import build
 from urdfsync.engine.options import BuildOptions
-from urdfsync.facts import STAT
 from urdfsync.urdf.meshes.convert import convert
 from urdfsync.urdf.meshes.lookup import BOUNDS, COLORLESS, COLORS, PARTS, TEXTURED, key, mentioned_files, target
 from urdfsync.urdf.robot import Mesh

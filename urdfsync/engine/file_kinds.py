@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import NamedTuple
 
-from urdfsync.markers import find_markers
+from urdfsync.modelica.markers import find_markers
 
 _BEGINNING = 20_000
 """So many bytes show the kind of a file with a robot inside."""

@@ -10,8 +10,8 @@ import pytest
 from support import xacros
 from support.networks import RECORD, configure, resistor, run, run_all
 
-from urdfsync import dependencies
-from urdfsync.facts import LSTAT, MODELICA, NAMES, NOTHING, STAT, STAT_TYPE, VARIABLE, check_path
+from urdfsync.answers import dependencies
+from urdfsync.answers.facts import LSTAT, MODELICA, NAMES, NOTHING, STAT, STAT_TYPE, VARIABLE, check_path
 from urdfsync.files import digest
 
 

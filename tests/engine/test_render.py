@@ -12,8 +12,8 @@ from pathlib import Path
 import jinja2
 import pytest
 
-from urdfsync import render
-from urdfsync.render import Renderer
+from urdfsync.engine import render
+from urdfsync.engine.render import Renderer
 
 
 def rendered(path: Path, text: str, **data: object) -> str:

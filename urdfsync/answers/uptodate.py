@@ -15,8 +15,8 @@ import stat
 import sys
 import time
 
-from urdfsync import __version__, streams
-from urdfsync.facts import (
+from urdfsync import __version__
+from urdfsync.answers.facts import (
     CONTENTS,
     LSTAT,
     LSTAT_TYPE,
@@ -28,10 +28,11 @@ from urdfsync.facts import (
     hash_file,
     is_young,
 )
+from urdfsync.processes import streams
 
 TYPE_CHECKING = False  # that of `typing` takes 2 of the 12 ms of the check
 if TYPE_CHECKING:
-    from urdfsync.dependencies import Dependencies
+    from urdfsync.answers.dependencies import Dependencies
 
 COMMANDS = ("build", "status")
 CONFIGURATION = "urdfsync.toml"

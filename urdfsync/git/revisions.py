@@ -14,9 +14,9 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
+from urdfsync.answers.facts import read_unrecorded
 from urdfsync.diagnostics import SourceError
 from urdfsync.domain import Dependency
-from urdfsync.facts import read_unrecorded
 from urdfsync.files import digest, shown
 
 if TYPE_CHECKING:

@@ -12,7 +12,7 @@ import pytest
 from support.git import NEEDS_GIT, Repository
 
 from urdfsync.diagnostics import SourceError
-from urdfsync.revisions import Revision, open_repository
+from urdfsync.git.revisions import Revision, open_repository
 
 pytestmark = NEEDS_GIT
 

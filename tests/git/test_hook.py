@@ -11,7 +11,8 @@ import pytest
 from support import answers
 from support.git import NEEDS_GIT, Repository
 
-from urdfsync import __main__, cli, hook
+from urdfsync import __main__, cli
+from urdfsync.git import hook
 
 pytestmark = NEEDS_GIT
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from urdfsync.tomlfile import without_table
+from urdfsync.config.tomlfile import without_table
 
 ONE = "[robots.a]\nb = 1\n"
 TWO = "[robots.c]\nd = 2\n"

@@ -15,9 +15,10 @@ from pathlib import Path
 import pytest
 from support.networks import configure
 
-from urdfsync import cli, completion
+from urdfsync import cli
+from urdfsync.shells import completion
 
-TABLE = Path(completion.__file__).parent / "shells/options.tsv"
+TABLE = Path(completion.__file__).parent / "options.tsv"
 
 
 VALUES = {"NAME=VALUE": "robot.{}.parameters.", "PATTERN": "robot.{}."}
@@ -74,7 +75,7 @@ def test_what_a_line_may_become(built: Path) -> None:
 
 
 def test_joints_are_those_of_the_recorded_state(folder: Path) -> None:
-    arm = Path(__file__).parents[1] / "modelica/UrdfSync/Resources/robots/six_axis_arm/six_axis_arm.urdf"
+    arm = Path(__file__).parents[2] / "modelica/UrdfSync/Resources/robots/six_axis_arm/six_axis_arm.urdf"
     Path("urdfsync.toml").write_text(f"[robots.arm]\nsource = '{arm}'\npackage = 'Arm'\n")
     assert names("simulate", "--set", "robot.el") == []
     cli.main(["build", "-q"])

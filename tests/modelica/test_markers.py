@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from urdfsync.markers import find_markers, join_sides, read_sides, without_labels
+from urdfsync.modelica.markers import find_markers, join_sides, read_sides, without_labels
 
 MERGE = "a\n<<<<<<< HEAD\nb\n=======\nc\n>>>>>>> theirs\nd\n"
 DIFF3 = "a\n<<<<<<< HEAD\nb\n||||||| 1f0a\nx\n=======\nc\n>>>>>>> theirs\nd\n"

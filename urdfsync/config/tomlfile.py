@@ -10,7 +10,7 @@ from typing import Any
 import tomli
 
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
-from urdfsync.markers import find_markers
+from urdfsync.modelica.markers import find_markers
 
 DEEPEST = 50
 """Deepest nesting of tables and lists; real files need a few levels."""

@@ -22,11 +22,13 @@ from support.cases import often
 from support.meshes import stl
 from support.screen import print_on_terminal
 
-from urdfsync import cli, facts, streams, uptodate
+from urdfsync import cli
+from urdfsync.answers import facts, uptodate
+from urdfsync.answers.dependencies import Dependencies
 from urdfsync.checks import afterbuild
-from urdfsync.dependencies import Dependencies
 from urdfsync.engine import plan
 from urdfsync.output import console
+from urdfsync.processes import streams
 
 Capture = pytest.CaptureFixture[str]
 Edit = Callable[[Path], object]

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import os
 
-from urdfsync import git, uptodate
+from urdfsync import git
+from urdfsync.answers import uptodate
 
 
 def is_answered(arguments: list[str]) -> bool:
@@ -30,7 +31,7 @@ def answer_place(index: git.Index, configuration: str) -> tuple[str, str]:
     """Return the file of a configuration, and the key of its answer: all its inputs other than files."""
     file = f"{index.top}/{configuration}"
     variables = map(os.environ.get, ("ROS_PACKAGE_PATH", "AMENT_PREFIX_PATH", "MODELICAPATH", "PYTHONPATH"))
-    return file, repr(("hook", file, os.getcwd(), *variables))  # noqa: PTH109 - no pathlib here
+    return file, repr(("hook", file, os.getcwd(), *variables))
 
 
 def find_configurations(index: git.Index) -> set[str]:
@@ -38,4 +39,4 @@ def find_configurations(index: git.Index) -> set[str]:
     name, states = uptodate.CONFIGURATION, ".urdfsync/robots/"
     configurations = {path for path in index.tracked if path.endswith(name) and path.rpartition("/")[2] == name}
     of_states = {path.rpartition(states)[0] + name for path in index.tracked if states in path}
-    return configurations | {path for path in of_states if os.path.isfile(f"{index.top}/{path}")}  # noqa: PTH113
+    return configurations | {path for path in of_states if os.path.isfile(f"{index.top}/{path}")}

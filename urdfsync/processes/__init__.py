@@ -22,7 +22,7 @@ def python_module(module: str, *arguments: str) -> list[str]:
 
 def importable() -> dict[str, str]:
     """Return the environment variables with which such a command finds this package if it is not installed."""
-    home = Path(__file__).parents[1]
+    home = Path(__file__).parents[2]
     if home.name in ("site-packages", "dist-packages"):
         return {}
     others = os.environ.get("PYTHONPATH")

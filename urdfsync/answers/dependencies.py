@@ -14,7 +14,7 @@ import time
 from collections.abc import Iterable, Iterator, Mapping
 from contextvars import ContextVar, Token
 
-from urdfsync.facts import (
+from urdfsync.answers.facts import (
     CONTENTS,
     LSTAT,
     LSTAT_TYPE,

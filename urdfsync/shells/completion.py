@@ -10,11 +10,11 @@ from __future__ import annotations
 import os
 import sys
 
-from urdfsync import uptodate
-from urdfsync.facts import read_unrecorded
+from urdfsync.answers import uptodate
+from urdfsync.answers.facts import read_unrecorded
 
 SHELLS = ("bash", "zsh", "fish")
-_SHELLS = os.path.join(os.path.dirname(__file__), "shells")
+_SHELLS = os.path.dirname(__file__)
 _STATE = ".urdfsync/robots"
 _LARGEST = 500_000
 """Largest configuration in bytes: it is read in a fifth of a second, and hundreds of robots have a smaller one."""

@@ -6,7 +6,7 @@ import gzip
 
 import pytest
 
-from urdfsync.file_kinds import find_conflict, find_kind
+from urdfsync.engine.file_kinds import find_conflict, find_kind
 
 TAR = b"a.urdf".ljust(257, b"\0") + b"ustar"
 KINDS = {
