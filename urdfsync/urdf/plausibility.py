@@ -20,6 +20,7 @@ from urdfsync.urdf.robot import (
     Joint,
     Link,
     Mesh,
+    Origin,
     Sphere,
     Visual,
 )
@@ -57,8 +58,10 @@ def find_implausible(tree: KinematicTree) -> Iterator[Finding]:
     for link in tree.links:
         if link.inertial is not None and link.inertial.mass:
             yield from _check_inertia(link, link.inertial, length)
+            yield from _check_angles(f"link {link.name} / inertial", link.inertial.origin)
         yield from _check_shapes(link, length)
     for joint in tree.joints:
+        yield from _check_angles(f"joint {joint.name}", joint.origin)
         yield from _check_limits(joint, length, own_masses[joint.child])
 
 
@@ -111,6 +114,14 @@ def _check_shapes(link: Link, length: float) -> Iterator[Finding]:
                     place = f"link {link.name} / {kind} {number}"
                     message = f"{place} is {away:.3g} m away from its link, in a robot of {length:.3g} m"
                     yield Finding("shape-far", f"{place} / origin", message)
+
+
+def _check_angles(path: str, origin: Origin) -> Iterator[Finding]:
+    """Check that an orientation is no whole number of degrees: nobody turns a frame by more than a turn."""
+    widest = max(map(abs, origin.rpy))
+    if math.tau < widest <= _TWO_TURNS_IN_DEGREES and all(angle.is_integer() for angle in origin.rpy):
+        shown = " ".join(f"{angle:g}" for angle in origin.rpy)
+        yield Finding("angle-unit", f"{path} / origin", f"{path}: the angles {shown} rad may be in degrees")
 
 
 def _check_limits(joint: Joint, length: float, mass: float) -> Iterator[Finding]:

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import hashlib
 import itertools
+import math
 import re
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
@@ -23,6 +24,10 @@ from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Dependency, Import, Lookup
 from urdfsync.urdf.robot import Mesh, Vector
 
+_TOO_LARGE, _LARGEST = 20, 2.0
+"""Size of a mesh in relation to the robot's length, and in m: a larger one hardly belongs to it."""
+_SCALES = (0.001, 0.01, 0.0254)
+"""Millimetres, which most programs export, centimetres and inches, in m."""
 UNIT_SCALE: Vector = (1.0, 1.0, 1.0)
 BOUNDS, HULL = "bounds", "hull"
 """Names of facts: all models need the first one, ground contacts the other as well."""
@@ -94,9 +99,20 @@ def mentioned(dependency: Dependency, file: str, content: bytes) -> Sequence[str
     return mentioned_files(file, content) if is_needed else ()
 
 
-def findings(imports: Mapping[str, Import]) -> Iterator[tuple[str, Diagnostic]]:
-    """Yield a warning for each mesh without some of its colours, and a note if textures become colours."""
+def findings(imports: Mapping[str, Import], snapshot: Mapping[str, Any]) -> Iterator[tuple[str, Diagnostic]]:
+    """Yield a warning for each mesh without some of its colours, or in another unit than the robot.
+
+    A note says if textures become colours.
+    """
+    length = robot_length(snapshot["joints"])
     for key, file in imports.items():
+        size = math.dist(*file.facts[BOUNDS]) if file.facts.get(BOUNDS) else 0.0
+        if length and size > max(_LARGEST, _TOO_LARGE * length):
+            fitting = [scale for scale in _SCALES if length / _TOO_LARGE < size * scale < _TOO_LARGE * length]
+            factors = " ".join(f"{factor * fitting[0]:g}" for factor in mesh(key).scale) if fitting else ""
+            message = f"mesh `{mesh(key).filename}` is {size:.3g} m large in a robot of {length:.3g} m"
+            hint = f'write scale="{factors}", or export it in m' if fitting else "export it in m"
+            yield key, Diagnostic(Severity.WARNING, "mesh-size", message, hint=hint)
         if missing := file.facts.get(COLORLESS):
             message = f"mesh `{mesh(key).filename}` lacks colours: "
             hint = "put what is missing beside the mesh, or give the visual a <material>"
@@ -105,6 +121,21 @@ def findings(imports: Mapping[str, Import]) -> Iterator[tuple[str, Diagnostic]]:
     if count:
         message = f"{count} {'mesh has' if count == 1 else 'meshes have'} textures, which become their mean colours"
         yield "", Diagnostic(Severity.NOTE, "texture", message)
+
+
+def robot_length(joints: Mapping[str, Any]) -> float:
+    """Return how far the joints lead from the root at the most, in m, straight from one to the next."""
+    parents = {joint["child"]: joint for joint in joints.values()}
+    reach = dict[str, float]()
+    for link in parents:
+        way, end = [], link
+        while end in parents and end not in reach:
+            way.append(end)
+            end = parents[end]["parent"]
+        for name in reversed(way):
+            joint = parents[name]
+            reach[name] = reach.get(joint["parent"], 0.0) + math.hypot(*joint["origin"]["xyz"])
+    return max(reach.values(), default=0.0)
 
 
 def mentioned_files(file: str, content: bytes) -> list[str]:

@@ -6,6 +6,9 @@
 - Two links `closing_NAME_1` and `closing_NAME_2`, as onshape-to-robot writes them. They say of no kind, and count as a
   ball, which closes planar loops as a hinge does.
 - The option `loops`, which wins over a loop of the source with its name or its two frames.
+
+Loops in other words are told, not read: raisim's pins, MuJoCo's `<equality>` and joints of a plugin have no page that
+says how they stand in a URDF. MuJoCo documents `<compiler>`, `<option>` and `<size>` there (XML reference, URDF).
 """
 
 from __future__ import annotations
@@ -23,6 +26,7 @@ from urdfsync.urdf.kinematics.poses import Matrix, Pose, across, compose, link_p
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import LoopFrame, LoopOption, Options
 from urdfsync.urdf.parse.fields import Reader, quoted
+from urdfsync.urdf.parse.gazebo import FORCES
 from urdfsync.urdf.robot import Link, Loop, LoopKind, Origin, Robot, Vector
 
 _BALL = "drake:ball_constraint"
@@ -37,7 +41,11 @@ _KINDS: Mapping[str, LoopKind] = {
     "universal": "universal",
     "fixed": "fixed",
 }
+_JOINS_NOTHING = re.compile("collision|contact|exclude|group|chain|effector|frame|virtual|sensor|camera")
+"""Elements that name links and do not join them, such as those of SRDF."""
+_CONSTRAINS = re.compile("constraint|equality|coupl|weld")
 _CLOSING = re.compile(r"(closing_.+)_([12])")
+_DETACHABLE = ("parent_link", "child_link")
 _DIGITS = 12
 
 
@@ -52,6 +60,47 @@ def find_loop_elements(root: Element) -> Iterator[Element]:
             yield child
         elif child.tag == "gazebo":
             yield from child.findall("joint")
+
+
+def tell_foreign_loops(reader: Reader, root: Element, options: Options) -> None:
+    """Add a finding for each element in other words than ours that joins two links, or constrains them otherwise.
+
+    Loops of the configuration state such a pair.
+    """
+    links = {link.get("name", "") for link in root.iterfind("link")}
+    stated = {frozenset({loop.parent, loop.child}) for loop in configured_loops(options.loops)}
+    others = [child for child in root if child.tag not in ("link", "joint", "material", "drake:joint", *TAGS)]
+    for child in others:
+        if child.tag == "gazebo":  # gz-sim's DetachableJoint, by its page
+            pairs = [(part, {part.findtext(tag, "").strip() for tag in _DETACHABLE}) for part in child.iter("plugin")]
+            found = [(part, pair) for part, pair in pairs if len(pair & links) == len(_DETACHABLE)]
+        elif child.tag in ("transmission", "ros2_control", "sensor") or FORCES.search(child.tag):
+            continue
+        else:
+            found = list(_find_pairs(child, links))
+        for part, pair in found:
+            if frozenset(pair) not in stated:
+                words = f"<{part.tag}> {part.get('name', '')}".rstrip()
+                message = f"{words} joins links {' and '.join(map(repr, sorted(pair)))} in words that are not read"
+                hint = 'state it as `loops` in the configuration, or leave it out by `allow = ["loop-joint"]`'
+                reader.add(part, "loop-joint", message, hint)
+        if not found and child.tag != "gazebo":
+            for part in child.iter():
+                if _CONSTRAINS.search(part.tag) and not any(_CONSTRAINS.search(inner.tag) for inner in part):
+                    words = f"<{part.tag}> {part.get('name', '')}".rstrip()
+                    reader.add(part, "force-left-out", f"{words} constrains the robot, but not the model")
+
+
+def _find_pairs(element: Element, links: Collection[str]) -> Iterator[tuple[Element, set[str]]]:
+    """Yield the innermost elements that name two links, in attributes and texts of their own or of their parts."""
+    if _JOINS_NOTHING.search(element.tag):
+        return
+    words = [text for name, text in element.items() if name != "name"]
+    words += [text.strip() for part in element for text in (*part.attrib.values(), part.text or "")]
+    inner = [pair for part in element for pair in _find_pairs(part, links)]
+    yield from inner
+    if not inner and len(pair := {word for word in words if word in links}) == 2:
+        yield element, pair
 
 
 def read_loops(reader: Reader, root: Element, robot: Robot, options: Options) -> tuple[Loop, ...]:
@@ -146,6 +195,7 @@ def _kind(reader: Reader, element: Element, path: str) -> LoopKind | None:
 
 def _read_loop_joint(reader: Reader, element: Element, path: str, name: str) -> Loop | None:
     ends = [child for child in element if child.tag in ("link1", "link2")]  # Isaac Sim's exporter writes link1 twice
+    reader.expect(element, path, ("name", "type"))
     kind = _kind(reader, element, path)
     if len(ends) != 2:
         reader.add(element, "missing-element", f"{path} has {len(ends)} of the elements <link1> and <link2>")
@@ -156,6 +206,7 @@ def _read_loop_joint(reader: Reader, element: Element, path: str, name: str) -> 
 
 
 def _read_ball(reader: Reader, element: Element, path: str, name: str) -> Loop | None:
+    reader.expect(element, path, ("name",))
     frames = []
     for body, point in ((f"{_BALL}_body_A", f"{_BALL}_p_AP"), (f"{_BALL}_body_B", f"{_BALL}_p_BQ")):
         part = reader.find(element, body)

@@ -20,6 +20,7 @@ from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import LeftOut, Options
 from urdfsync.urdf.parse.beside import with_plain_joints
 from urdfsync.urdf.parse.fields import located
+from urdfsync.urdf.parse.respelling import with_attributes
 from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.robot import MOTION_KINDS, Robot
 from urdfsync.urdf.validate import Finding
@@ -36,7 +37,7 @@ def cross_check(content: bytes, file: str) -> tuple[Diagnostic, ...]:
 
     `file` is how diagnostics name it. Both read what URDF says: a joint of several axes is none of its types.
     """
-    content = with_plain_joints(content)
+    content = with_attributes(with_plain_joints(content))
     reading = read_robot(content, file, Options(allow=get_args(LeftOut)))
     if reading.robot is None:
         return ()

@@ -23,11 +23,21 @@ from urdfsync.urdf.parse.drives import configured_drives, read_drives, with_driv
 from urdfsync.urdf.parse.elements import read_joint, read_link, read_material, resolve_materials
 from urdfsync.urdf.parse.fields import Reader, quoted, summary
 from urdfsync.urdf.parse.gazebo import read_contacts, warn_of_left_out
-from urdfsync.urdf.parse.loops import TAGS, find_loop_elements, read_loops
+from urdfsync.urdf.parse.loops import TAGS, find_loop_elements, read_loops, tell_foreign_loops
 from urdfsync.urdf.parse.sensors import read_sensors
 from urdfsync.urdf.robot import Extension, Robot
 
 _MODELLED = ("link", "joint", "material")
+_DIALECTS = frozenset({"gazebo", "ros2_control", "transmission", "sensor", "mujoco", "drake:joint", AXES, *TAGS})
+"""Elements of a robot whose parts are read elsewhere, or that say nothing of links and joints."""
+_XACRO = {
+    "include": "what the file says is",
+    "macro": "its links and joints are",
+    "if": "what it holds is",
+    "unless": "what it holds is",
+    "property": "its value is",
+}
+"""What is missing where xacro's own elements lack their prefix, which xacro requires since ROS Noetic."""
 _LONGEST, _KINDS = 60, 12
 """Most characters of a tag, and most tags, in the note on elements that are not modelled; its details have all."""
 _XACRO_LOGIC = ("xacro:macro", "xacro:if", "xacro:unless", "xacro:insert_block")
@@ -72,16 +82,22 @@ def read_robot(content: bytes, file: str, options: Options = _DEFAULTS) -> Robot
 
 
 def _note_unmodelled(reader: Reader) -> Iterator[Diagnostic]:
-    """Yield one note on all elements that are in no model, each with its line as detail; none if there are none."""
-    lines = sorted(
-        (reader.element_lines[part], part.tag, part.get("name") or owner) for owner, part in reader.unmodelled()
+    """Yield one note on all elements and attributes that are in no model, if there are any, each with its line."""
+    elements = (
+        (reader.element_lines[part], f"<{cut(part.tag, _LONGEST)}>", part.get("name") or owner)
+        for owner, part in reader.unmodelled()
     )
-    counts = Counter(tag for _, tag, _ in lines)
-    kinds = [f"{count} <{cut(tag, _LONGEST)}>" for tag, count in counts.items()]
+    attributes = (
+        (reader.element_lines[part], f'{cut(name, _LONGEST)}="…"', f"of <{part.tag}>")
+        for name, part in reader.attributes
+    )
+    lines = sorted([*elements, *attributes])
+    counts = Counter(word for _, word, _ in lines)
+    kinds = [f"{count} {word}" for word, count in counts.items()]
     if len(kinds) > _KINDS:
-        kinds[_KINDS:] = [f"{len(kinds) - _KINDS} other kinds of elements"]
+        kinds[_KINDS:] = [f"{len(kinds) - _KINDS} other kinds"]
     if kinds:
-        details = tuple(f"line {line}: <{tag}> {name}".rstrip() for line, tag, name in lines)
+        details = tuple(f"line {line}: {word} {name}".rstrip() for line, word, name in lines)
         yield validate.diagnostic("not-modelled", f"not modelled: {', '.join(kinds)}", lines[0][0], details=details)
 
 
@@ -132,7 +148,7 @@ def _read(reader: Reader, document: xml.Document, options: Options) -> Robot:
     """Return the robot; it is complete only if no diagnostic is an error."""
     root = document.root
     reader.place(root, "robot")
-    reader.expect(root, "robot", ("name", "version"))
+    reader.expect(root, "robot", ("name", "version"), moves=False)
     reader.version = _read_version(reader, root)
     name = root.get("name", "")
     if not name.strip():
@@ -145,9 +161,13 @@ def _read(reader: Reader, document: xml.Document, options: Options) -> Robot:
             joint, axes = (quoted(child.get(name, "")) for name in ("joint", "axes"))
             message = f"there is no joint {joint}, or no such axes as {axes} for it to turn about"
             reader.add(child, "unknown-reference", message)
-        elif child.tag == "inertial":
-            reader.add(child, "stray-inertial", "this <inertial> is in no link, and is left out of the model")
-        if child.tag not in _MODELLED:
+        if child.tag in _DIALECTS:
+            reader.extensions.append(("", child))
+        elif child.tag in _XACRO:
+            reader.extensions.append(("", child))
+            message = f"<{child.tag}> without `xacro:` has no effect: {_XACRO[child.tag]} missing"
+            reader.add(child, "xacro-leftover", message, f"write <xacro:{child.tag} …>, or take it out")
+        elif child.tag not in _MODELLED:
             reader.keep(child, "robot", (*_MODELLED, *TAGS), "")
         if child.tag in ("gazebo", "ros2_control"):
             reader.used.add(child)  # its parts are read one by one, or are not modelled
@@ -155,6 +175,7 @@ def _read(reader: Reader, document: xml.Document, options: Options) -> Robot:
         reader.used.update(element.iter())
     contacts = read_contacts(reader, root)
     warn_of_left_out(reader, root)
+    tell_foreign_loops(reader, root, options)
 
     def elements(tag: str) -> list[tuple[Element, str]]:
         children = root.findall(tag)

@@ -16,6 +16,7 @@ import msgspec
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.parse import xml
 from urdfsync.urdf.parse.beside import AXES, split_joints
+from urdfsync.urdf.parse.respelling import with_attributes
 from urdfsync.urdf.robot import Inertia
 
 _NEEDED = {
@@ -38,7 +39,7 @@ class CompletedSource(NamedTuple):
 
 def completed_for_pinocchio(content: bytes) -> CompletedSource:
     """Return the URDF in UTF-8, with the elements and attributes that Pinocchio's reader requires."""
-    document = xml.parse(content)
+    document = xml.parse(content := with_attributes(content))
     added = set() if document.root.get("name") else {"the robot's name"}
     added |= {"joints of several axes"} if document.root.find(AXES) is not None else set()
     root = split_joints(document).root

@@ -1,0 +1,48 @@
+"""SDFormat's spelling in a URDF, read a second time and written as attributes, for the programs that check a reading.
+
+It shares no code with `fields`, which reads it first.
+"""
+
+from __future__ import annotations
+
+from xml.etree.ElementTree import Element, tostring
+
+from urdfsync.urdf.parse import xml
+
+_TEXTS = {
+    "parent": ("link",),
+    "child": ("link",),
+    "mass": ("value",),
+    "axis": ("xyz",),
+    "limit": ("lower", "upper", "effort", "velocity"),
+    "dynamics": ("damping", "friction"),
+    "mimic": ("multiplier", "offset"),
+    "inertia": ("ixx", "ixy", "ixz", "iyy", "iyz", "izz"),
+}
+
+
+def with_attributes(content: bytes) -> bytes:
+    """Return a URDF with the texts of its links and joints as attributes; the same bytes if there are none."""
+    root, changed = xml.parse(content).root, False
+    for element in (part for tag in ("link", "joint") for top in root.findall(tag) for part in list(top.iter())):
+        for axis in element.findall("axis"):
+            for part in [part for part in axis if part.tag in ("limit", "dynamics") and element.find(part.tag) is None]:
+                axis.remove(part)
+                element.append(part)
+        pose = element.find("pose") if element.find("origin") is None else element.find("origin")
+        if pose is not None and not pose.attrib and len(numbers := (pose.text or "").split()) == 6:
+            pose.tag, changed = "origin", True
+            pose.attrib.update(xyz=" ".join(numbers[:3]), rpy=" ".join(numbers[3:]))
+        changed = _raise_texts(element) or changed
+    return tostring(root) if changed else content
+
+
+def _raise_texts(element: Element) -> bool:
+    """Give an element the texts in it as attributes; return whether there are any."""
+    names = [name for name in _TEXTS.get(element.tag, ()) if name not in element.attrib]
+    for name in names:
+        part = element.find(name)
+        text = element.text if part is None and len(_TEXTS[element.tag]) == 1 else part is not None and part.text
+        if text and text.strip():
+            element.set(name, text.strip())
+    return any(name in element.attrib for name in names)
