@@ -245,11 +245,8 @@ def _not_found(dependencies: Sequence[Dependency], source: str, line: int = 0) -
     first, what = dependencies[0], _named(dependencies)
     others = ((path, _find_other_case(path)) for path in first.candidates)
     if found := next((other for path, other in others if other and other != path and other.is_file()), None):
-        message, hint = (
-            f"{what} not found; there is `{shown(found)}`",
-            "rename it, or correct upper and lower case in the source",
-        )
-        return Diagnostic(Severity.WARNING, f"{first.noun}-not-found", message, source, line, hint=hint)
+        what, hint = f"{what} not found; there is `{shown(found)}`", "rename it, or correct the case in the source"
+        return Diagnostic(Severity.WARNING, f"{first.noun}-not-found", what, source, line, hint=hint)
     beginning, match = next(
         (beginning, match)
         for beginning in _HINTS

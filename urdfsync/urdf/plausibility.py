@@ -48,12 +48,9 @@ _LIGHT = 0.05
 def find_implausible(tree: KinematicTree) -> Iterator[Finding]:
     """Yield a warning for each part that is hardly meant in a robot that passed all checks."""
     own_masses = {link.name: link.inertial.mass if link.inertial else 0.0 for link in tree.links}
-    distances, masses = {tree.links[0].name: 0.0}, dict(own_masses)
-    for joint in tree.joints:
-        distances[joint.child] = distances[joint.parent] + math.hypot(*joint.origin.xyz)
+    masses, length = dict(own_masses), find_length(tree)
     for joint in reversed(tree.joints):
         masses[joint.parent] += masses[joint.child]
-    length = max(distances.values())
     yield from _check_masses(tree, masses, length)
     for link in tree.links:
         if link.inertial is not None and link.inertial.mass:
@@ -63,6 +60,14 @@ def find_implausible(tree: KinematicTree) -> Iterator[Finding]:
     for joint in tree.joints:
         yield from _check_angles(f"joint {joint.name}", joint.origin)
         yield from _check_limits(joint, length, own_masses[joint.child])
+
+
+def find_length(tree: KinematicTree) -> float:
+    """Return how far the joints of a robot lead at the most, in m, straight from one to the next."""
+    distances = {tree.links[0].name: 0.0}
+    for joint in tree.joints:
+        distances[joint.child] = distances[joint.parent] + math.hypot(*joint.origin.xyz)
+    return max(distances.values())
 
 
 def _check_masses(tree: KinematicTree, masses: Mapping[str, float], length: float) -> Iterator[Finding]:

@@ -22,7 +22,10 @@ import msgspec
 
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Dependency, Import, Lookup
+from urdfsync.urdf.kinematics.tree import KinematicTree
+from urdfsync.urdf.plausibility import find_length
 from urdfsync.urdf.robot import Mesh, Vector
+from urdfsync.urdf.snapshot import from_snapshot
 
 _TOO_LARGE, _LARGEST = 20, 2.0
 """Size of a mesh in relation to the robot's length, and in m: a larger one hardly belongs to it."""
@@ -104,10 +107,12 @@ def findings(imports: Mapping[str, Import], snapshot: Mapping[str, Any]) -> Iter
 
     A note says if textures become colours.
     """
-    length = robot_length(snapshot["joints"])
+    sizes = {key: math.dist(*file.facts[BOUNDS]) for key, file in imports.items() if file.facts.get(BOUNDS)}
+    length = (
+        find_length(KinematicTree.of(from_snapshot(snapshot))) if max(sizes.values(), default=0) > _LARGEST else 0.0
+    )
     for key, file in imports.items():
-        size = math.dist(*file.facts[BOUNDS]) if file.facts.get(BOUNDS) else 0.0
-        if length and size > max(_LARGEST, _TOO_LARGE * length):
+        if length and (size := sizes.get(key, 0.0)) > max(_LARGEST, _TOO_LARGE * length):
             fitting = [scale for scale in _SCALES if length / _TOO_LARGE < size * scale < _TOO_LARGE * length]
             factors = " ".join(f"{factor * fitting[0]:g}" for factor in mesh(key).scale) if fitting else ""
             message = f"mesh `{mesh(key).filename}` is {size:.3g} m large in a robot of {length:.3g} m"
@@ -121,21 +126,6 @@ def findings(imports: Mapping[str, Import], snapshot: Mapping[str, Any]) -> Iter
     if count:
         message = f"{count} {'mesh has' if count == 1 else 'meshes have'} textures, which become their mean colours"
         yield "", Diagnostic(Severity.NOTE, "texture", message)
-
-
-def robot_length(joints: Mapping[str, Any]) -> float:
-    """Return how far the joints lead from the root at the most, in m, straight from one to the next."""
-    parents = {joint["child"]: joint for joint in joints.values()}
-    reach = dict[str, float]()
-    for link in parents:
-        way, end = [], link
-        while end in parents and end not in reach:
-            way.append(end)
-            end = parents[end]["parent"]
-        for name in reversed(way):
-            joint = parents[name]
-            reach[name] = reach.get(joint["parent"], 0.0) + math.hypot(*joint["origin"]["xyz"])
-    return max(reach.values(), default=0.0)
 
 
 def mentioned_files(file: str, content: bytes) -> list[str]:

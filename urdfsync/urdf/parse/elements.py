@@ -75,6 +75,7 @@ def _read_shapes(reader: Reader, link: Element, path: str, tag: str, owner: str)
         if len(shapes) > 1:
             message = f"{place} has {len(shapes)} geometries, of which the first counts"
             reader.add(element, "duplicate-element", message, f"write one {tag} for each")
+        reader.expect(holder, f"{place} / geometry", (), moves=False)
         for child in holder:
             if child.tag not in _SHAPES:
                 reader.keep(child, place, (), owner)

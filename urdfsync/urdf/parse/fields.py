@@ -150,7 +150,7 @@ class Reader:
     def keep(self, child: Element, path: str, tags: Collection[str], owner: str, *, moves: bool = False) -> None:
         """Keep an element that has none of `tags`; warn about one that would move the robot or looks misspelt."""
         self.extensions.append((owner, child))
-        mass = next((part for part in child.iter() if part.tag in _MASSES and part.tag not in tags), None)
+        mass = next((part for part in child.iter() if part.tag in _MASSES), None)
         if mass is not None:
             message = f"{path}: this <{mass.tag}> is not where URDF has it, and is left out of the model"
             self.add(mass, "stray-inertial", message)

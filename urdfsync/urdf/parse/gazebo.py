@@ -81,6 +81,8 @@ def warn_of_left_out(reader: Reader, root: Element) -> None:
                     if float(text):
                         what = f"{part.tag} {text} of {name!r} acts in Gazebo, but not in the model"
                         reader.add(part, "force-left-out", what)
+    for part in root.iterfind("link/contact/inertia_scaling"):
+        reader.add(part, "force-left-out", "<inertia_scaling> changes the inertia in Bullet, but not in the model")
     for part in root:
         if FORCES.search(part.tag):
             words = f"<{part.tag}> {part.get('name', '')}".rstrip()

@@ -32,6 +32,11 @@ from urdfsync.urdf.robot import Link, Loop, LoopKind, Origin, Robot, Vector
 _BALL = "drake:ball_constraint"
 TAGS = ("loop_joint", _BALL)
 """Elements of a robot that join two links of the tree; gazebo has a <joint> for it."""
+_PARTS: Mapping[str, Sequence[str]] = {
+    "loop_joint": ("link1", "link2", "axis"),
+    _BALL: (f"{_BALL}_body_A", f"{_BALL}_p_AP", f"{_BALL}_body_B", f"{_BALL}_p_BQ"),
+}
+_NO_LOOPS = frozenset({"link", "joint", "material", "transmission", "ros2_control", "sensor", "drake:joint", *TAGS})
 
 _KINDS: Mapping[str, LoopKind] = {
     "ball": "ball",
@@ -67,28 +72,28 @@ def tell_foreign_loops(reader: Reader, root: Element, options: Options) -> None:
 
     Loops of the configuration state such a pair.
     """
-    links = {link.get("name", "") for link in root.iterfind("link")}
+    links = {name for link in root.iterfind("link") if not (name := link.get("name", "")).isdecimal()}
     stated = {frozenset({loop.parent, loop.child}) for loop in configured_loops(options.loops)}
-    others = [child for child in root if child.tag not in ("link", "joint", "material", "drake:joint", *TAGS)]
-    for child in others:
+    for child in root:
         if child.tag == "gazebo":  # gz-sim's DetachableJoint, by its page
-            pairs = [(part, {part.findtext(tag, "").strip() for tag in _DETACHABLE}) for part in child.iter("plugin")]
+            pairs = ((part, {part.findtext(tag, "").strip() for tag in _DETACHABLE}) for part in child.iter("plugin"))
             found = [(part, pair) for part, pair in pairs if len(pair & links) == len(_DETACHABLE)]
-        elif child.tag in ("transmission", "ros2_control", "sensor") or FORCES.search(child.tag):
+        elif child.tag in _NO_LOOPS or FORCES.search(child.tag):
             continue
         else:
-            found = list(_find_pairs(child, links))
+            found = list(_find_pairs(child, links)) or [
+                (part, set())
+                for part in child.iter()
+                if _CONSTRAINS.search(part.tag) and not any(_CONSTRAINS.search(inner.tag) for inner in part)
+            ]
         for part, pair in found:
-            if frozenset(pair) not in stated:
-                words = f"<{part.tag}> {part.get('name', '')}".rstrip()
+            words = f"<{part.tag}> {part.get('name', '')}".rstrip()
+            if not pair:
+                reader.add(part, "force-left-out", f"{words} constrains the robot, but not the model")
+            elif frozenset(pair) not in stated:
                 message = f"{words} joins links {' and '.join(map(repr, sorted(pair)))} in words that are not read"
                 hint = 'state it as `loops` in the configuration, or leave it out by `allow = ["loop-joint"]`'
                 reader.add(part, "loop-joint", message, hint)
-        if not found and child.tag != "gazebo":
-            for part in child.iter():
-                if _CONSTRAINS.search(part.tag) and not any(_CONSTRAINS.search(inner.tag) for inner in part):
-                    words = f"<{part.tag}> {part.get('name', '')}".rstrip()
-                    reader.add(part, "force-left-out", f"{words} constrains the robot, but not the model")
 
 
 def _find_pairs(element: Element, links: Collection[str]) -> Iterator[tuple[Element, set[str]]]:
@@ -118,6 +123,12 @@ def read_loops(reader: Reader, root: Element, robot: Robot, options: Options) ->
             poses = poses or link_poses(KinematicTree.of(robot), {})
             loop = _read_joint(reader, element, path, name, poses, in_gazebo)
         else:
+            reader.expect(element, path, ("name", "type") if element.tag == "loop_joint" else ("name",))
+            for part in element:
+                if part.tag == "axis":
+                    reader.expect(part, f"{path} / axis", ("xyz",))
+                elif part.tag not in _PARTS[element.tag]:
+                    reader.keep(part, path, _PARTS[element.tag], path, moves=True)
             read = _read_loop_joint if element.tag == "loop_joint" else _read_ball
             loop = read(reader, element, path, name)
         if loop is not None and loop.parent and loop.child:  # a name that is missing is told already
@@ -195,7 +206,6 @@ def _kind(reader: Reader, element: Element, path: str) -> LoopKind | None:
 
 def _read_loop_joint(reader: Reader, element: Element, path: str, name: str) -> Loop | None:
     ends = [child for child in element if child.tag in ("link1", "link2")]  # Isaac Sim's exporter writes link1 twice
-    reader.expect(element, path, ("name", "type"))
     kind = _kind(reader, element, path)
     if len(ends) != 2:
         reader.add(element, "missing-element", f"{path} has {len(ends)} of the elements <link1> and <link2>")
@@ -206,9 +216,8 @@ def _read_loop_joint(reader: Reader, element: Element, path: str, name: str) -> 
 
 
 def _read_ball(reader: Reader, element: Element, path: str, name: str) -> Loop | None:
-    reader.expect(element, path, ("name",))
     frames = []
-    for body, point in ((f"{_BALL}_body_A", f"{_BALL}_p_AP"), (f"{_BALL}_body_B", f"{_BALL}_p_BQ")):
+    for body, point in (_PARTS[_BALL][:2], _PARTS[_BALL][2:]):
         part = reader.find(element, body)
         if part is None:
             reader.add(element, "missing-element", f"{path} has no <{body}>")

@@ -37,11 +37,18 @@ def cross_check(content: bytes, file: str) -> tuple[Diagnostic, ...]:
 
     `file` is how diagnostics name it. Both read what URDF says: a joint of several axes is none of its types.
     """
-    content = with_attributes(with_plain_joints(content))
-    reading = read_robot(content, file, Options(allow=get_args(LeftOut)))
+    content = with_plain_joints(content)
+    options = Options(allow=get_args(LeftOut))
+    reading, respelled = read_robot(content, file, options), with_attributes(content)
     if reading.robot is None:
         return ()
-    return located(compare_readers(content, reading.robot), file, reading.lines)
+    findings = list(compare_readers(respelled, reading.robot))
+    if respelled != content and (other := read_robot(respelled, file, options).robot):  # yourdfpy has no masses of it
+        for ours, theirs in zip(reading.robot.links + reading.robot.joints, other.links + other.joints, strict=True):
+            if ours != theirs:
+                path = f"{type(ours).__name__.lower()} {ours.name}"
+                findings.append(Finding("second-reader-differs", path, f"{path}: its texts are read otherwise"))
+    return located(findings, file, reading.lines)
 
 
 def compare_readers(content: bytes, robot: Robot) -> Iterator[Finding]:

@@ -23,21 +23,15 @@ from urdfsync.urdf.parse.drives import configured_drives, read_drives, with_driv
 from urdfsync.urdf.parse.elements import read_joint, read_link, read_material, resolve_materials
 from urdfsync.urdf.parse.fields import Reader, quoted, summary
 from urdfsync.urdf.parse.gazebo import read_contacts, warn_of_left_out
-from urdfsync.urdf.parse.loops import TAGS, find_loop_elements, read_loops, tell_foreign_loops
+from urdfsync.urdf.parse.loops import TAGS, read_loops, tell_foreign_loops
 from urdfsync.urdf.parse.sensors import read_sensors
 from urdfsync.urdf.robot import Extension, Robot
 
 _MODELLED = ("link", "joint", "material")
-_DIALECTS = frozenset({"gazebo", "ros2_control", "transmission", "sensor", "mujoco", "drake:joint", AXES, *TAGS})
+_DIALECTS = frozenset({"gazebo", "ros2_control", "transmission", "sensor", "mujoco", "drake:joint", AXES})
 """Elements of a robot whose parts are read elsewhere, or that say nothing of links and joints."""
-_XACRO = {
-    "include": "what the file says is",
-    "macro": "its links and joints are",
-    "if": "what it holds is",
-    "unless": "what it holds is",
-    "property": "its value is",
-}
-"""What is missing where xacro's own elements lack their prefix, which xacro requires since ROS Noetic."""
+_XACRO = ("include", "macro", "if", "unless", "property")
+"""Elements of xacro that mean nothing without their prefix since ROS Noetic."""
 _LONGEST, _KINDS = 60, 12
 """Most characters of a tag, and most tags, in the note on elements that are not modelled; its details have all."""
 _XACRO_LOGIC = ("xacro:macro", "xacro:if", "xacro:unless", "xacro:insert_block")
@@ -165,14 +159,14 @@ def _read(reader: Reader, document: xml.Document, options: Options) -> Robot:
             reader.extensions.append(("", child))
         elif child.tag in _XACRO:
             reader.extensions.append(("", child))
-            message = f"<{child.tag}> without `xacro:` has no effect: {_XACRO[child.tag]} missing"
+            message = f"<{child.tag}> without `xacro:` has no effect: what it stands for is missing"
             reader.add(child, "xacro-leftover", message, f"write <xacro:{child.tag} …>, or take it out")
-        elif child.tag not in _MODELLED:
+        elif child.tag not in (*_MODELLED, *TAGS):
             reader.keep(child, "robot", (*_MODELLED, *TAGS), "")
         if child.tag in ("gazebo", "ros2_control"):
             reader.used.add(child)  # its parts are read one by one, or are not modelled
-    for element in find_loop_elements(root):
-        reader.used.update(element.iter())
+    for element in root.iterfind("gazebo/joint"):
+        reader.used.update((element, *(part for part in element if part.tag in ("parent", "child", "pose"))))
     contacts = read_contacts(reader, root)
     warn_of_left_out(reader, root)
     tell_foreign_loops(reader, root, options)

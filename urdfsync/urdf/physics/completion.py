@@ -20,6 +20,7 @@ from urdfsync.urdf.parse.respelling import with_attributes
 from urdfsync.urdf.robot import Inertia
 
 _NEEDED = {
+    "joint/axis": {"xyz": "1 0 0"},
     "joint/limit": {"effort": "1000", "velocity": "1000"},
     "joint/safety_controller": {"k_velocity": "0"},
     "link/inertial/mass": {"value": "0"},
