@@ -26,7 +26,6 @@ from urdfsync.urdf.validate import Finding, perhaps
 
 _SHAPES: Mapping[str, type[Geometry]] = {str(kind.__struct_config__.tag): kind for kind in get_args(Geometry)}
 
-_AXIS = 'write for example xyz="0 0 1"'
 _TWINS = {"iyx": "ixy", "izx": "ixz", "izy": "iyz"}
 """The other half of a symmetrical tensor, which some exporters write, too."""
 
@@ -173,7 +172,7 @@ def read_joint(reader: Reader, element: Element, path: str) -> Joint | None:
     if not joint.parent or not joint.child:
         return None
     if axis is not None and "xyz" not in axis.attrib and JOINT_KINDS[joint.type].has_axis:
-        reader.add(axis, "missing-value", f"{path} / axis has no 'xyz', and is taken as 1 0 0", _AXIS)
+        reader.add(axis, "missing-value", f"{path} / axis has no 'xyz', and is taken as 1 0 0", 'write xyz="…"')
     if dynamics is not None and not {*Dynamics.__struct_fields__} & dynamics.attrib.keys():
         reader.add(dynamics, "missing-value", f"{path} / dynamics has none of {', '.join(Dynamics.__struct_fields__)}")
     safety = element.find("safety_controller")

@@ -59,7 +59,7 @@ _NEUTRAL = frozenset({"name", "id", "sensor", "dont_collapse"})
 """Attributes and elements that move nothing anywhere; with `dont_collapse` Isaac Gym keeps a fixed joint."""
 _MASSES = ("inertial", "mass", "inertia")
 _MASS_WORDS = re.compile("mass|inerti", re.IGNORECASE)
-_BY_KIND = frozenset({"unknown-attribute", "unknown-element", "sdf-spelling"})
+_BY_KIND = frozenset({"unknown-attribute", "unknown-element"})
 """Codes of warnings that are one line for each name: messages that are the same but for their path."""
 _SHOWN_ALONE = 3
 _LINES_SHOWN = 8
@@ -159,7 +159,8 @@ class Reader:
         moves = moves or child.tag in _moving_tags() or any(map(_MASS_WORDS.search, (child.tag, *child.attrib)))
         is_zero = not len(child) and _is_zero(" ".join((*child.attrib.values(), child.text or "")))
         if alike or (moves and child.tag not in _NEUTRAL and not is_zero):
-            meant = next((tag for tag in tags if set(child.attrib) & _attributes_of(tag)), "")
+            alone = ((tag, kind) for tag, (kind, _) in _schema(Joint)[1].items() if isinstance(kind, type))
+            meant = next((tag for tag, kind in alone if _schema(kind)[0].keys() & child.attrib.keys()), "")
             hint = alike or (f"perhaps <{meant}> is meant" if meant else "")
             message = f"{path}: the element <{child.tag}> is unknown there, and has no effect"
             self.add(child, "unknown-element", message, hint)
@@ -238,7 +239,7 @@ class Reader:
                 element.remove(texts[name])
         if read:
             element.attrib.update(read)
-            message = f"{path}: its text is in the spelling of SDFormat, and is read as {' and '.join(read)}"
+            message = f"{path}: its text is in the spelling of SDFormat, and is read as {', '.join(read)}"
             self.add(element, "sdf-spelling", message)
 
     def read(self, element: Element, path: str, struct: type[Values], owner: str, **given: Any) -> Values:
@@ -346,13 +347,6 @@ def _schema(
 def _moving_tags() -> frozenset[str]:
     """Return the elements that say how a joint or a body moves, wherever they stand."""
     return frozenset({*_schema(Joint)[1], *_schema(Inertial)[1], "pose"} - {"safety_controller", "calibration"})
-
-
-@functools.cache
-def _attributes_of(tag: str) -> frozenset[str]:
-    """Return the attributes of an element of a joint; none of those that have one for any element."""
-    kind = _schema(Joint)[1].get(tag, (None,))[0]
-    return frozenset(_schema(kind)[0]) if isinstance(kind, type) else frozenset()
 
 
 _alike = functools.lru_cache(maxsize=1024)(perhaps)  # 0.1 ms, and a robot may have 10,000 unknown attributes

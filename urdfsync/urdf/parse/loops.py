@@ -13,6 +13,7 @@ says how they stand in a URDF. MuJoCo documents `<compiler>`, `<option>` and `<s
 
 from __future__ import annotations
 
+import itertools
 import math
 import re
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
@@ -81,11 +82,8 @@ def tell_foreign_loops(reader: Reader, root: Element, options: Options) -> None:
         elif child.tag in _NO_LOOPS or FORCES.search(child.tag):
             continue
         else:
-            found = list(_find_pairs(child, links)) or [
-                (part, set())
-                for part in child.iter()
-                if _CONSTRAINS.search(part.tag) and not any(_CONSTRAINS.search(inner.tag) for inner in part)
-            ]
+            constraints = ((part, set[str]()) for part in child.iter() if _CONSTRAINS.search(part.tag))
+            found = list(_find_pairs(child, links)) or [*itertools.islice(constraints, 1)]
         for part, pair in found:
             words = f"<{part.tag}> {part.get('name', '')}".rstrip()
             if not pair:

@@ -5,7 +5,7 @@ It shares no code with `fields`, which reads it first.
 
 from __future__ import annotations
 
-from xml.etree.ElementTree import Element, tostring
+from xml.etree.ElementTree import tostring
 
 from urdfsync.urdf.parse import xml
 
@@ -29,20 +29,14 @@ def with_attributes(content: bytes) -> bytes:
             for part in [part for part in axis if part.tag in ("limit", "dynamics") and element.find(part.tag) is None]:
                 axis.remove(part)
                 element.append(part)
+                changed = True
         pose = element.find("pose") if element.find("origin") is None else element.find("origin")
         if pose is not None and not pose.attrib and len(numbers := (pose.text or "").split()) == 6:
             pose.tag, changed = "origin", True
             pose.attrib.update(xyz=" ".join(numbers[:3]), rpy=" ".join(numbers[3:]))
-        changed = _raise_texts(element) or changed
+        for name in _TEXTS.get(element.tag, ()):
+            text = element.findtext(name) or (element.text if len(_TEXTS[element.tag]) == 1 else "") or ""
+            if name not in element.attrib and text.strip():
+                element.set(name, text.strip())
+                changed = True
     return tostring(root) if changed else content
-
-
-def _raise_texts(element: Element) -> bool:
-    """Give an element the texts in it as attributes; return whether there are any."""
-    names = [name for name in _TEXTS.get(element.tag, ()) if name not in element.attrib]
-    for name in names:
-        part = element.find(name)
-        text = element.text if part is None and len(_TEXTS[element.tag]) == 1 else part is not None and part.text
-        if text and text.strip():
-            element.set(name, text.strip())
-    return any(name in element.attrib for name in names)

@@ -39,9 +39,10 @@ def cross_check(content: bytes, file: str) -> tuple[Diagnostic, ...]:
     """
     content = with_plain_joints(content)
     options = Options(allow=get_args(LeftOut))
-    reading, respelled = read_robot(content, file, options), with_attributes(content)
+    reading = read_robot(content, file, options)
     if reading.robot is None:
         return ()
+    respelled = with_attributes(content)
     findings = list(compare_readers(respelled, reading.robot))
     if respelled != content and (other := read_robot(respelled, file, options).robot):  # yourdfpy has no masses of it
         for ours, theirs in zip(reading.robot.links + reading.robot.joints, other.links + other.joints, strict=True):
