@@ -318,9 +318,8 @@ def _as_loop(joint: Joint) -> str:
     """Return how a joint whose child has another parent is written as a loop; nothing if no loop is of its type."""
     if joint.type not in ("revolute", "continuous", "fixed"):
         return ""
-    xyz, rpy, axis = (
-        " ".join(f"{number:.12g}" for number in numbers) for numbers in (joint.origin.xyz, joint.origin.rpy, joint.axis)
-    )
+    vectors = joint.origin.xyz, joint.origin.rpy, joint.axis
+    xyz, rpy, axis = (" ".join(f"{number:.12g}" for number in vector) for vector in vectors)
     ends = f'<link1 link="{joint.parent}" xyz="{xyz}" rpy="{rpy}"/><link2 link="{joint.child}"/>'
     turns = f'<axis xyz="{axis}"/>' * (joint.type != "fixed")
     element = f'<loop_joint name="{joint.name}" type="{joint.type}">{ends}{turns}</loop_joint>'

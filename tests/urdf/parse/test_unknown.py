@@ -265,3 +265,14 @@ def test_of_two_parents_the_second_joint_is_shown_as_a_loop() -> None:
 def test_xacro_without_its_prefix_is_told(element: str) -> None:
     (warning,) = read(robot(link("base"), element)).diagnostics
     assert (warning.code, warning.severity, warning.line) == ("xacro-leftover", Severity.WARNING, 4)
+
+
+def test_links_that_stand_in_another_element_are_told() -> None:
+    (warning,) = read(robot(link("base"), '<half side="left"><link name="w"><visual/></link></half>')).diagnostics
+    assert (warning.code, warning.line) == ("xacro-leftover", 4)
+
+
+@pytest.mark.parametrize("text", ['<link name="a" mass="2"/>', '<link name="a"><com xyz="0 0 1"/></link>'])
+def test_a_name_that_says_something_of_a_mass_is_told_in_a_link(text: str) -> None:
+    (warning,) = read(robot(text)).diagnostics
+    assert warning.severity is Severity.WARNING

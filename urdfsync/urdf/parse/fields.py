@@ -156,11 +156,11 @@ class Reader:
             self.add(mass, "stray-inertial", message)
             return
         alike = "" if child.tag in _moving_tags() or ":" in child.tag else perhaps(child.tag, tags, 0.8)
-        moves = moves or child.tag in _moving_tags() or any(map(_MASS_WORDS.search, (child.tag, *child.attrib)))
+        kinds = ((tag, kind) for tag, (kind, _) in _schema(Joint)[1].items() if isinstance(kind, type))
+        meant = next((tag for tag, kind in kinds if _schema(kind)[0].keys() & child.attrib.keys()), "")
+        is_moving = child.tag in _moving_tags() or any(map(_MASS_WORDS.search, (child.tag, *child.attrib)))
         is_zero = not len(child) and _is_zero(" ".join((*child.attrib.values(), child.text or "")))
-        if alike or (moves and child.tag not in _NEUTRAL and not is_zero):
-            alone = ((tag, kind) for tag, (kind, _) in _schema(Joint)[1].items() if isinstance(kind, type))
-            meant = next((tag for tag, kind in alone if _schema(kind)[0].keys() & child.attrib.keys()), "")
+        if alike or ((moves or is_moving or (owner and meant)) and child.tag not in _NEUTRAL and not is_zero):
             hint = alike or (f"perhaps <{meant}> is meant" if meant else "")
             message = f"{path}: the element <{child.tag}> is unknown there, and has no effect"
             self.add(child, "unknown-element", message, hint)
@@ -214,7 +214,8 @@ class Reader:
                 continue
             absent = tuple(other for other in attributes if other not in element.attrib)
             hint = _alike(name, absent)
-            if hint or (moves and name not in _NEUTRAL and not _is_zero(element.attrib[name])):
+            may_move = (moves and name not in _NEUTRAL) or _MASS_WORDS.search(name)
+            if hint or (may_move and not _is_zero(element.attrib[name])):
                 message = f"{path}: the attribute {name!r} is unknown there, and has no effect"
                 hint = hint or _meant(len(element.attrib[name].split()), absent, tuple(attributes))
                 self.add(element, "unknown-attribute", message, hint)

@@ -49,7 +49,7 @@ _KINDS: Mapping[str, LoopKind] = {
 }
 _JOINS_NOTHING = re.compile("collision|contact|exclude|group|chain|effector|frame|virtual|sensor|camera")
 """Elements that name links and do not join them, such as those of SRDF."""
-_CONSTRAINS = re.compile("constraint|equality|coupl|weld")
+_CONSTRAINS = re.compile("constraint|equality|coupl|weld|gear|tendon|spring")
 _CLOSING = re.compile(r"(closing_.+)_([12])")
 _DETACHABLE = ("parent_link", "child_link")
 _DIGITS = 12

@@ -9,16 +9,9 @@ from xml.etree.ElementTree import tostring
 
 from urdfsync.urdf.parse import xml
 
-_TEXTS = {
-    "parent": ("link",),
-    "child": ("link",),
-    "mass": ("value",),
-    "axis": ("xyz",),
-    "limit": ("lower", "upper", "effort", "velocity"),
-    "dynamics": ("damping", "friction"),
-    "mimic": ("multiplier", "offset"),
-    "inertia": ("ixx", "ixy", "ixz", "iyy", "iyz", "izz"),
-}
+_ALONE = {"parent": "link", "child": "link", "mass": "value", "axis": "xyz"}
+"""Attributes that are the text of their element."""
+_NAMES = "xyz lower upper effort velocity damping friction multiplier offset ixx ixy ixz iyy iyz izz".split()
 
 
 def with_attributes(content: bytes) -> bytes:
@@ -34,9 +27,10 @@ def with_attributes(content: bytes) -> bytes:
         if pose is not None and not pose.attrib and len(numbers := (pose.text or "").split()) == 6:
             pose.tag, changed = "origin", True
             pose.attrib.update(xyz=" ".join(numbers[:3]), rpy=" ".join(numbers[3:]))
-        for name in _TEXTS.get(element.tag, ()):
-            text = element.findtext(name) or (element.text if len(_TEXTS[element.tag]) == 1 else "") or ""
-            if name not in element.attrib and text.strip():
-                element.set(name, text.strip())
+        texts = {part.tag: part.text for part in element if part.tag in _NAMES}
+        texts |= {_ALONE[element.tag]: element.text} if element.tag in _ALONE and not texts else {}
+        for name, text in texts.items():
+            if name not in element.attrib and (text or "").strip():
+                element.set(name, (text or "").strip())
                 changed = True
     return tostring(root) if changed else content

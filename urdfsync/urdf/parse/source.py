@@ -157,10 +157,10 @@ def _read(reader: Reader, document: xml.Document, options: Options) -> Robot:
             reader.add(child, "unknown-reference", message)
         if child.tag in _DIALECTS:
             reader.extensions.append(("", child))
-        elif child.tag in _XACRO:
+        elif child.tag in _XACRO or (child.tag != "link" and any(map(len, child.iter("link")))):
             reader.extensions.append(("", child))
-            message = f"<{child.tag}> without `xacro:` has no effect: what it stands for is missing"
-            reader.add(child, "xacro-leftover", message, f"write <xacro:{child.tag} …>, or take it out")
+            message = f"<{child.tag}> has no effect in URDF: what it stands for is missing"
+            reader.add(child, "xacro-leftover", message, f"write <xacro:{child.tag} …>, or take its links out of it")
         elif child.tag not in (*_MODELLED, *TAGS):
             reader.keep(child, "robot", (*_MODELLED, *TAGS), "")
         if child.tag in ("gazebo", "ros2_control"):
