@@ -119,6 +119,9 @@ LINES = {
     "a quaternion": ('<origin orientation="1 0 0 0"/>', 'write quat_xyzw="x y z w"'),
     "angles in degrees": ('<origin xyz="0 0 1" euler_deg="0 90 0"/>', "perhaps 'rpy' is meant, in rad"),
     "a number that may be several": ('<mimic joint="r" gain="-2"/>', "URDF has joint, multiplier, offset there"),
+    "components": ('<axis y="1"/>', "perhaps 'xyz' is meant"),
+    "limits by other names": ('<limit lo="-1" effort="1" velocity="1"/>', "URDF has lower, upper, effort, velocity"),
+    "a unit": ('<origin xyz="0 0 1" unit="mm"/>', "URDF has xyz, rpy there"),
     "a spring": ('<dynamics damping="1" stiffness="3"/>', "URDF has damping, friction, armature there"),
     "an element by another name": ('<losses damping="3"/>', "perhaps <dynamics> is meant"),
 }
