@@ -36,6 +36,17 @@ def test_a_dependency_that_was_never_found_is_left_out(project: Path) -> None:
     assert kinds(run()) == {"Resources/step.txt": Reason.CREATE, "Ladder.mo": Reason.UPDATE}
 
 
+def test_a_dependency_that_differs_in_case_only_names_the_file(project: Path) -> None:
+    """Exports are made where that makes no difference."""
+    Path("step.csv").rename("STEP.CSV")
+    if Path("step.csv").exists():
+        pytest.skip("here it makes no difference, either")
+    assert said(run()) == [
+        "ladder.json:3: warning: table `step.csv` not found; there is `STEP.CSV`; left out; "
+        "rename it, or correct the case in the source [table-not-found]"
+    ]
+
+
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes on this system")
 def test_a_dependency_that_cant_be_opened_is_not_called_missing(project: Path) -> None:
     Path("step.csv").unlink()

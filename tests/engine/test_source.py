@@ -152,7 +152,8 @@ def test_what_a_macro_says_twice_is_listed_once(project: Path, execute: Execute)
         "parts/beam.xacro": xacros.BEAM.replace("<child", "<spring name='coil'/>\n      <spring/><child"),
     }
     xacros.write(project, files)
-    (note,) = execute("build", "--format=json").json["results"][0]["diagnostics"]
+    warning, note = execute("build", "--format=json").json["results"][0]["diagnostics"]
+    assert warning["code"] == "unknown-element"
     assert note["message"] == "not modelled: 4 <spring>"
     file = str(Path("urdf/parts/beam.xacro"))
     assert note["details"] == [

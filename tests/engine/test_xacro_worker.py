@@ -144,3 +144,10 @@ def test_a_file_that_leads_elsewhere_is_one_error(folder: Path, line: str) -> No
     begin = time.monotonic()
     assert problem(write_line(folder, line)).startswith("arm.urdf.xacro:2: error: ")
     assert time.monotonic() - begin < 10
+
+
+def test_a_macro_that_is_named_without_its_prefix_is_told(folder: Path) -> None:
+    """Only the file before its expansion says which names are macros."""
+    macro = '<xacro:macro name="wheel" params="at"><link name="${at}"/></xacro:macro>'
+    (warning,) = expand(write_line(folder, f'{macro}<wheel at="b"/>'), {}).warnings
+    assert warning == "warning: <wheel> of line 2 calls no macro: write <xacro:wheel …>"

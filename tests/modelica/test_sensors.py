@@ -32,6 +32,8 @@ ARM = robot(
     joint("elbow", "continuous", "upper", "fore", axis="0.3 -0.4 1.2"),
     joint("wrist", "fixed", "fore", "hand"),
     gazebo("hand", "imu", "imu", "<pose>0.1 0.2 -0.3 0.4 -0.5 0.6</pose>"),
+    gazebo("hand", "accelerometer", "accelerometer", "<pose>0.1 0.2 -0.3 0.4 -0.5 0.6</pose>"),
+    gazebo("hand", "gyroscope", "gyroscope", "<pose>0.1 0.2 -0.3 0.4 -0.5 0.6</pose>"),
     gazebo("elbow", "load", "force_torque"),
     gazebo("wrist", "grip", "force_torque", WRENCH.format("parent", "parent_to_child")),
     gazebo(
@@ -49,7 +51,7 @@ LOOKING = robot(
 )
 JOINTS = {"load": "elbow", "grip": "wrist", "cell": "shoulder"}
 VALUES = [
-    *(f"robot.imu.{part}[{i}]" for part in "aw" for i in (1, 2, 3)),
+    *(f"robot.{part}[{i}]" for part in ("imu.a", "imu.w", "accelerometer.a", "gyroscope.w") for i in (1, 2, 3)),
     *(f"robot.{sensor}.{part}[{i}]" for sensor in JOINTS for part in "ft" for i in (1, 2, 3)),
 ]
 
@@ -79,7 +81,7 @@ def expected(instant: motion.Instant) -> Array:
         "cell": -pin.rpy.rpyToMatrix(0.3, 0.2, 0.1).T,
     }
     wrenches = [turned[name] @ part for name, f in forces.items() for part in (f[:3], f[3:])]
-    return np.concatenate([acceleration, velocity, *wrenches])
+    return np.concatenate([acceleration, velocity, acceleration, velocity, *wrenches])
 
 
 def test_sensors_show_what_pinocchio_says_in_motion(modelica_library: Path, tmp_path: Path) -> None:

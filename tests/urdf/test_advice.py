@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -55,6 +56,16 @@ BOLTED = [
 def test_robots_on_wheels_and_legs_move_freely_and_others_are_bolted_down(links: tuple[str, ...], base: str) -> None:
     assert guess_base(robot(*links)).value == base
     assert guess_base(robot(*links, kind="fixed")).value == "fixed", "a wheel that does not turn is a picture of one"
+
+
+@pytest.mark.parametrize("name", ["rotor_{}", "thruster{}", "propeller-{}", "prop_{}", "motor_{}"])
+def test_a_robot_that_flies_or_swims_moves_freely(name: str) -> None:
+    """Motors of an arm turn the next link, or not all the way round."""
+    names = [name.format(number) for number in range(4)]
+    assert guess_base(robot(*names, kind="continuous")).value == "floating"
+    assert guess_base(robot(*names)).value == "fixed"
+    chain = [Joint(f"j{k}", "continuous", parent, child) for k, (parent, child) in enumerate(itertools.pairwise(names))]
+    assert guess_base(Robot("r", tuple(map(Link, names)), tuple(chain))).value == "fixed"
 
 
 def test_names_of_joints_count_as_well() -> None:

@@ -26,8 +26,8 @@ def shape(geometry: str, xyz: str = "0 0 0") -> str:
     return f'<origin xyz="{xyz}"/><geometry>{geometry}</geometry>'
 
 
-def turn(*inside: str, kind: str = "revolute", xyz: str = "0 0 1") -> str:
-    return joint("j", kind, "base", "arm", xyz=xyz, axis="0 0 1", inside=inside)
+def turn(*inside: str, kind: str = "revolute", xyz: str = "0 0 1", rpy: str = "0.5 -0.6 0.7") -> str:
+    return joint("j", kind, "base", "arm", xyz=xyz, rpy=rpy, axis="0 0 1", inside=inside)
 
 
 BALL, MESH = '<sphere radius="0.1"/>', '<mesh filename="package://p/a.stl"/>'
@@ -45,6 +45,7 @@ BALL, MESH = '<sphere radius="0.1"/>', '<mesh filename="package://p/a.stl"/>'
     ([BASE, ARM, turn(limit(0, 300), kind="prismatic")], "length-unit", 5),
     ([BASE, ARM, turn(limit(-90, 90))], "angle-unit", 5),
     ([BASE, ARM, turn(limit(0, 720))], "angle-unit", 5),
+    ([BASE, ARM, turn(rpy="90 0 45")], "angle-unit", 5),
     ([BASE, ARM, turn(limit(0, 0))], "zero-limits", 5),
     ([BASE, ARM, turn(limit(velocity=0))], "zero-limits", 5),
     ([BASE, ARM, turn('<limit effort="0" velocity="0"/>', kind="continuous")], "zero-limits", 5),

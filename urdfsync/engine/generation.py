@@ -188,7 +188,7 @@ def _generate(inputs: Inputs) -> Generation:
     )
     lines = {dependency.key: dependency.line for dependency in dependencies}
     findings += imported.diagnostics
-    for key, finding in domain.imports.findings(imported.imports) if domain.imports else ():
+    for key, finding in domain.imports.findings(imported.imports, snapshot) if domain.imports else ():
         findings.append(msgspec.structs.replace(finding, file=file, line=lines.get(key, 0)))
     package = generate(domain, snapshot, imported.imports, robot.target, robot.options, inputs.templates)
     if last.notes.program == inputs.program and not options.full:

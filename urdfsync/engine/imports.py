@@ -21,7 +21,7 @@ from urdfsync.diagnostics import Diagnostic, Severity, SourceError, StateError
 from urdfsync.domain import Dependency, Domain, Import, Lookup, Snapshot, further_key
 from urdfsync.engine import ros_packages
 from urdfsync.engine.options import BuildOptions
-from urdfsync.files import digest
+from urdfsync.files import digest, shown
 
 _POINTER = b"version https://git-lfs"
 """The beginning of a pointer of Git LFS."""
@@ -203,7 +203,7 @@ class Mentions(Protocol):
         """
         ...
 
-    def findings(self, imports: Mapping[str, Import]) -> Iterable[tuple[str, Diagnostic]]:
+    def findings(self, imports: Mapping[str, Import], snapshot: Snapshot) -> Iterable[tuple[str, Diagnostic]]:
         """Return diagnostics about imported files, without place, each with the key of its file; empty for all files.
 
         The core adds the line of the dependency.
@@ -243,6 +243,10 @@ def _named(dependencies: Sequence[Dependency]) -> str:
 def _not_found(dependencies: Sequence[Dependency], source: str, line: int = 0) -> Diagnostic:
     """Return one warning for missing files with the same noun and reason."""
     first, what = dependencies[0], _named(dependencies)
+    others = ((path, _find_other_case(path)) for path in first.candidates)
+    if found := next((other for path, other in others if other and other != path and other.is_file()), None):
+        what, hint = f"{what} not found; there is `{shown(found)}`", "rename it, or correct the case in the source"
+        return Diagnostic(Severity.WARNING, f"{first.noun}-not-found", what, source, line, hint=hint)
     beginning, match = next(
         (beginning, match)
         for beginning in _HINTS
@@ -250,6 +254,17 @@ def _not_found(dependencies: Sequence[Dependency], source: str, line: int = 0) -
     )
     hint = _HINTS[beginning].format(*match.groups())
     return Diagnostic(Severity.WARNING, f"{first.noun}-not-found", f"{what} not found", source, line, hint=hint)
+
+
+def _find_other_case(path: Path) -> Path | None:
+    """Return the file or folder whose path differs in case only: exports are made where that makes no difference."""
+    try:
+        folder = path.parent if path.parent == path or path.parent.is_dir() else _find_other_case(path.parent)
+        # not recorded: the place itself is, and a folder above it may change all the time
+        names = sorted(os.listdir(folder)) if folder else []  # noqa: PTH208
+    except OSError:
+        return None
+    return next((folder / name for name in names if folder and name.lower() == path.name.lower()), None)
 
 
 def _keep_copy(

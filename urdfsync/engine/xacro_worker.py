@@ -228,11 +228,17 @@ class _Copied(xml.dom.UserDataHandler):
             dst.setUserData(key, data, self)
 
 
+_macros = set[str]()
+"""Names of the macros in all files that were read."""
+
+
 def _parse(file: _File) -> Any:
     """Parse a file as `minidom.parse` does. Raises ExpatError."""
     builder = _Builder()
     builder.file = file.name
-    return builder.parseFile(file.buffer)
+    document = builder.parseFile(file.buffer)
+    _macros.update(macro.getAttribute("name") for macro in document.getElementsByTagName("xacro:macro"))
+    return document
 
 
 def expand(request: Request) -> Answer:
@@ -269,6 +275,10 @@ def expand(request: Request) -> Answer:
             for name, folder in sorted(files.packages.items(), key=lambda item: -len(item[1])):
                 text = re.sub(rf"(?<![\w./-])(?:file://)?{re.escape(folder)}/", f"package://{name}/", text)
             places = tuple(_places(document, text))
+            for element in document.getElementsByTagName("*"):
+                if element.tagName in _macros:
+                    name, (_, line) = element.tagName, element.getUserData(_PLACE)
+                    said.write(f"warning: <{name}> of line {line} calls no macro: write <xacro:{name} …>\n")
     except Exception as error:  # noqa: BLE001 - expressions raise whatever they like
         problem = _problem(error, xacro.filestack[-1] if xacro.filestack else request.source, files.packages)
     lines = [line.strip() for line in said.getvalue().splitlines()]

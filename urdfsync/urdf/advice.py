@@ -26,6 +26,7 @@ _LIMBS = (
         ),
     ),
 )
+_ROTORS = re.compile(r"rotor|propell?er|thruster|motor|(?<![a-z])props?(?![a-z])", re.IGNORECASE)
 _CAMEL = re.compile(r"(?<=[a-z0-9])(?=[A-Z])")
 
 
@@ -45,16 +46,22 @@ def option_for(name: str, robot: Robot, target: Target, options: Options) -> str
 
 
 def guess_base(robot: Robot) -> Proposal:
-    """Guess from names whether a robot stands on the ground by itself. The reason names the decisive name."""
+    """Guess from names whether a robot moves freely: it stands on the ground, flies or swims.
+
+    The reason has the name that decides.
+    """
     root = KinematicTree.of(robot).links[0].name
     if root.lower() == "world":
         return Proposal("base", "fixed", f'its root link is named "{root}"')
     if _FOOTPRINT.search(root):
         return Proposal("base", "floating", f'its root link is named "{root}"')
     turning = [joint for joint in robot.joints if joint.type in ("continuous", "revolute")]
-    for limbs, pattern in _LIMBS:
-        for kind, names in (("link", {j.child for j in turning}), ("joint", {j.name for j in turning})):
+    # arms have motors, too, but these turn the next link
+    carrying = {joint.parent for joint in robot.joints}
+    spinning = [joint for joint in turning if joint.type == "continuous" and joint.child not in carrying]
+    for limbs, pattern, joints in (*((*limbs, turning) for limbs in _LIMBS), ("rotors", _ROTORS, spinning)):
+        for kind, names in (("link", {j.child for j in joints}), ("joint", {j.name for j in joints})):
             matches = sorted((name for name in names if pattern.search(_CAMEL.sub(" ", name))), key=natural_key)
             if len(matches) > 1:
                 return Proposal("base", "floating", f'{kind} "{matches[0]}" and others sound like {limbs}')
-    return Proposal("base", "fixed", "no link or joint sounds like wheels or legs")
+    return Proposal("base", "fixed", "no link or joint sounds like wheels, legs or rotors")

@@ -31,7 +31,7 @@ WARNINGS = frozenset(
     {
         *(code for code, (severity, _) in ADVICE.items() if severity is not Severity.ERROR),
         *("mesh-guessed", "mesh-not-found", "mesh-not-found-kept", "mesh-unreadable", "mesh-unreadable-kept"),
-        *("mass-jump", "mesh-colors", "name-repeated", "passive-joints", "texture"),
+        *("mass-jump", "mesh-colors", "mesh-size", "name-repeated", "passive-joints", "texture"),
     }
 )
 

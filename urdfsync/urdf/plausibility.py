@@ -20,6 +20,7 @@ from urdfsync.urdf.robot import (
     Joint,
     Link,
     Mesh,
+    Origin,
     Sphere,
     Visual,
 )
@@ -50,19 +51,26 @@ _LIGHT = 0.05
 def find_implausible(tree: KinematicTree) -> Iterator[Finding]:
     """Yield a warning for each implausible part of a robot that passed all checks."""
     own_masses = {link.name: link.inertial.mass if link.inertial else 0.0 for link in tree.links}
-    distances, masses = {tree.links[0].name: 0.0}, dict(own_masses)
-    for joint in tree.joints:
-        distances[joint.child] = distances[joint.parent] + math.hypot(*joint.origin.xyz)
+    masses, length = dict(own_masses), find_length(tree)
     for joint in reversed(tree.joints):
         masses[joint.parent] += masses[joint.child]
-    length = max(distances.values())
     yield from _check_masses(tree, masses, length)
     for link in tree.links:
         if link.inertial is not None and link.inertial.mass:
             yield from _check_inertia(link, link.inertial, length)
+            yield from _check_angles(f"link {link.name} / inertial", link.inertial.origin)
         yield from _check_shapes(link, length)
     for joint in tree.joints:
+        yield from _check_angles(f"joint {joint.name}", joint.origin)
         yield from _check_limits(joint, length, own_masses[joint.child])
+
+
+def find_length(tree: KinematicTree) -> float:
+    """Return how far the joints of a robot lead at the most, in m, straight from one to the next."""
+    distances = {tree.links[0].name: 0.0}
+    for joint in tree.joints:
+        distances[joint.child] = distances[joint.parent] + math.hypot(*joint.origin.xyz)
+    return max(distances.values())
 
 
 def _check_masses(tree: KinematicTree, masses: Mapping[str, float], length: float) -> Iterator[Finding]:
@@ -114,6 +122,14 @@ def _check_shapes(link: Link, length: float) -> Iterator[Finding]:
                     place = f"link {link.name} / {kind} {number}"
                     message = f"{place} is {away:.3g} m away from its link, in a robot of {length:.3g} m"
                     yield Finding("shape-far", f"{place} / origin", message)
+
+
+def _check_angles(path: str, origin: Origin) -> Iterator[Finding]:
+    """Check that an orientation is no whole number of degrees: nobody turns a frame by more than a turn."""
+    widest = max(map(abs, origin.rpy))
+    if math.tau < widest <= _TWO_TURNS_IN_DEGREES and all(angle.is_integer() for angle in origin.rpy):
+        shown = " ".join(f"{angle:g}" for angle in origin.rpy)
+        yield Finding("angle-unit", f"{path} / origin", f"{path}: the angles {shown} rad may be in degrees")
 
 
 def _check_limits(joint: Joint, length: float, mass: float) -> Iterator[Finding]:

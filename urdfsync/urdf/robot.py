@@ -34,7 +34,7 @@ _POSITION, _LOAD, _LOSS = Unit("rad", "m"), Unit("N·m", "N"), Unit("N·m·s/rad
 _ACCELERATION = Unit("rad/s²", "m/s²")
 
 JointType = Literal["fixed", "continuous", "revolute", "prismatic", "planar", "floating"]
-SensorKind = Literal["imu", "force_torque", "camera", "lidar"]
+SensorKind = Literal["imu", "accelerometer", "gyroscope", "force_torque", "camera", "lidar"]
 LoopKind = Literal["ball", "revolute", "universal", "fixed"]
 Command = Literal["position", "velocity", "effort"]
 Motion = Literal["rotational", "translational"]

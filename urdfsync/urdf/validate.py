@@ -109,6 +109,8 @@ _WARNINGS = {
     # elements and attributes
     "missing-name": 'write <robot name="…">',
     "duplicate-element": "remove the others",
+    "sdf-spelling": "write it as URDF has it: other programs leave it out",
+    "missing-value": "add one of them, or take the element out, which ROS's parser refuses",
     "newer-version": "remove what is newer than URDF 1.2: it has no effect",
     "newer-attribute": "name the version of URDF that has it",
     "unknown-attribute": "correct its name, or remove it",
@@ -301,7 +303,8 @@ def _check_tree(robot: Robot, joints: Iterable[tuple[str, Joint]], complete: boo
         first = parents.setdefault(joint.child, joint)
         if first.name != joint.name:
             message = f"link {joint.child!r} is the child of joint {joint.name!r} and of joint {first.name!r}"
-            yield Finding("two-parents", path, message)
+            hint = _as_loop(joint) if joint.parent != joint.child and first.parent != first.child else ""
+            yield Finding("two-parents", path, message, hint)
     above = {child: joint.parent for child, joint in parents.items()}
     for cycle in _cycles((link.name for link in robot.links), above):
         message = f"links form a cycle: {' → '.join(map(repr, [*reversed(cycle), cycle[-1]]))}"
@@ -310,6 +313,18 @@ def _check_tree(robot: Robot, joints: Iterable[tuple[str, Joint]], complete: boo
     if len(roots) > 1 and complete:
         message = f"{len(roots)} links have no parent: {', '.join(map(repr, roots))}"
         yield Finding("several-roots", f"link {roots[1]}", message)
+
+
+def _as_loop(joint: Joint) -> str:
+    """Return how a joint whose child has another parent is written as a loop; nothing if no loop is of its type."""
+    if joint.type not in ("revolute", "continuous", "fixed"):
+        return ""
+    vectors = joint.origin.xyz, joint.origin.rpy, joint.axis
+    xyz, rpy, axis = (" ".join(f"{number:.12g}" for number in vector) for vector in vectors)
+    ends = f'<link1 link="{joint.parent}" xyz="{xyz}" rpy="{rpy}"/><link2 link="{joint.child}"/>'
+    turns = f'<axis xyz="{axis}"/>' * (joint.type != "fixed")
+    element = f'<loop_joint name="{joint.name}" type="{joint.type}">{ends}{turns}</loop_joint>'
+    return f"if it closes a loop, write it as {element}, or state it as `loops` in the configuration; else remove it"
 
 
 def _cycles(names: Iterable[str], successor: Mapping[str, str]) -> Iterator[list[str]]:

@@ -35,13 +35,14 @@ def test_all_that_is_not_modelled_is_one_note() -> None:
         joint("k", "fixed", "arm", "tip"),
     )
     assert (note.code, note.line) == ("not-modelled", 6)
-    assert note.message == "not modelled: 1 <plugin>, 1 <material>, 1 <sensor>, 1 <frame>, 1 <verbose>"
+    assert note.message == 'not modelled: 1 <plugin>, 1 <material>, 1 <sensor>, 1 <frame>, 1 <verbose>, 1 group="…"'
     assert note.details == (
         "line 6: <plugin> control",
         "line 7: <material> gazebo arm",
         "line 7: <sensor> eye",
         "line 8: <frame> n",
         "line 9: <verbose> link tip",
+        'line 9: group="…" of <link>',
     )
 
 
@@ -80,11 +81,11 @@ LEFT_OUT = {
     "in a shape": (
         """<link name="l"><visual><geometry><box size="1 1 1"><convex/></box></geometry><material name="m">
         <color rgba="1 0 0 1"/><map/></material></visual></link><joint name="jl" type="fixed"><parent link="arm"/>
-        <child link="l"><more/></child><origin drake:x="1" rpy="0 0 0"><deep/></origin></joint>""",
+        <child link="l"><more/></child><origin rpy="0 0 0"><deep/></origin></joint>""",
         "1 <convex>, 1 <map>, 1 <more>, 1 <deep>",
     ),
     "many kinds of things": ("".join(f"<e{number:02}/>" for number in range(14)),
-        ", ".join(f"1 <e{number:02}>" for number in range(12)) + ", 2 other kinds of elements"),
+        ", ".join(f"1 <e{number:02}>" for number in range(12)) + ", 2 other kinds"),
     "beside the friction of a link": ('<link name="l"><contact><lateral_friction value="1"/><rolling_friction '
         'value="0"/></contact></link>' + joint("jl", "fixed", "arm", "l"),
         "1 <rolling_friction>"),

@@ -124,8 +124,9 @@ def test_one_frame_of_a_pair_is_told() -> None:
 
 
 def test_a_misspelt_loop_joint_is_told() -> None:
-    (finding,) = read(LOOP_JOINT.replace("loop_joint", "loopjoint")).diagnostics
+    finding, error = read(LOOP_JOINT.replace("loop_joint", "loopjoint")).diagnostics
     assert (finding.code, finding.hint) == ("unknown-element", "perhaps 'loop_joint' is meant")
+    assert error.code == "loop-joint", "the robot would be built open"
 
 
 def test_two_configured_loops_of_one_name_are_one_error() -> None:
@@ -151,6 +152,6 @@ def test_two_configured_loops_of_one_name_are_one_error() -> None:
     (LOOP_JOINT + LOOP_JOINT.replace("closing", "again"), "loop-twice", "remove one of them"),
 ])  # fmt: skip
 def test_each_fault_is_one_error_with_its_line(element: str, code: str, words: str) -> None:
-    (error,) = read(element).diagnostics
+    (error,) = (found for found in read(element).diagnostics if found.severity is Severity.ERROR)
     assert (error.code, words in error.hint) == (code, True)
     assert error.line >= 10

@@ -13,6 +13,7 @@ import pytest
 from support.urdfs import joint, links, mimic, parsed, robot
 
 from urdfsync.diagnostics import Severity
+from urdfsync.urdf.parse.respelling import with_attributes
 from urdfsync.urdf.parse.second_reader import compare_readers, cross_check
 from urdfsync.urdf.robot import Joint, Link, Origin, Robot
 
@@ -46,6 +47,22 @@ def test_disagreement_is_told(changes: dict[str, Any], message: str) -> None:
     (finding,) = compare_readers(URDF.encode(), msgspec.structs.replace(ROBOT, **changes))
     assert finding.code == "second-reader-differs"
     assert finding.message.endswith(message)
+
+
+TEXTS = robot(
+    '<link name="a"/>',
+    '<link name="b"><inertial><pose>0 0 1 0 0 0</pose><mass>2</mass><inertia><ixx>1</ixx></inertia></inertial></link>',
+    '<joint name="j" type="revolute"><pose>1 2 3 0.1 0.2 0.3</pose><parent>a</parent><child>b</child>'
+    "<axis><xyz>0 1 0</xyz><limit><lower>-1</lower><upper>1</upper></limit></axis></joint>",
+)
+
+
+def test_the_spelling_of_sdf_is_read_twice(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert cross_check(TEXTS.encode(), "a.urdf") == ()
+    wrong = robot(*TEXTS.split("\n")[2:-2]).replace("<mass>2", "<mass>3").encode()
+    monkeypatch.setattr("urdfsync.urdf.parse.second_reader.with_attributes", lambda _: with_attributes(wrong))
+    (finding,) = cross_check(TEXTS.encode(), "a.urdf")
+    assert (finding.code, finding.message) == ("second-reader-differs", "link b: its texts are read otherwise")
 
 
 def test_a_quaternion_is_not_cross_checked() -> None:

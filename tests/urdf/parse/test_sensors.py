@@ -78,6 +78,13 @@ FORMS = {
         gazebo("elbow", "ft", "force_torque", wrench("parent", "parent_to_child")),
         [Sensor("ft", "force_torque", "elbow", in_parent=True, on_child=True)],
     ),
+    "of iDynTree": (
+        """<sensor name="a" type="accelerometer"><parent link="arm"/><origin xyz="1 2 3" rpy="0.1 0.2 0.3"/></sensor>
+            <sensor name="f" type="force_torque"><parent joint="wrist"/><origin xyz="0 0 0" rpy="0 0 0"/></sensor>
+            <sensor name="g" type="gyroscope"><parent link="hand"/></sensor>""",
+        [Sensor("a", "accelerometer", "arm", PLACE), Sensor("f", "force_torque", "wrist"),
+         Sensor("g", "gyroscope", "hand")],
+    ),
     "of ros2_control": (
         control("ft", "force.x", '<param name="frame_id">hand</param>')
         + control("imu", "linear_acceleration.x", '<param name="frame_id">base</param>'),

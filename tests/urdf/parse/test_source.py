@@ -318,7 +318,7 @@ ODDITIES = [
     (of_version("1.2", with_joint('<limit lower="0" upper="1" deceleration="-1"/>')), "negative-limit", 4),
     (with_joint('<limit effort="1" velocity="1"/>'), "missing-limit-value", 4),
     (with_joint('<limit velocity="1"/>', "continuous"), "missing-limit-value", 4),
-    (with_joint('<limit lower="0" upper="1" effort="1" velcoity="1" velocity="1"/>\n<dynamics dampin="1"/>'),
+    (with_joint('<limit lower="0" upper="1" effort="1" velocity="1"/>\n<dynamics dampin="1" friction="1"/>'),
      "unknown-attribute", 5),
     (with_joint("<dynamic/>", "continuous"), "unknown-element", 4),
     (with_joint('<safety_controller k_position="1"/>', "continuous"), "missing-gain", 4),

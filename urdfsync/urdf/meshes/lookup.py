@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import hashlib
 import itertools
+import math
 import re
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
@@ -18,8 +19,14 @@ from urllib.parse import unquote
 
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import Dependency, Import, Lookup
-from urdfsync.urdf.robot import Collision, Link, Mesh, Vector, Visual
+from urdfsync.urdf.kinematics.tree import KinematicTree
+from urdfsync.urdf.plausibility import find_length
+from urdfsync.urdf.robot import Collision, Link, Mesh, Robot, Vector, Visual
 
+_TOO_LARGE, _LARGEST = 20, 2.0
+"""Size of a mesh in relation to the robot's length, and in m: a larger one hardly belongs to it."""
+_SCALES = (0.001, 0.01, 0.0254)
+"""Millimetres, which most programs export, centimetres and inches, in m."""
 UNIT_SCALE: Vector = (1.0, 1.0, 1.0)
 BOUNDS, HULL = "bounds", "hull"
 """Names of facts: all models need the first one, ground contacts the other as well."""
@@ -90,9 +97,20 @@ def mentioned(dependency: Dependency, file: str, content: bytes) -> Sequence[str
     return mentioned_files(file, content) if is_needed else ()
 
 
-def findings(imports: Mapping[str, Import]) -> Iterator[tuple[str, Diagnostic]]:
-    """Yield a warning for each mesh without some of its colours, and a note if textures become colours."""
+def findings(imports: Mapping[str, Import], robot: Robot) -> Iterator[tuple[str, Diagnostic]]:
+    """Yield a warning for each mesh without some of its colours, or in another unit than the robot.
+
+    A note says if textures become colours.
+    """
+    sizes = {key: math.dist(*file.facts[BOUNDS]) for key, file in imports.items() if file.facts.get(BOUNDS)}
+    length = find_length(KinematicTree.of(robot)) if max(sizes.values(), default=0) > _LARGEST else 0.0
     for key, file in imports.items():
+        if length and (size := sizes.get(key, 0.0)) > max(_LARGEST, _TOO_LARGE * length):
+            fitting = [scale for scale in _SCALES if length / _TOO_LARGE < size * scale < _TOO_LARGE * length]
+            factors = " ".join(f"{factor * fitting[0]:g}" for factor in mesh(key).scale) if fitting else ""
+            message = f"mesh `{mesh(key).filename}` is {size:.3g} m large in a robot of {length:.3g} m"
+            hint = f'write scale="{factors}", or export it in m' if fitting else "export it in m"
+            yield key, Diagnostic(Severity.WARNING, "mesh-size", message, hint=hint)
         if missing := file.facts.get(COLORLESS):
             message = f"mesh `{mesh(key).filename}` lacks colours: "
             hint = "put what is missing beside the mesh, or give the visual a <material>"

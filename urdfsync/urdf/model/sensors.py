@@ -13,8 +13,11 @@ _ROW = 20  # height of an output in the diagram of Run
 _TOP = 80  # of the first one, below those of the drives
 _ICON_ROW, _ICON_TOP = 10, 90
 
+_A, _W = ("a", "m/s2", "acceleration minus gravity"), ("w", "rad/s", "angular velocity")
 _OUTPUTS = {
-    "imu": (("a", "m/s2", "acceleration minus gravity"), ("w", "rad/s", "angular velocity")),
+    "imu": (_A, _W),
+    "accelerometer": (_A,),
+    "gyroscope": (_W,),
     "force_torque": (("f", "N", "force"), ("t", "N.m", "torque")),
 }
 """Outputs of a sensor by its kind: name, unit, and quantity in words."""

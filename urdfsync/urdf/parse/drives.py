@@ -85,6 +85,8 @@ def read_drives(reader: Reader, element: Element, path: str) -> Iterator[Drive]:
             if name := joint.get("name", ""):
                 yield _read_control(reader, joint, reader.place(joint, f"{path} / joint {name}"), name)
     for transmission in transmissions:
+        for part in (transmission, *transmission.findall("joint"), *transmission.findall("actuator")):
+            reader.expect(part, path, ("name", "type", "role"))
         joints = transmission.findall("joint")
         gear = _read_gear(reader, transmission, path) if len(joints) == 1 else None
         for joint in joints:

@@ -13,6 +13,7 @@ from urdfsync.urdf.robot import (
     JOINT_KINDS,
     Collision,
     Contact,
+    Dynamics,
     Geometry,
     Inertia,
     Inertial,
@@ -25,6 +26,9 @@ from urdfsync.urdf.validate import Finding, perhaps
 
 _SHAPES: Mapping[str, type[Geometry]] = {str(kind.__struct_config__.tag): kind for kind in get_args(Geometry)}
 
+_TWINS = {"iyx": "ixy", "izx": "ixz", "izy": "iyz"}
+"""The other half of a symmetrical tensor, which some exporters write, too."""
+
 
 def read_link(reader: Reader, element: Element, path: str, contact: Contact | None) -> Link:
     """Read a link without looking up its materials; `contact` was read from the whole robot.
@@ -35,13 +39,16 @@ def read_link(reader: Reader, element: Element, path: str, contact: Contact | No
     part, inertial = element.find("inertial"), None
     if part is not None:
         mass, inertia = part.find("mass"), part.find("inertia")
+        for twin, name in _TWINS.items():
+            if inertia is not None and inertia.get(twin) == inertia.get(name):
+                inertia.attrib.pop(twin, None)
+        inertial = reader.read(part, place, Inertial, owner)
         if mass is None or "value" not in mass.attrib:
             reader.add(part if mass is None else mass, "missing-mass", f"{place} has no mass: it is taken as 0")
         absent = [name for name in Inertia.__struct_fields__ if inertia is None or name not in inertia.attrib]
         if absent:
             message = f"{place} has no {', '.join(absent)}: taken as 0"
             reader.add(part if inertia is None else inertia, "missing-inertia", message)
-        inertial = reader.read(part, place, Inertial, owner)
     visuals = tuple(_read_shapes(reader, element, path, "visual", owner))
     collisions = tuple(_read_shapes(reader, element, path, "collision", owner))
     parts = {"inertial": inertial, "visuals": visuals, "collisions": collisions, "contact": contact}
@@ -60,12 +67,14 @@ def _read_shapes(reader: Reader, link: Element, path: str, tag: str, owner: str)
         if holder is None or not shapes:
             message = f"a {tag} of {path} has no geometry that URDF knows, and is left out"
             reader.add(element, "unknown-geometry", message)
+            reader.children(element, path, ("origin", "geometry", "material"), owner)
             continue
         number += 1
         place, kind = reader.place(element, f"{path} / {tag} {number}"), shapes[0].tag
         if len(shapes) > 1:
             message = f"{place} has {len(shapes)} geometries, of which the first counts"
             reader.add(element, "duplicate-element", message, f"write one {tag} for each")
+        reader.expect(holder, f"{place} / geometry", (), moves=False)
         for child in holder:
             if child.tag not in _SHAPES:
                 reader.keep(child, place, (), owner)
@@ -80,11 +89,11 @@ def _read_shapes(reader: Reader, link: Element, path: str, tag: str, owner: str)
 
 def read_material(reader: Reader, element: Element, path: str, owner: str = "") -> Material:
     """Read a material as it is written; its colour is None if it is absent or, after a warning, faulty."""
-    reader.expect(element, path, ("name",))
+    reader.expect(element, path, ("name",), moves=False)
     color = reader.children(element, path, ("color",), owner).get("color")
     rgba = None
     if color is not None:
-        reader.expect(color, f"{path} / color", ("rgba",))
+        reader.expect(color, f"{path} / color", ("rgba",), moves=False)
         reader.children(color, path, (), owner)
         shown = f"{path} / color: rgba={quoted(color.get('rgba', ''))}"
         try:
@@ -139,11 +148,21 @@ def resolve_materials(
 def read_joint(reader: Reader, element: Element, path: str) -> Joint | None:
     """Read a joint with its written axis; return None, after an error, if it connects nothing.
 
-    A joint of unknown type becomes a plain fixed one.
+    A joint of unknown type becomes a plain fixed one. SDFormat has limits and losses inside of the axis. Drake has
+    `drake:acceleration` among the limits (its page on parsing models for multibody dynamics).
     """
-    limit = element.find("limit")
+    axis = element.find("axis")
+    if axis is not None:
+        for part in [part for part in axis if part.tag in ("limit", "dynamics") and element.find(part.tag) is None]:
+            axis.remove(part)
+            element.append(part)
+            message = f"{path}: <{part.tag}> stands in <axis> as in SDFormat, and is read"
+            reader.add(part, "sdf-spelling", message)
+    limit, dynamics = element.find("limit"), element.find("dynamics")
     if limit is not None:
         reader.drop_newer(limit, f"{path} / limit", ("acceleration", "deceleration", "jerk"), (1, 2))
+        if acceleration := limit.attrib.pop("drake:acceleration", ""):
+            limit.attrib.setdefault("acceleration", acceleration)
     joint = reader.read(element, path, Joint, f"joint {element.get('name', '')}")
     if joint.type not in JOINT_KINDS:
         if joint.type:
@@ -152,6 +171,10 @@ def read_joint(reader: Reader, element: Element, path: str) -> Joint | None:
         joint = Joint(joint.name, "fixed", joint.parent, joint.child)
     if not joint.parent or not joint.child:
         return None
+    if axis is not None and "xyz" not in axis.attrib and JOINT_KINDS[joint.type].has_axis:
+        reader.add(axis, "missing-value", f"{path} / axis has no 'xyz', and is taken as 1 0 0", 'write xyz="…"')
+    if dynamics is not None and not {*Dynamics.__struct_fields__} & dynamics.attrib.keys():
+        reader.add(dynamics, "missing-value", f"{path} / dynamics has none of {', '.join(Dynamics.__struct_fields__)}")
     safety = element.find("safety_controller")
     if safety is not None and "k_velocity" not in safety.attrib:
         reader.add(safety, "missing-gain", f"{path} / safety_controller has no 'k_velocity', taken as 0")

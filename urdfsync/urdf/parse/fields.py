@@ -1,7 +1,11 @@
 """Reads elements into the structs of `urdf.robot`.
 
 A field of numbers or text is the attribute of its name. A field that is a struct is the child element of its name. One
-without a default is required. What no field asks for is kept as text (see `Robot.extensions`).
+without a default is required. What no field asks for is kept as text (see `Extension`), and told: with a warning where
+URDF says how things move, in the counted note elsewhere.
+
+SDFormat writes values as text: `<axis><xyz>0 1 0</xyz></axis>`, `<lower>-1</lower>`, `<pose>0 0 1 0 0 0</pose>`
+(sdformat.org/spec, version 1.11). Such a text is read, with a warning.
 
 Numbers are decimals as ROS's urdfdom accepts them: no `nan`, `inf`, hexadecimals, underscores or decimal commas. An
 unreadable value is an error. A default replaces it, so that the reading goes on and finds the next fault.
@@ -20,7 +24,19 @@ import msgspec
 
 from urdfsync.diagnostics import Diagnostic, Severity, cut
 from urdfsync.urdf.kinematics.poses import roll_pitch_yaw
-from urdfsync.urdf.robot import JointType, Vector
+from urdfsync.urdf.robot import (
+    Calibration,
+    Collision,
+    Geometry,
+    Inertial,
+    Joint,
+    JointType,
+    Link,
+    Origin,
+    SafetyController,
+    Vector,
+    Visual,
+)
 from urdfsync.urdf.validate import Finding, diagnostic, perhaps
 
 Values = TypeVar("Values", bound=msgspec.Struct)
@@ -32,10 +48,19 @@ _COUNTS = {str: 0, JointType: 0, float: 1, float | None: 1, Vector: 3}
 _ONE_VALUE = {"parent": "link", "child": "link", "axis": "xyz", "mass": "value"}
 """Child elements of fields of numbers or text, with their only attribute."""
 _REPEATED = ("visual", "collision")
+_LENGTHS = {"xyz": 3, "rpy": 3, "quat_xyzw": 4}
+"""Numbers of attributes that an unknown one may mean."""
+_POSE = 6
 _ELSEWHERE = ("transmission", "start")
-"""Fields whose elements are outside of their struct's element."""
-# Elements of URDF. In a place where one means nothing, it is not taken for a misspelt other element.
-_ELEMENTS = frozenset("link joint material inertial inertia visual collision origin geometry mass axis".split())
+"""Fields whose elements do not stand in the element of their struct."""
+_STILL = frozenset({Link, Visual, Collision, Calibration, SafetyController, *get_args(Geometry)})
+"""Structs of elements in which something unknown moves nothing."""
+_NEUTRAL = frozenset({"name", "id", "sensor", "dont_collapse"})
+"""Attributes and elements that move nothing anywhere; with `dont_collapse` Isaac Gym keeps a fixed joint."""
+_MASSES = ("inertial", "mass", "inertia")
+_MASS_WORDS = re.compile("mass|inerti", re.IGNORECASE)
+_BY_KIND = frozenset({"unknown-attribute", "unknown-element"})
+"""Codes of warnings that are one line for each name: messages that are the same but for their path."""
 _SHOWN_ALONE = 3
 _LINES_SHOWN = 8
 _TEXT_SHOWN = 60
@@ -55,7 +80,9 @@ class Reader:
         self.diagnostics: list[Diagnostic] = []
         """Diagnostics so far, without the name of the file."""
         self.extensions: list[tuple[str, Element]] = []
-        """Elements outside of all structs, each with its owner."""
+        """Elements that no struct asks for, each with its owner."""
+        self.attributes: list[tuple[str, Element]] = []
+        """Attributes that nothing asks for and that move nothing, each with its element."""
         self.used = set[Element]()
         """The elements in `extensions`, or inside of them, that are read otherwise."""
 
@@ -96,13 +123,21 @@ class Reader:
         self.lines.setdefault(path, self.element_lines[element])
         return path
 
-    def children(self, element: Element, path: str, tags: Collection[str], owner: str) -> dict[str, Element]:
-        """Return the first child of each tag, visuals and collisions aside; others become extensions of `owner`."""
+    def children(
+        self, element: Element, path: str, tags: Collection[str], owner: str, *, moves: bool = False
+    ) -> dict[str, Element]:
+        """Return the first child of each tag, visuals and collisions aside; others become extensions of `owner`.
+
+        `moves` says whether others would move the robot.
+        """
         by_tag: dict[str, Element] = {}
         for child in element:
             tag = child.tag
+            if tag == "pose" and "origin" in tags and "origin" not in by_tag and element.find("origin") is None:
+                self._take_texts(child, f"{path} / pose", _schema(Origin)[0])
+                tag = "origin" if "xyz" in child.attrib else tag
             if tag not in tags:
-                self.keep(child, path, tags, owner)
+                self.keep(child, path, tags, owner, moves=moves)
             elif tag in _REPEATED:
                 continue
             elif tag not in by_tag:
@@ -112,13 +147,23 @@ class Reader:
                 self.add(child, "duplicate-element", f"{path} has another <{tag}>, and the first counts")
         return by_tag
 
-    def keep(self, child: Element, path: str, tags: Collection[str], owner: str) -> None:
-        """Keep an element that has none of `tags`; warn about one that looks like a misspelt one."""
-        is_known = child.tag in _ELEMENTS or child.tag in tags or ":" in child.tag
-        if not is_known and (hint := perhaps(child.tag, tags, 0.8)):
-            message = f"{path}: the element <{child.tag}> is unknown, and has no effect"
-            self.add(child, "unknown-element", message, hint)
+    def keep(self, child: Element, path: str, tags: Collection[str], owner: str, *, moves: bool = False) -> None:
+        """Keep an element that has none of `tags`; warn about one that would move the robot or looks misspelt."""
         self.extensions.append((owner, child))
+        mass = next((part for part in child.iter() if part.tag in _MASSES), None)
+        if mass is not None:
+            message = f"{path}: this <{mass.tag}> is not where URDF has it, and is left out of the model"
+            self.add(mass, "stray-inertial", message)
+            return
+        alike = "" if child.tag in _moving_tags() or ":" in child.tag else perhaps(child.tag, tags, 0.8)
+        kinds = ((tag, kind) for tag, (kind, _) in _schema(Joint)[1].items() if isinstance(kind, type))
+        meant = next((tag for tag, kind in kinds if _schema(kind)[0].keys() & child.attrib.keys()), "")
+        is_moving = child.tag in _moving_tags() or any(map(_MASS_WORDS.search, (child.tag, *child.attrib)))
+        is_zero = not len(child) and _is_zero(" ".join((*child.attrib.values(), child.text or "")))
+        if alike or ((moves or is_moving or (owner and meant)) and child.tag not in _NEUTRAL and not is_zero):
+            hint = alike or (f"perhaps <{meant}> is meant" if meant else "")
+            message = f"{path}: the element <{child.tag}> is unknown there, and has no effect"
+            self.add(child, "unknown-element", message, hint)
 
     def unmodelled(self) -> Iterator[tuple[str, Element]]:
         """Yield the unread elements with their owners: each as a whole, or the unread ones inside of it."""
@@ -162,36 +207,69 @@ class Reader:
                 return None
         return None
 
-    def expect(self, element: Element, path: str, attributes: Collection[str]) -> None:
-        """Warn about misspelt `attributes`; other attributes have no effect."""
+    def expect(self, element: Element, path: str, attributes: Collection[str], *, moves: bool = True) -> None:
+        """Tell attributes other than `attributes`, with a warning if these may move the robot or look misspelt."""
         for name in element.attrib:
-            if name in attributes or ":" in name or name == "xmlns":
+            if name in attributes or name.startswith("xml"):
                 continue
-            if hint := perhaps(name, [other for other in attributes if other not in element.attrib]):
-                message = f"{path}: the attribute {name!r} is unknown, and has no effect"
+            absent = tuple(other for other in attributes if other not in element.attrib)
+            hint = _alike(name, absent)
+            may_move = (moves and name not in _NEUTRAL) or _MASS_WORDS.search(name)
+            if hint or (may_move and not _is_zero(element.attrib[name])):
+                message = f"{path}: the attribute {name!r} is unknown there, and has no effect"
+                hint = hint or _meant(len(element.attrib[name].split()), absent, tuple(attributes))
                 self.add(element, "unknown-attribute", message, hint)
+            else:
+                self.attributes.append((name, element))
+
+    def _take_texts(self, element: Element, path: str, attributes: Iterable[str]) -> None:
+        """Write texts of an element in SDFormat's spelling as its attributes, with a warning.
+
+        The text of `<origin>` and `<pose>` has six numbers, that of others the only attribute.
+        """
+        absent = [name for name in attributes if name not in element.attrib]
+        texts = {part.tag: part for part in element if not len(part) and not part.attrib and (part.text or "").strip()}
+        words = (element.text or "").split()
+        read = {name: (texts[name].text or "").strip() for name in absent if name in texts}
+        if not read and absent == ["xyz", "rpy"] and len(words) == _POSE and not element.attrib:
+            read = {"xyz": " ".join(words[:3]), "rpy": " ".join(words[3:])}
+        elif not read and len(absent) == 1 and words and not element.attrib:
+            read = {absent[0]: " ".join(words)}
+        for name in read:
+            if name in texts:
+                element.remove(texts[name])
+        if read:
+            element.attrib.update(read)
+            message = f"{path}: its text is in the spelling of SDFormat, and is read as {', '.join(read)}"
+            self.add(element, "sdf-spelling", message)
 
     def read(self, element: Element, path: str, struct: type[Values], owner: str, **given: Any) -> Values:
         """Return a struct from attributes and children, with the `given` fields."""
         attributes, children, required = _schema(struct)
-        self.expect(element, path, attributes)
+        moves = struct not in _STILL
+        if not children and (len(element) or (struct is Origin and element.text)):
+            self._take_texts(element, path, attributes)
+        self.expect(element, path, attributes, moves=moves)
         read = [self._value(element, path, name, count, default) for name, (count, default) in attributes.items()]
         if not children:
             if len(element):
-                self.children(element, path, (), owner)
+                self.children(element, path, (), owner, moves=moves)
             return struct(*read)
         values = {**given, **dict(zip(attributes, read, strict=True))}
-        elements = self.children(element, path, children, owner)
+        elements = self.children(element, path, children, owner, moves=moves)
         for name, child in elements.items():
             if name in values:
                 continue
             kind, default = children[name]
             place = f"{path} / {name}"
             if name in _ONE_VALUE:
-                self.expect(child, place, (_ONE_VALUE[name],))
+                attribute = _ONE_VALUE[name]
+                if attribute not in child.attrib:
+                    self._take_texts(child, place, (attribute,))
+                self.expect(child, place, (attribute,))
                 if len(child):
-                    self.children(child, place, (), owner)
-                values[name] = self._value(child, place, _ONE_VALUE[name], kind, default)
+                    self.children(child, place, (), owner, moves=True)
+                values[name] = self._value(child, place, attribute, kind, default)
             else:
                 if name == "origin" and "quat_xyzw" in child.attrib:
                     self._write_as_rpy(child, place)
@@ -205,13 +283,13 @@ class Reader:
     def _write_as_rpy(self, origin: Element, path: str) -> None:
         """Replace the `quat_xyzw` of an origin by the same orientation as `rpy`."""
         self.drop_newer(origin, path, ["quat_xyzw"], (1, 1))
-        quaternion = self._value(origin, path, "quat_xyzw", 4, None)
+        quaternion, text = self._value(origin, path, "quat_xyzw", 4, None), origin.attrib.pop("quat_xyzw", "")
         if quaternion is None:
             return
         if "rpy" in origin.attrib:
             self.add(origin, "two-orientations", f"{path} has an orientation as rpy and one as quat_xyzw")
         elif not any(quaternion):
-            self.add(origin, "bad-number", f"{path}: quat_xyzw={quoted(origin.attrib['quat_xyzw'])} has no direction")
+            self.add(origin, "bad-number", f"{path}: quat_xyzw={quoted(text)} has no direction")
         else:
             origin.set("rpy", " ".join(map(repr, roll_pitch_yaw(quaternion))))
 
@@ -266,6 +344,30 @@ def _schema(
     return attributes, children, required
 
 
+@functools.cache
+def _moving_tags() -> frozenset[str]:
+    """Return the elements that say how a joint or a body moves, wherever they stand."""
+    return frozenset({*_schema(Joint)[1], *_schema(Inertial)[1], "pose"} - {"safety_controller", "calibration"})
+
+
+_alike = functools.lru_cache(maxsize=1024)(perhaps)  # 0.1 ms, and a robot may have 10,000 unknown attributes
+
+
+def _meant(count: int, absent: Sequence[str], attributes: Sequence[str]) -> str:
+    """Return what an unknown attribute of so many words may mean: the only vector of that length, or any attribute."""
+    if count == _LENGTHS["quat_xyzw"] and "rpy" in attributes:
+        return 'write quat_xyzw="x y z w" in a robot of version="1.1", or rpy in rad'
+    alike = absent if len(attributes) == 1 else [name for name in absent if _LENGTHS.get(name) == count]
+    if len(alike) == 1:
+        return f"perhaps {alike[0]!r} is meant{', in rad' if alike[0] == 'rpy' else ''}"
+    return f"URDF has {', '.join(attributes)} there" if attributes else ""
+
+
+def _is_zero(text: str) -> bool:
+    """Return whether a text has only zeros: some exporters write an `<origin>` of zeros into each link."""
+    return not set(text) - set(" 0.-+\t\n")
+
+
 # Many attributes have the same text, such as `xyz="0 0 0"`. Serves the row "one mass changed in the daemon, 1,000
 # links" of docs/speed.md: 50 of 500 ms.
 @functools.lru_cache(maxsize=1024)
@@ -300,13 +402,17 @@ def located(findings: Iterable[Finding], file: str, lines: Mapping[str, int]) ->
 
 
 def summary(diagnostics: Iterable[Diagnostic], file: str) -> tuple[Diagnostic, ...]:
-    """Return the diagnostics of a file by line; more than three warnings of one code become one."""
-    by_code: dict[tuple[Severity, str], list[Diagnostic]] = {}
+    """Return the diagnostics of a file by line; more than three warnings of one code become one.
+
+    Those of unknown names become one for each name.
+    """
+    by_code: dict[tuple[Severity, str, str], list[Diagnostic]] = {}
     for entry in sorted(diagnostics, key=lambda entry: (entry.line, entry.column)):
-        by_code.setdefault((entry.severity, entry.code), []).append(msgspec.structs.replace(entry, file=file))
+        kind = entry.message.rpartition(": ")[2] if entry.code in _BY_KIND else ""
+        by_code.setdefault((entry.severity, entry.code, kind), []).append(msgspec.structs.replace(entry, file=file))
     shown: list[Diagnostic] = []
-    for (severity, _), group in by_code.items():
-        if severity is Severity.ERROR or len(group) <= _SHOWN_ALONE:
+    for (severity, _, kind), group in by_code.items():
+        if severity is Severity.ERROR or len(group) <= (1 if kind else _SHOWN_ALONE):
             shown += group
             continue
         lines = list(dict.fromkeys(str(entry.line) for entry in group[1:]))

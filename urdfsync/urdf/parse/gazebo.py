@@ -6,6 +6,7 @@ Contact properties are also read in the forms of SDFormat and Bullet.
 from __future__ import annotations
 
 import contextlib
+import re
 from collections.abc import Mapping
 from xml.etree.ElementTree import Element
 
@@ -22,8 +23,8 @@ _IN_GAZEBO = {
 _IN_LINK = {"mu": ("contact/lateral_friction",), "kp": ("contact/stiffness",), "kd": ("contact/damping",)}
 """Fields of `Contact`, and paths of their elements in gazebo blocks (gazebo's, then SDFormat's) and in links."""
 
-_FORCES = ("force_element", "cable", "drake:linear_spring_damper", "drake:linear_bushing_rpy")
-"""Elements with forces between links."""
+FORCES = re.compile("force|cable|spring|damper|bushing|tendon")
+"""Elements of a robot that act between its links: in early and present Drake, and in MuJoCo."""
 
 
 def read_contacts(reader: Reader, root: Element) -> Mapping[str, Contact]:
@@ -37,6 +38,7 @@ def read_contacts(reader: Reader, root: Element) -> Mapping[str, Contact]:
     for name, link in links.items():
         for contact in link.iterfind("contact"):
             reader.extensions.append((f"link {name}", contact))
+            reader.expect(contact, f"link {name} / contact", (), moves=False)
             places.append((link, name, _IN_LINK))
     for gazebo in root.iterfind("gazebo"):
         name = gazebo.get("reference", "")
@@ -79,7 +81,9 @@ def warn_of_left_out(reader: Reader, root: Element) -> None:
                     if float(text):
                         what = f"{part.tag} {text} of {name!r} acts in Gazebo, but not in the model"
                         reader.add(part, "force-left-out", what)
+    for part in root.iterfind("link/contact/inertia_scaling"):
+        reader.add(part, "force-left-out", "<inertia_scaling> changes the inertia in Bullet, but not in the model")
     for part in root:
-        if part.tag in _FORCES:
+        if FORCES.search(part.tag):
             words = f"<{part.tag}> {part.get('name', '')}".rstrip()
             reader.add(part, "force-left-out", f"{words} acts between links, but not in the model")

@@ -3,13 +3,17 @@
 - `<loop_joint>`, as Isaac Sim and early Drake write it: `<link1>` and `<link2>`, each with `link`, `xyz` and `rpy`.
 - `<drake:ball_constraint>`: two bodies, each with a point.
 - `<joint>` of SDF within `<gazebo>`: its frame is given in the child, and is closed where all joints are at zero.
-- Two links `closing_NAME_1` and `closing_NAME_2`, as onshape-to-robot writes them. They have no kind,
-  and count as a ball, which closes planar loops as a hinge does.
-- The option `loops`, which replaces a loop of the source with its name or its two frames.
+- Two links `closing_NAME_1` and `closing_NAME_2`, as onshape-to-robot writes them. They say of no kind, and count as a
+  ball, which closes planar loops as a hinge does.
+- The option `loops`, which wins over a loop of the source with its name or its two frames.
+
+Loops in other words are told, not read: raisim's pins, MuJoCo's `<equality>` and joints of a plugin have no page that
+says how they stand in a URDF. MuJoCo documents `<compiler>`, `<option>` and `<size>` there (XML reference, URDF).
 """
 
 from __future__ import annotations
 
+import itertools
 import math
 import re
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
@@ -23,11 +27,17 @@ from urdfsync.urdf.kinematics.poses import Matrix, Pose, across, compose, link_p
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import LoopFrame, LoopOption, Options
 from urdfsync.urdf.parse.fields import Reader, quoted
+from urdfsync.urdf.parse.gazebo import FORCES
 from urdfsync.urdf.robot import Link, Loop, LoopKind, Origin, Robot, Vector
 
 _BALL = "drake:ball_constraint"
 TAGS = ("loop_joint", _BALL)
-"""Elements of a robot that join two links of the tree; gazebo uses <joint>."""
+"""Elements of a robot that join two links of the tree; gazebo has a <joint> for it."""
+_PARTS: Mapping[str, Sequence[str]] = {
+    "loop_joint": ("link1", "link2", "axis"),
+    _BALL: (f"{_BALL}_body_A", f"{_BALL}_p_AP", f"{_BALL}_body_B", f"{_BALL}_p_BQ"),
+}
+_NO_LOOPS = frozenset({"link", "joint", "material", "transmission", "ros2_control", "sensor", "drake:joint", *TAGS})
 
 _KINDS: Mapping[str, LoopKind] = {
     "ball": "ball",
@@ -37,7 +47,11 @@ _KINDS: Mapping[str, LoopKind] = {
     "universal": "universal",
     "fixed": "fixed",
 }
+_JOINS_NOTHING = re.compile("collision|contact|exclude|group|chain|effector|frame|virtual|sensor|camera")
+"""Elements that name links and do not join them, such as those of SRDF."""
+_CONSTRAINS = re.compile("constraint|equality|coupl|weld|gear|tendon|spring")
 _CLOSING = re.compile(r"(closing_.+)_([12])")
+_DETACHABLE = ("parent_link", "child_link")
 _DIGITS = 12
 
 
@@ -52,6 +66,44 @@ def find_loop_elements(root: Element) -> Iterator[Element]:
             yield child
         elif child.tag == "gazebo":
             yield from child.findall("joint")
+
+
+def tell_foreign_loops(reader: Reader, root: Element, options: Options) -> None:
+    """Add a finding for each element in other words than ours that joins two links, or constrains them otherwise.
+
+    Loops of the configuration state such a pair.
+    """
+    links = {name for link in root.iterfind("link") if not (name := link.get("name", "")).isdecimal()}
+    stated = {frozenset({loop.parent, loop.child}) for loop in configured_loops(options.loops)}
+    for child in root:
+        if child.tag == "gazebo":  # gz-sim's DetachableJoint, by its page
+            pairs = ((part, {part.findtext(tag, "").strip() for tag in _DETACHABLE}) for part in child.iter("plugin"))
+            found = [(part, pair) for part, pair in pairs if len(pair & links) == len(_DETACHABLE)]
+        elif child.tag in _NO_LOOPS or FORCES.search(child.tag):
+            continue
+        else:
+            constraints = ((part, set[str]()) for part in child.iter() if _CONSTRAINS.search(part.tag))
+            found = list(_find_pairs(child, links)) or [*itertools.islice(constraints, 1)]
+        for part, pair in found:
+            words = f"<{part.tag}> {part.get('name', '')}".rstrip()
+            if not pair:
+                reader.add(part, "force-left-out", f"{words} constrains the robot, but not the model")
+            elif frozenset(pair) not in stated:
+                message = f"{words} joins links {' and '.join(map(repr, sorted(pair)))} in words that are not read"
+                hint = 'state it as `loops` in the configuration, or leave it out by `allow = ["loop-joint"]`'
+                reader.add(part, "loop-joint", message, hint)
+
+
+def _find_pairs(element: Element, links: Collection[str]) -> Iterator[tuple[Element, set[str]]]:
+    """Yield the innermost elements that name two links, in attributes and texts of their own or of their parts."""
+    if _JOINS_NOTHING.search(element.tag):
+        return
+    words = [text for name, text in element.items() if name != "name"]
+    words += [text.strip() for part in element for text in (*part.attrib.values(), part.text or "")]
+    inner = [pair for part in element for pair in _find_pairs(part, links)]
+    yield from inner
+    if not inner and len(pair := {word for word in words if word in links}) == 2:
+        yield element, pair
 
 
 def read_loops(reader: Reader, root: Element, robot: Robot, options: Options) -> tuple[Loop, ...]:
@@ -69,6 +121,12 @@ def read_loops(reader: Reader, root: Element, robot: Robot, options: Options) ->
             poses = poses or link_poses(KinematicTree.of(robot), {})
             loop = _read_joint(reader, element, path, name, poses, in_gazebo)
         else:
+            reader.expect(element, path, ("name", "type") if element.tag == "loop_joint" else ("name",))
+            for part in element:
+                if part.tag == "axis":
+                    reader.expect(part, f"{path} / axis", ("xyz",))
+                elif part.tag not in _PARTS[element.tag]:
+                    reader.keep(part, path, _PARTS[element.tag], path, moves=True)
             read = _read_loop_joint if element.tag == "loop_joint" else _read_ball
             loop = read(reader, element, path, name)
         if loop is not None and loop.parent and loop.child:  # a name that is missing is told already
@@ -157,7 +215,7 @@ def _read_loop_joint(reader: Reader, element: Element, path: str, name: str) -> 
 
 def _read_ball(reader: Reader, element: Element, path: str, name: str) -> Loop | None:
     frames = []
-    for body, point in ((f"{_BALL}_body_A", f"{_BALL}_p_AP"), (f"{_BALL}_body_B", f"{_BALL}_p_BQ")):
+    for body, point in (_PARTS[_BALL][:2], _PARTS[_BALL][2:]):
         part = reader.find(element, body)
         if part is None:
             reader.add(element, "missing-element", f"{path} has no <{body}>")

@@ -20,6 +20,7 @@ from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import LeftOut, Options
 from urdfsync.urdf.parse.beside import with_plain_joints
 from urdfsync.urdf.parse.fields import located
+from urdfsync.urdf.parse.respelling import with_attributes
 from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.robot import MOTION_KINDS, Robot
 from urdfsync.urdf.validate import Finding
@@ -37,10 +38,18 @@ def cross_check(content: bytes, file: str) -> tuple[Diagnostic, ...]:
     `file` is its name in diagnostics. Joints of several axes, which are no URDF, are read as plain ones.
     """
     content = with_plain_joints(content)
-    reading = read_robot(content, file, Options(allow=get_args(LeftOut)))
+    options = Options(allow=get_args(LeftOut))
+    reading = read_robot(content, file, options)
     if reading.robot is None:
         return ()
-    return located(compare_readers(content, reading.robot), file, reading.lines)
+    respelled = with_attributes(content)
+    findings = list(compare_readers(respelled, reading.robot))
+    if respelled != content and (other := read_robot(respelled, file, options).robot):  # yourdfpy has no masses of it
+        for ours, theirs in zip(reading.robot.links + reading.robot.joints, other.links + other.joints, strict=True):
+            if ours != theirs:
+                path = f"{type(ours).__name__.lower()} {ours.name}"
+                findings.append(Finding("second-reader-differs", path, f"{path}: its texts are read otherwise"))
+    return located(findings, file, reading.lines)
 
 
 def compare_readers(content: bytes, robot: Robot) -> Iterator[Finding]:

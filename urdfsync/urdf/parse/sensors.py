@@ -16,10 +16,16 @@ from urdfsync.urdf.robot import Camera, Joint, Lidar, Origin, Sensor, SensorKind
 _TYPES: Mapping[str, SensorKind] = {
     "imu": "imu",
     "force_torque": "force_torque",
+    "accelerometer": "accelerometer",
+    "gyroscope": "gyroscope",
     **dict.fromkeys(("camera", "depth", "depth_camera", "rgbd", "rgbd_camera", "wideanglecamera"), "camera"),
     **dict.fromkeys(("ray", "gpu_ray", "lidar", "gpu_lidar"), "lidar"),
 }
-"""Kinds by the attribute `type` of gazebo, and by the elements inside of URDF's own sensors."""
+"""Kinds by the attribute `type` of gazebo and iDynTree, and by the elements inside of URDF's own sensors.
+
+iDynTree places accelerometers and gyroscopes at a link, and forces and torques at `<parent joint="…"/>` (its page on
+extensions of URDF for sensors).
+"""
 _STATES: Mapping[str, SensorKind] = {
     "angular_velocity": "imu",
     "linear_acceleration": "imu",
@@ -102,7 +108,7 @@ def _find_sensors(root: Element) -> Iterator[_SensorElement]:
         parent = element.find("parent")
         inside = [child.tag for child in element]
         kind = next((_TYPES[word] for word in (element.get("type", ""), *inside) if word in _TYPES), None)
-        place = at if parent is None else parent.get("link", at)
+        place = at if parent is None else parent.get("link") or parent.get("joint", at)
         if kind and place:
             yield _SensorElement(element, element.get("name", "") or f"{place} {kind}", kind, place)
     for element in root.iterfind("ros2_control/sensor"):
@@ -126,6 +132,7 @@ def _elements(root: Element) -> Iterator[tuple[str, Element]]:
 def _read(reader: Reader, source: _SensorElement, name: str) -> Sensor:
     element, path = source.element, f"sensor {source.name}"
     reader.used.add(element)
+    reader.expect(element, path, ("name", "type", "update_rate"), moves=False)
     for child in element:
         words = child.get("name", "")
         is_state = child.tag == "state_interface" and _STATES.get(words.partition(".")[0]) == source.kind

@@ -23,11 +23,15 @@ from urdfsync.urdf.parse.drives import configured_drives, read_drives, with_driv
 from urdfsync.urdf.parse.elements import read_joint, read_link, read_material, resolve_materials
 from urdfsync.urdf.parse.fields import Reader, quoted, summary
 from urdfsync.urdf.parse.gazebo import read_contacts, warn_of_left_out
-from urdfsync.urdf.parse.loops import TAGS, find_loop_elements, read_loops
+from urdfsync.urdf.parse.loops import TAGS, read_loops, tell_foreign_loops
 from urdfsync.urdf.parse.sensors import read_sensors
 from urdfsync.urdf.robot import Robot
 
 _MODELLED = ("link", "joint", "material")
+_DIALECTS = frozenset({"gazebo", "ros2_control", "transmission", "sensor", "mujoco", "drake:joint", AXES})
+"""Elements of a robot whose parts are read elsewhere, or that say nothing of links and joints."""
+_XACRO = ("include", "macro", "if", "unless", "property")
+"""Elements of xacro that mean nothing without their prefix since ROS Noetic."""
 _LONGEST, _KINDS = 60, 12
 """The most characters of a tag, and the most tags, in the note on unmodelled elements; its details have all."""
 _XACRO_LOGIC = ("xacro:macro", "xacro:if", "xacro:unless", "xacro:insert_block")
@@ -72,16 +76,22 @@ def read_robot(content: bytes, file: str, options: Options = _DEFAULTS) -> Robot
 
 
 def _note_unmodelled(reader: Reader) -> Iterator[Diagnostic]:
-    """Yield one note on all elements that are in no model, if there are any, with a line of details for each."""
-    lines = sorted(
-        (reader.element_lines[part], part.tag, part.get("name") or owner) for owner, part in reader.unmodelled()
+    """Yield one note on all elements and attributes that are in no model, if there are any, each with its line."""
+    elements = (
+        (reader.element_lines[part], f"<{cut(part.tag, _LONGEST)}>", part.get("name") or owner)
+        for owner, part in reader.unmodelled()
     )
-    counts = Counter(tag for _, tag, _ in lines)
-    kinds = [f"{count} <{cut(tag, _LONGEST)}>" for tag, count in counts.items()]
+    attributes = (
+        (reader.element_lines[part], f'{cut(name, _LONGEST)}="…"', f"of <{part.tag}>")
+        for name, part in reader.attributes
+    )
+    lines = sorted([*elements, *attributes])
+    counts = Counter(word for _, word, _ in lines)
+    kinds = [f"{count} {word}" for word, count in counts.items()]
     if len(kinds) > _KINDS:
-        kinds[_KINDS:] = [f"{len(kinds) - _KINDS} other kinds of elements"]
+        kinds[_KINDS:] = [f"{len(kinds) - _KINDS} other kinds"]
     if kinds:
-        details = tuple(f"line {line}: <{tag}> {name}".rstrip() for line, tag, name in lines)
+        details = tuple(f"line {line}: {word} {name}".rstrip() for line, word, name in lines)
         yield validate.diagnostic("not-modelled", f"not modelled: {', '.join(kinds)}", lines[0][0], details=details)
 
 
@@ -132,7 +142,7 @@ def _read(reader: Reader, document: xml.Document, options: Options) -> Robot:
     """Return the robot; it is complete only if no diagnostic is an error."""
     root = document.root
     reader.place(root, "robot")
-    reader.expect(root, "robot", ("name", "version"))
+    reader.expect(root, "robot", ("name", "version"), moves=False)
     reader.version = _read_version(reader, root)
     name = root.get("name", "")
     if not name.strip():
@@ -145,16 +155,21 @@ def _read(reader: Reader, document: xml.Document, options: Options) -> Robot:
             joint, axes = (quoted(child.get(name, "")) for name in ("joint", "axes"))
             message = f"there is no joint {joint}, or no such axes as {axes} for it to turn about"
             reader.add(child, "unknown-reference", message)
-        elif child.tag == "inertial":
-            reader.add(child, "stray-inertial", "this <inertial> is in no link, and is left out of the model")
-        if child.tag not in _MODELLED:
+        if child.tag in _DIALECTS:
+            reader.extensions.append(("", child))
+        elif child.tag in _XACRO or (child.tag != "link" and any(map(len, child.iter("link")))):
+            reader.extensions.append(("", child))
+            message = f"<{child.tag}> has no effect in URDF: what it stands for is missing"
+            reader.add(child, "xacro-leftover", message, f"write <xacro:{child.tag} …>, or take its links out of it")
+        elif child.tag not in (*_MODELLED, *TAGS):
             reader.keep(child, "robot", (*_MODELLED, *TAGS), "")
         if child.tag in ("gazebo", "ros2_control"):
             reader.used.add(child)  # its parts are read one by one, or are not modelled
-    for element in find_loop_elements(root):
-        reader.used.update(element.iter())
+    for element in root.iterfind("gazebo/joint"):
+        reader.used.update((element, *(part for part in element if part.tag in ("parent", "child", "pose"))))
     contacts = read_contacts(reader, root)
     warn_of_left_out(reader, root)
+    tell_foreign_loops(reader, root, options)
 
     def elements(tag: str) -> list[tuple[Element, str]]:
         children = root.findall(tag)

@@ -16,9 +16,11 @@ import msgspec
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.parse import xml
 from urdfsync.urdf.parse.beside import AXES, split_joints
+from urdfsync.urdf.parse.respelling import with_attributes
 from urdfsync.urdf.robot import Inertia
 
 _NEEDED = {
+    "joint/axis": {"xyz": "1 0 0"},
     "joint/limit": {"effort": "1000", "velocity": "1000"},
     "joint/safety_controller": {"k_velocity": "0"},
     "link/inertial/mass": {"value": "0"},
@@ -38,7 +40,7 @@ class CompletedSource(NamedTuple):
 
 def completed_for_pinocchio(content: bytes) -> CompletedSource:
     """Return the URDF in UTF-8, with the elements and attributes that Pinocchio's reader requires."""
-    document = xml.parse(content)
+    document = xml.parse(content := with_attributes(content))
     added = set() if document.root.get("name") else {"the robot's name"}
     added |= {"joints of several axes"} if document.root.find(AXES) is not None else set()
     root = split_joints(document).root
