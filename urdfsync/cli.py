@@ -13,13 +13,12 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
 from urdfsync import __version__
-from urdfsync.answers import uptodate
+from urdfsync.answers import streams, uptodate
 from urdfsync.answers.dependencies import Dependencies
 from urdfsync.commands import arguments
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError, findings_of
 from urdfsync.engine.result import Exit
 from urdfsync.output.console import Console
-from urdfsync.processes import streams
 from urdfsync.spelling import nearest
 
 _COMMANDS = (

@@ -23,12 +23,11 @@ from support.meshes import stl
 from support.screen import print_on_terminal
 
 from urdfsync import cli
-from urdfsync.answers import facts, uptodate
+from urdfsync.answers import facts, streams, uptodate
 from urdfsync.answers.dependencies import Dependencies
 from urdfsync.checks import afterbuild
 from urdfsync.engine import plan
 from urdfsync.output import console
-from urdfsync.processes import streams
 
 Capture = pytest.CaptureFixture[str]
 Edit = Callable[[Path], object]
@@ -519,7 +518,7 @@ def test_a_changed_number_of_a_package_that_nobody_edited_imports_no_parser(
     names, said = imported("-c", FULL, *BUILD)
     assert "1 file written" in said
     assert not {name for name in names if name.startswith("urdfsync.merge")}
-    ours = {f"urdfsync.modelica.{name}" for name in ("files", "literals", "names")}
+    ours = {f"urdfsync.modelica.{name}" for name in ("files", "literals", "markers", "names")}
     assert {name for name in names if name.startswith("urdfsync.modelica.")} == ours
 
 

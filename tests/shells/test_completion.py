@@ -125,7 +125,8 @@ def test_it_loads_no_more_than_the_up_to_date_check(built: Path) -> None:
     assert done.stdout.splitlines() == ["ladder", "filter"]
     loaded = set(done.stderr.split())
     assert {name for name in loaded if name.startswith("urdfsync.")} <= {
-        f"urdfsync.{name}" for name in ("__main__", "uptodate", "facts", "streams", "completion")
+        *("urdfsync.__main__", "urdfsync.shells", "urdfsync.shells.completion", "urdfsync.answers"),
+        *("urdfsync.answers.uptodate", "urdfsync.answers.facts", "urdfsync.answers.streams"),
     }
     assert not loaded & {"argparse", "msgspec", "json"}
 

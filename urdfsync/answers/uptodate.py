@@ -16,6 +16,7 @@ import sys
 import time
 
 from urdfsync import __version__
+from urdfsync.answers import streams
 from urdfsync.answers.facts import (
     CONTENTS,
     LSTAT,
@@ -28,7 +29,6 @@ from urdfsync.answers.facts import (
     hash_file,
     is_young,
 )
-from urdfsync.processes import streams
 
 TYPE_CHECKING = False  # that of `typing` takes 2 of the 12 ms of the check
 if TYPE_CHECKING:

@@ -18,9 +18,9 @@ from typing import IO, TYPE_CHECKING, Any, Literal, TypeAlias, TypeVar
 
 import msgspec
 
+from urdfsync.answers import streams
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.output.documents import Document, plain
-from urdfsync.processes import streams
 from urdfsync.spelling import visible
 
 if TYPE_CHECKING:
