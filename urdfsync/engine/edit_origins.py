@@ -11,11 +11,12 @@ import itertools
 import re
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import msgspec
 
 from urdfsync import git
+from urdfsync.answers import dependencies
 from urdfsync.diagnostics import SourceError, StateError
 from urdfsync.domain import ElementKey, Role, Snapshot
 from urdfsync.engine.actions import Action, Reason
@@ -51,16 +52,21 @@ def find_doubts(generation: Generation, actions: Iterable[Action]) -> dict[str, 
     unconfirmed = [one for one in edited if one.mine not in record.confirmed]
     # what the user said of an export holds until the next one
     is_told = inputs.last.seen == generation.now.snapshot
-    doubts = dict[str, Doubt]()
-    for action in (unconfirmed if is_told else edited) if generation.matching.doubts else ():
-        if found := _doubt(generation, action, generation.matching.doubts, generation.now.snapshot):
-            doubts[action.path] = found
+    found, doubts = generation.matching.doubts, dict[str, Doubt | None]()
+    for action in (unconfirmed if is_told else edited) if found else ():
+        element = _element(action)
+        lines = None if element else _edit_of(generation, action).added
+        doubts[action.path] = (
+            found.get(element) if element else _named(generation, lines, found, generation.now.snapshot)
+        )
     if notes.model == model_hash(record.snapshot):  # else git may have changed what names mean
         unconfirmed = [one for one in unconfirmed if notes.edited.get(one.path) != one.mine]
     if unconfirmed and inputs.last.version is not None and git.find_top(inputs.config.root) is not None:
+        dependencies.mark_incomplete()  # a commit changes the answer, and no file
+        edits = {action: _edit_of(generation, action) for action in unconfirmed}
         for commit in _commits(generation):
-            doubts |= _look(generation, commit, unconfirmed)
-    return doubts
+            doubts |= _look(generation, commit, edits)
+    return {path: doubt for path, doubt in doubts.items() if doubt}
 
 
 def model_hash(snapshot: Mapping[str, Any] | None) -> str:
@@ -99,12 +105,41 @@ def _checked_out(repository: pygit2.Repository) -> Iterator[str]:
         yield str(entry.oid_new)
 
 
-def _look(generation: Generation, commit: Revision, edited: Iterable[Action]) -> dict[str, Doubt]:
+class _Edit(NamedTuple):
+    """An edit of a generated text, as lines without their indents."""
+
+    added: Counter[str]
+    removed: Counter[str]
+
+    def shared(self, text: str) -> Counter[str]:
+        """Return the lines of the edit that another text has, too; of one that only removes, those that it lacks."""
+        lines = _lines(text)
+        return self.added & lines if self.added else self.removed - lines
+
+
+def _edit_of(generation: Generation, action: Action) -> _Edit:
+    """Return what the user did to a generated text; what is as in one of its bases is no edit."""
+    inputs, last = generation.inputs, generation.inputs.last
+    mine = _lines(inputs.files.text(action.path) or "")
+    generated = _lines(generation.package.content(inputs.folder.path(action.path)).decode())
+    bases = last.bases(last.files.get(action.path, FileRecord())).values()
+    return _Edit(mine - (generated | _lines("\n".join(bases))), generated - mine)
+
+
+def _lines(text: str) -> Counter[str]:
+    return Counter(line.strip() for line in text.splitlines() if line.strip())
+
+
+def _look(generation: Generation, commit: Revision, edits: Mapping[Action, _Edit]) -> dict[str, Doubt]:
     """Return the edits that a commit has in the same file, of elements that have other names since its model."""
     inputs = generation.inputs
     state = inputs.store.path(inputs.last.name)
     try:
-        contents = commit.contents([state, *(inputs.files.path(action.path) for action in edited)])
+        contents = commit.contents([state, *(inputs.files.path(action.path) for action in edits)])
+        texts = {action: contents.get(inputs.files.path(action.path), b"").decode(errors="replace") for action in edits}
+        shared = {action: lines for action, text in texts.items() if text and (lines := edits[action].shared(text))}
+        if not shared:  # most commits; reading the model of a large robot takes a while
+            return {}
         record, _ = statefile.loads(contents[state].decode(errors="replace"), commit.label(state))
         if record is None or record.is_united or not record.snapshot or record.snapshot == inputs.last.record.snapshot:
             return {}
@@ -121,56 +156,42 @@ def _look(generation: Generation, commit: Revision, edited: Iterable[Action]) ->
             moved_to = matching.renames.get(key, "")
             moved[key] = Doubt(" ".join(key), formers.get(key, ""), (), moved_to, is_certain=True)
     doubts = dict[str, Doubt]()
-    for action in edited:
-        content = contents.get(inputs.files.path(action.path), b"").decode(errors="replace")
+    for action, lines in shared.items():
         recorded = record.files.get(action.path)
-        is_edited = bool(content) and recorded is not None and text_hash(content) not in recorded.hashes
-        if is_edited and (found := _doubt(generation, action, moved, snapshot, content)):
-            doubts[action.path] = found
+        if recorded is None or text_hash(texts[action]) in recorded.hashes:
+            continue  # nobody had edited it there
+        if element := _element(action):
+            doubt = moved.get(element)
+            if doubt and not _has_followed(generation, action, doubt.moved_to, edits[action], lines):
+                doubts[action.path] = doubt
+        elif doubt := _named(generation, lines, moved, snapshot):
+            doubts[action.path] = doubt
     return doubts
 
 
-def _doubt(
-    generation: Generation,
-    action: Action,
-    doubts: Mapping[ElementKey, Doubt],
-    snapshot: Snapshot,
-    former: str | None = None,
-) -> Doubt | None:
-    """Return the doubt about an edit: about the file's element, or about one that the edit of a common file names.
-
-    If `former` is given, only edits count that this text of the file has, too; `snapshot` has the names of it.
-    """
-    inputs, path = generation.inputs, generation.inputs.folder.path(action.path)
+def _element(action: Action) -> ElementKey | None:
+    """Return the element that a file belongs to; None for a common file."""
     kind, _, name = action.owner.partition(" ")
-    if name and ((kind, name) not in doubts or former is None):
-        return doubts.get((kind, name))
-    mine = _lines(inputs.files.text(action.path) or "")
-    generated = _lines(generation.package.content(path).decode())
-    known = generated | _lines("\n".join(inputs.last.bases(inputs.last.files.get(action.path, FileRecord())).values()))
-    there = _lines(former) if former is not None else mine
-    lines = (mine - known) & there
-    if name:
-        if lines and _has_followed(generation, action, doubts[kind, name].moved_to, lines):
-            return None
-        # a line that neither has may be one that the edit took out
-        return doubts[kind, name] if lines or (generated - mine) - there else None
-    names = inputs.domain.names(snapshot, inputs.last.target)
+    return (kind, name) if name else None
+
+
+def _named(
+    generation: Generation, lines: Iterable[str] | None, doubts: Mapping[ElementKey, Doubt], snapshot: Snapshot
+) -> Doubt | None:
+    """Return the doubt about the first element that lines of a common file name, by the names of a model."""
+    names = generation.inputs.domain.names(snapshot, generation.inputs.last.target)
     elements = {
         identifier: (kind.removesuffix("s"), name) for kind in names for name, identifier in names[kind].items()
     }
-    words = dict.fromkeys(word for line in lines for word in re.findall(r"\w+", line))
+    words = dict.fromkeys(word for line in lines or () for word in re.findall(r"\w+", line))
     found = (elements.get(identifier_of(word, elements)) for word in words)
     return next((doubts[key] for key in found if key and key in doubts), None)
 
 
-def _has_followed(generation: Generation, action: Action, name: str, lines: Counter[str]) -> bool:
+def _has_followed(generation: Generation, action: Action, name: str, edit: _Edit, lines: Counter[str]) -> bool:
     """Return whether the file of the element's new name has the edit, too, so that this one is another edit."""
     inputs, artifacts = generation.inputs, generation.package.artifacts
     owner, template = f"{action.owner.partition(' ')[0]} {name}", artifacts[inputs.folder.path(action.path)].template
     paths = (path for path, one in artifacts.items() if (one.owner, one.template) == (owner, template))
-    return any(not lines - _lines(inputs.files.text(inputs.folder.key(path)) or "") for path in paths)
-
-
-def _lines(text: str) -> Counter[str]:
-    return Counter(line.strip() for line in text.splitlines() if line.strip())
+    texts = (_lines(inputs.files.text(inputs.folder.key(path)) or "") for path in paths)
+    return any(not lines - text if edit.added else not lines & text for text in texts)
