@@ -28,6 +28,7 @@ from urdfsync.files import Templates
 from urdfsync.modelica.parser import parse
 from urdfsync.urdf.domain import DOMAIN
 from urdfsync.urdf.options import Options
+from urdfsync.urdf.robot import Robot
 
 LARGEST = 12_000
 """Bytes of a robot of the corpus that is changed."""
@@ -194,7 +195,7 @@ def test_a_source_is_read_and_generated_or_has_complete_diagnostics(content: byt
     event("generated" if reading.snapshot else "refused")
     if reading.snapshot is None:
         return
-    assert msgspec.json.decode(msgspec.json.encode(reading.snapshot)) == msgspec.to_builtins(reading.snapshot)
+    assert msgspec.json.decode(msgspec.json.encode(reading.snapshot), type=Robot) == reading.snapshot
     DOMAIN.dependencies(reading.snapshot, Lookup(Path("bot.urdf").absolute()), options, reading.lines)
     DOMAIN.advice.propose(reading.snapshot, reading.diagnostics)
     package = generate(DOMAIN, reading.snapshot, {}, TARGET, options, Templates((templates_folder(DOMAIN),), ""))
