@@ -1,8 +1,8 @@
-"""Edited files that may be other elements' now: by the record, and by the commits that git made the files of.
+"""Finds edited files that may belong to other elements now.
 
-One branch exchanges names, another one edits: git leaves the edit with the name, and both texts look as they should. So
-what a text has beyond the generated one is looked for in the commits that git may have brought it from, and their
-recorded models tell what the names meant there.
+One branch exchanges two names, and another branch edits a file. Git leaves the edit in the file of the old name, and
+both texts look right. So the edited lines are looked for in the commits that git may have merged. The models recorded
+in these commits say which elements the names meant there.
 """
 
 from __future__ import annotations
@@ -35,9 +35,9 @@ if TYPE_CHECKING:
     from urdfsync.git.revisions import Revision
 
 _MOST = 50
-"""So many branches are looked at, and so many commits that were checked out."""
+"""The most branches, and the most earlier checkouts, that are looked at."""
 _BACK = 10
-"""So many commits are looked at, back from the last one."""
+"""The most commits that are looked at, from the last one back."""
 EDITED = (Reason.KEEP, Reason.CONFLICT)
 """Reasons of files that the user edited and that stay where they are."""
 
@@ -49,7 +49,7 @@ def find_doubts(generation: Generation, actions: Iterable[Action]) -> dict[str, 
     edited = [one for one in edited if not inputs.files.is_chosen(one.path)]
     record = inputs.last.record
     unconfirmed = [one for one in edited if one.mine not in record.confirmed]
-    # what the user said of an export holds until the next one
+    # the user's answer about an export holds until the next export
     is_told = inputs.last.seen == generation.now.snapshot
     doubts = dict[str, Doubt]()
     for action in (unconfirmed if is_told else edited) if generation.matching.doubts else ():
@@ -69,7 +69,7 @@ def model_hash(snapshot: Mapping[str, Any] | None) -> str:
 
 
 def _commits(generation: Generation) -> Iterator[Revision]:
-    """Yield the commits that an edit may come from: merged ones, and this machine's if it builds here."""
+    """Yield the commits that an edit may come from: merged ones, and those of this clone if it builds."""
     import pygit2  # 55 ms, which most builds do without
 
     from urdfsync.git.revisions import Revision, open_repository
@@ -77,7 +77,7 @@ def _commits(generation: Generation) -> Iterator[Revision]:
     root = generation.inputs.config.root
     try:
         repository = open_repository(root)
-    except SourceError:  # one that git itself may not read
+    except SourceError:  # git may not read this repository
         return
     if repository is None or repository.is_empty or repository.head_is_unborn:
         return
@@ -94,13 +94,13 @@ def _commits(generation: Generation) -> Iterator[Revision]:
 
 
 def _checked_out(repository: pygit2.Repository) -> Iterator[str]:
-    """Yield the commits that were checked out last: a branch may be gone that was squashed."""
+    """Yield the commits that were checked out last: a squashed branch may be deleted."""
     for entry in itertools.islice(repository.lookup_reference("HEAD").log(), _MOST):
         yield str(entry.oid_new)
 
 
 def _look(generation: Generation, commit: Revision, edited: Iterable[Action]) -> dict[str, Doubt]:
-    """Return the edits that a commit has in the same file, of elements that have other names since its model."""
+    """Return doubts about edits that a commit has in the same file, if their elements were renamed since then."""
     inputs = generation.inputs
     state = inputs.store.path(inputs.last.name)
     try:
@@ -137,9 +137,9 @@ def _doubt(
     snapshot: Snapshot,
     former: str | None = None,
 ) -> Doubt | None:
-    """Return the doubt about an edit: about the file's element, or about one that the edit of a common file names.
+    """Return the doubt about the file's element, or about an element that an edit in a file of the whole robot uses.
 
-    If `former` is given, only edits count that this text of the file has, too; `snapshot` has the names of it.
+    `former` is an older text of the file, with the names of `snapshot`: only edits that it has, too, count.
     """
     inputs, path = generation.inputs, generation.inputs.folder.path(action.path)
     kind, _, name = action.owner.partition(" ")
@@ -153,7 +153,7 @@ def _doubt(
     if name:
         if lines and _has_followed(generation, action, doubts[kind, name].moved_to, lines):
             return None
-        # a line that neither has may be one that the edit took out
+        # the edit may have deleted a generated line that both texts lack
         return doubts[kind, name] if lines or (generated - mine) - there else None
     names = inputs.domain.names(snapshot, inputs.last.target)
     elements = {
@@ -165,7 +165,7 @@ def _doubt(
 
 
 def _has_followed(generation: Generation, action: Action, name: str, lines: Counter[str]) -> bool:
-    """Return whether the file of the element's new name has the edit, too, so that this one is another edit."""
+    """Return whether the file of the element's new name has the edit, too: then nothing has to be moved."""
     inputs, artifacts = generation.inputs, generation.package.artifacts
     owner, template = f"{action.owner.partition(' ')[0]} {name}", artifacts[inputs.folder.path(action.path)].template
     paths = (path for path, one in artifacts.items() if (one.owner, one.template) == (owner, template))
