@@ -60,11 +60,8 @@ def document(sections: Iterable[Section], findings: Sequence[Diagnostic], code: 
 
 
 def read_meanings() -> dict[str, str]:
-    """Return the meaning of each code, and what to do, from docs/findings.md."""
-    return {
-        code: f"{meaning} ({''.join(consequence)})" if any(consequence) else meaning
-        for code, (meaning, *consequence) in config.explained("findings.md")
-    }
+    """Return the meaning of each code from docs/findings.md."""
+    return {code: meaning for code, (meaning,) in config.explained("findings.md")}
 
 
 def _location(finding: Diagnostic, top: Path) -> dict[str, Any]:
