@@ -149,8 +149,8 @@ def test_models_and_configuration_that_use_another_part_are_told_until_they_are_
     execute("build")
     Path("arm.urdf").write_text(arm(1.1, 2.2, 3.3, order="132"))
     told = (
-        "Mine.mo:3: warning: `link_2` is that of another part now: the part that had this name has `link_3`",
-        "urdfsync.toml:5: warning: `joint_2` is that of another part now",
+        "Mine.mo:3: warning: `link_2` names another part now: its former part is called `link_3`",
+        "urdfsync.toml:5: warning: `joint_2` names another part now",
     )
     for command in ("build", "build", "status"):
         words = execute(command, "--verbose").words
@@ -210,7 +210,7 @@ def test_nothing_is_asked_if_nobody_edited(folder: Path, execute: Execute) -> No
     Path("Mine.mo").write_text("model Mine\n  Arm.Arm robot;\n  Real x = robot.link_1.body.m;\nend Mine;\n")
     edit(LINK.format(1), MINE, "\nequation")
     words = execute("build").words
-    assert "Mine.mo:3: warning: `link_1` may be that of another part now" in words
+    assert "Mine.mo:3: warning: `link_1` may name another part now" in words
     assert words.count("another part") == 1
     execute("build", "--check")
 
@@ -224,7 +224,7 @@ def test_an_edit_of_a_common_file_that_names_what_may_be_another_part_is_asked_a
     edit("modelica/Arm/Arm.mo", "\nequation", "\n  Real mine = link_1.m;\n\nequation")
     assert "It uses `link_1`, which may be another part now" in execute("build", code=Exit.CONFLICT).words
     words = execute("resolve", "modelica/Arm/Arm.mo", "--moved", "link_2", code=Exit.ERROR).words
-    assert "it is the file of no single part" in words
+    assert "it belongs to no single part" in words
     execute("resolve", "modelica/Arm/Arm.mo", "--keep")
     execute("build", "--check")
 

@@ -51,12 +51,3 @@ def test_the_tutorial(folder: Path, execute: Execute) -> None:
 @pytest.mark.slow
 def test_the_tutorial_with_its_simulation(folder: Path, execute: Execute, modelica_library: Path) -> None:
     run(folder, execute)
-
-
-def test_the_readme_shows_what_the_tutorial_does() -> None:
-    shown = [text for kind, text in _BLOCK.findall((PAGE.parents[1] / "README.md").read_text()) if kind == "console"]
-    told = PAGE.read_text()
-    assert len(shown) == 1
-    for block in shown:
-        for command, printed in commands(block):
-            assert f"$ {command}\n{printed}" in told

@@ -1,11 +1,11 @@
 """Keep Modelica models in step with URDF sources."""
 
-# ruff: noqa: F403, F405 - the names below are what a checker of types finds there
+# ruff: noqa: F403, F405 - checkers of types find the names below in `api`
 __version__ = "0.1.0"
 __all__ = ["Results", "UrdfsyncError", "build", "check", "diff", "edits", "library_folder", "load", "record"]
 __all__ += ["simulate", "status"]
 
-TYPE_CHECKING = False  # that of `typing` takes 2 of the 12 ms of the up-to-date check
+TYPE_CHECKING = False  # importing it from `typing` takes 2 of the 12 ms of the up-to-date check
 if TYPE_CHECKING:
     from urdfsync.api import *
 else:
@@ -13,7 +13,7 @@ else:
     def __getattr__(name: str) -> object:
         """Load a name of the API: a build takes 200 ms."""
         if name in __all__:
-            import importlib  # the up-to-date check does without
+            import importlib  # the up-to-date check does not need it
 
             return getattr(importlib.import_module("urdfsync.api"), name)
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

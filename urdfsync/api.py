@@ -135,7 +135,7 @@ def build_and_check(config: Config, robots: Sequence[RobotConfig], options: Buil
     results = build_robots(config, robots, options)
     if options.dry or not any(robot.on_build == "check" for robot in robots):
         return results
-    dependencies.mark_incomplete()  # checks look at more
+    dependencies.mark_incomplete()  # checks read files that are not recorded
     from urdfsync.checks import afterbuild
 
     return afterbuild.with_checks(config, options, results)

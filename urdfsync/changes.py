@@ -300,8 +300,8 @@ def by_deepdiff(path: tuple[Any, ...], old: Any, new: Any) -> list[Difference]:
         old,
         new,
         view="tree",
-        zip_ordered_iterables=True,  # else a vector's number that moves is taken for one that comes and one that goes
-        threshold_to_diff_deeper=0,  # else mappings with few keys in common are compared as a whole
+        zip_ordered_iterables=True,  # else a changed number of a vector counts as one removed and one added
+        threshold_to_diff_deeper=0,  # else mappings with few common keys are compared as a whole
         ignore_private_variables=False,
     )
     return [
@@ -326,6 +326,6 @@ def _of_imports(old: Mapping[str, Import], new: Mapping[str, Import]) -> Iterato
             yield Difference(("imports", key), kind, before and before.target_hash, after and after.target_hash)
         elif (before.target_hash, before.facts) != (after.target_hash, after.facts):
             hashes = before.target_hash, after.target_hash
-            if before.target_hash == after.target_hash:  # a colour is in no imported file
+            if before.target_hash == after.target_hash:  # imported files have no colours
                 hashes = before.source_hash, after.source_hash
             yield Difference(("imports", key), ChangeKind.CHANGED, *hashes)

@@ -46,7 +46,7 @@ def main(given: Sequence[str] | None = None) -> int:
         if code == Exit.IN_STEP:
             answer = [text for entry in transcript if entry[1] for text in entry]
             uptodate.save_answer(config_file, given[0], key, answer, dependencies)
-    except Exception as error:  # noqa: BLE001 - of what looks for answers and saves them
+    except Exception as error:  # noqa: BLE001 - looking for a saved answer, or saving one, failed
         return Console().end(Exit.ERROR, findings_of(error))
     return code
 
@@ -84,7 +84,7 @@ def _main(given: list[str]) -> int:
     except KeyboardInterrupt:
         message = "interrupted; run the command again to finish the work"
         problems, code = (Diagnostic(Severity.ERROR, "interrupted", message),), Exit.INTERRUPTED
-    except Exception as error:  # noqa: BLE001 - Python would exit with 1, which says that a package is out of step
+    except Exception as error:  # noqa: BLE001 - Python would exit with 1, the code for a package out of step
         problems, code = findings_of(error), Exit.ERROR
     return console.end(_for_git(given, code), problems)
 
@@ -95,7 +95,7 @@ def _arguments(given: list[str]) -> argparse.Namespace:
     if given and not (given[0].startswith("-") or given[0] in _COMMANDS):
         raise arguments.UsageError(parser, f"no command `{given[0]}`", _meant(given[0], _COMMANDS))
     args, unknown = parser.parse_known_args(given)
-    if unknown:  # argparse would show the usage without the command's options
+    if unknown:  # argparse's own usage would lack the command's options
         hint = _meant(unknown[0].partition("=")[0], args.parser.options())
         raise arguments.UsageError(args.parser, f"unrecognized arguments: {' '.join(unknown)}", hint)
     return args

@@ -80,7 +80,7 @@ class Diagnostic(msgspec.Struct, frozen=True):
 
 def internal_error(error: Exception, what: str = "") -> Diagnostic:
     """Return the finding for a mistake in urdfsync: its place, and the file with its traceback."""
-    import traceback  # 4 ms, and hardly ever needed
+    import traceback  # 4 ms, rarely needed
 
     frame = traceback.extract_tb(error.__traceback__)[-1]
     place = f"{os.path.basename(frame.filename)}, line {frame.lineno}"  # noqa: PTH119 - no pathlib for this alone
@@ -113,7 +113,7 @@ class UrdfsyncError(Exception):
     """Whether another process works on the same robots; then the exit code is 4, not 2."""
 
     def __init__(self, *diagnostics: Diagnostic) -> None:
-        super().__init__(*diagnostics)  # by which it is pickled, when a worker of a pool raises it
+        super().__init__(*diagnostics)  # pickle needs these arguments when a worker raises it
         self.diagnostics = diagnostics
 
     @classmethod

@@ -1,8 +1,8 @@
-"""What a domain (URDF, or another data format) implements, and the neutral values it trades in.
+"""The interface of a domain (URDF, or another data format), and the values that it exchanges with the core.
 
 The core reads bytes and asks the domain for a *snapshot* of the model. It imports the files that the model depends on.
-It asks for the *artifacts* that follow from snapshot, imports and options, and renders, plans and writes them. Nothing
-in here knows a domain, and nothing in here does IO.
+It asks for the *artifacts* that follow from snapshot, imports and options. It renders, plans and writes them. This
+module depends on no domain and does no IO.
 """
 
 from __future__ import annotations
@@ -17,9 +17,9 @@ import msgspec
 from urdfsync.diagnostics import Diagnostic
 
 Snapshot: TypeAlias = Any
-"""A model as its domain reads it: its own frozen msgspec.Struct, `Domain.model`, with all data of artifacts.
+"""A model as its domain reads it: a frozen msgspec.Struct, `Domain.model`, with all data of artifacts.
 
-Lists of elements with names are sorted by name: a recorded snapshot comes back so.
+Lists of named elements are sorted by name, so that a recorded snapshot is equal when it is read again.
 """
 
 ElementKey: TypeAlias = tuple[str, str]
@@ -27,21 +27,21 @@ ElementKey: TypeAlias = tuple[str, str]
 
 
 class Features(msgspec.Struct, frozen=True):
-    """What an element is, and which elements are next to it: by these it is found again under another name."""
+    """Contents and neighbours of an element, by which it is found again under another name."""
 
     contents: Mapping[str, Any]
-    """Plain data by the words for it, such as `mass`; without names, and without what the element does not have."""
+    """Plain data by words such as `mass`; without names and without absent values."""
     neighbours: Mapping[str, ElementKey]
-    """Elements by the relation to them, such as `parent`."""
+    """Neighbours by relation, such as `parent`."""
     files: tuple[str, ...] = ()
-    """The files that it refers to; they are no part of `contents`, since exporters name them after elements."""
+    """Files of the element; not in `contents`, since exporters name files after elements."""
 
 
 class Role(enum.StrEnum):
     """Role of a generated file in the decision about it."""
 
     RECORD = "record"
-    """Numbers and strings only: may be renewed while models wait for a conflict to be resolved."""
+    """Numbers and strings only: it may be written while models wait for a conflict to be resolved."""
     MODEL = "model"
     PACKAGE = "package"
     ORDER = "order"
@@ -57,7 +57,7 @@ class Artifact(msgspec.Struct, frozen=True):
     role: Role
     template: str
     data: Mapping[str, Any]
-    """Variables of the template: plain data and structs, which JSON can hold."""
+    """Variables of the template: plain data and structs that JSON can hold."""
     owner: str
     """The element that it belongs to, in the domain's words: `link base_link`, `joint elbow`, `robot`."""
 
@@ -70,13 +70,13 @@ class Order(msgspec.Struct, frozen=True):
 
 
 class Dependency(msgspec.Struct, frozen=True):
-    """A file that a source refers to and that is imported into the package."""
+    """A file that a source refers to, to be imported into the package."""
 
     key: str
     """Identity within the model: its URI in the source, and its conversion."""
     uri: str
     candidates: tuple[Path, ...]
-    """Paths at which it may be, best first."""
+    """Paths where it may be, best first."""
     target: str
     """POSIX path of the imported file below the package folder; no other dependency has it."""
     noun: str
@@ -84,9 +84,9 @@ class Dependency(msgspec.Struct, frozen=True):
     line: int = 0
     """Line of the source that first refers to it; 0 if unknown."""
     guessed: bool = False
-    """Whether it is found only in a folder that does not have the name of its package."""
+    """Whether it was found only in a folder with another name than its package."""
     facts: tuple[str, ...] = ()
-    """Names of the facts that artifacts need of it, where not all conversions have the same."""
+    """Names of the facts that artifacts need, if they differ between conversions."""
 
 
 class Conversion(msgspec.Struct, frozen=True):
@@ -95,16 +95,16 @@ class Conversion(msgspec.Struct, frozen=True):
     content: bytes
     facts: Mapping[str, Any]
     more: tuple[Conversion, ...] = ()
-    """Further files that the dependency becomes; they are imports of their own, see `further_key`."""
+    """Further files of the package that it becomes; each is an import of its own, see `further_key`."""
 
 
 def further_key(key: str, number: int) -> str:
-    """Return the key of a further file that a dependency becomes; numbers begin with 1."""
+    """Return the key of a dependency's further file; numbers begin with 1."""
     return f"{key} file {number}"
 
 
 class Import(msgspec.Struct, frozen=True, omit_defaults=True):
-    """A dependency that is in the package, now or from an earlier build on a machine that had its source."""
+    """A dependency in the package; its file may come from an earlier build that had the source."""
 
     target: str
     source_hash: str
@@ -113,11 +113,11 @@ class Import(msgspec.Struct, frozen=True, omit_defaults=True):
     """SHA-256 (hex) of the imported bytes."""
     facts: Mapping[str, Any]
     others: tuple[str, ...] = ()
-    """Other files that it is made of, found or not: paths from the folder of the dependency's own file."""
+    """Other files that it was made from, found or not: paths from the folder of the dependency's file."""
 
 
 class ChangeKind(enum.StrEnum):
-    """Kind of the difference of two versions at a value or an element."""
+    """Kind of a difference between two versions."""
 
     ADDED = "added"
     REMOVED = "removed"
@@ -150,9 +150,9 @@ class Version(msgspec.Struct, frozen=True):
 
     snapshot: Snapshot
     imports: Mapping[str, Import] | None = None
-    """The files that the model refers to, if found; None if nobody looked, and then each counts as found."""
+    """The found files of the model; None if nobody looked for them: then each counts as found."""
     options: Any = None
-    """The domain's options that it was built with; None if they are not known, or those of the other version."""
+    """The domain's options of its build; None if unknown, or if they equal those of the other version."""
 
 
 class Reading(msgspec.Struct, frozen=True):
@@ -161,27 +161,27 @@ class Reading(msgspec.Struct, frozen=True):
     snapshot: Snapshot
     diagnostics: tuple[Diagnostic, ...]
     lines: Mapping[str, int] = msgspec.field(default_factory=dict)
-    """Line of each element, keyed as the domain likes; passed back to `Domain.dependencies`."""
+    """Line of each element, by the domain's own keys; `Domain.dependencies` gets it again."""
     option_findings: tuple[tuple[str, Diagnostic], ...] = ()
-    """Findings about options for this model: the option, and a diagnostic without place.
+    """Findings about options for this model: each option, with a diagnostic without place.
 
     An error stops the build of the robot. The core adds the line of the configuration.
     """
 
 
 class Lookup(msgspec.Struct, frozen=True):
-    """Places of the files that a source refers to."""
+    """Folders in which files of a source are looked for."""
 
     source: Path
     """The source file, absolute."""
     package_paths: tuple[Path, ...] = ()
     """Folders whose children are packages, from the configuration and the environment, best first."""
     packages: Mapping[str, Path] = msgspec.field(default_factory=dict)
-    """Folders of packages by their name, wherever they are; filled only if something was not found without."""
+    """Folders of packages by name, in any place; filled only if a file was not found otherwise."""
     libraries: Mapping[str, Path] = msgspec.field(default_factory=dict)
-    """Folders of the Modelica libraries on MODELICAPATH by their name; filled only if the source refers to one."""
+    """Folders of the Modelica libraries on MODELICAPATH by name; filled only if the source refers to one."""
     guess: bool = False
-    """Whether a package that is nowhere may be a folder of another name around the source."""
+    """Whether a missing package may be a folder of another name around the source."""
 
 
 class Target(msgspec.Struct, frozen=True):
@@ -205,16 +205,16 @@ class Domain(Protocol):
     templates: Path | None = None
     """Folder with the domain's templates; None for the folder of its name in urdfsync's own."""
     warnings: Collection[str] = ()
-    """Codes of the domain's warnings and notes, which a configuration may ignore."""
+    """Codes of the domain's warnings and notes; a configuration may ignore these."""
     model: type[Any]
     """The type of snapshots."""
     options: type[Any]
     """A frozen msgspec.Struct with the domain's options and their defaults; the core refuses unknown keys."""
 
     permissive_options: Any = None
-    """The options that sources outside of a project are read by; None for the defaults."""
+    """The options for sources outside of a project; None for the defaults."""
 
-    # What else is asked: a Protocol beside the code that asks, which modules meet, too. None where there is no answer.
+    # Optional features. Each Protocol stands beside the code that uses it; a module may implement it, too.
     advice: Any = None  # `urdfsync.config.advice.Advice`
     beside: Any = None  # `urdfsync.engine.source.Beside`
     imports: Any = None  # `urdfsync.engine.imports.Mentions`
@@ -237,7 +237,7 @@ class Domain(Protocol):
     def artifacts(
         self, snapshot: Snapshot, imports: Mapping[str, Import], target: Target, options: Any
     ) -> Iterable[Artifact | Order]:
-        """Return every file of the package but the imported ones. Pure."""
+        """Return all files of the package but the imported ones. Pure."""
         ...
 
     def uses(self, options: Any) -> Sequence[tuple[str, str]]:
@@ -247,29 +247,29 @@ class Domain(Protocol):
     def dependencies(
         self, snapshot: Snapshot, lookup: Lookup, options: Any, lines: Mapping[str, int]
     ) -> Sequence[Dependency]:
-        """Return the files that the model refers to, each once. Pure: nothing is looked for yet."""
+        """Return the files that the model refers to, each once. Pure: no file is looked for."""
         return ()
 
     def convert(self, dependency: Dependency, file: Path, content: bytes, others: Mapping[str, bytes]) -> Conversion:
-        """Bring a dependency found at `file` into the package's form. Raises SourceError if it can't be read.
+        """Convert a dependency found at `file` for the package. Raises SourceError if it can't be read.
 
-        `others` has the contents of the files that `Mentions.mentioned` named; empty for what can't be read.
+        `others` has the contents of the files that `Mentions.mentioned` named; empty for unreadable ones.
         """
         return Conversion(content, {})
 
     def features(self, snapshot: Snapshot) -> Mapping[ElementKey, Features]:
-        """Return the elements that may get another name; by default their names alone tell which is which."""
+        """Return the elements that may get another name; by default elements match by name alone."""
         named = self.names(snapshot, Target("Package", "Model"))
         return {(kind.removesuffix("s"), name): Features({}, {}) for kind, names in named.items() for name in names}
 
 
 def displaced(renames: Mapping[ElementKey, str]) -> set[ElementKey]:
-    """Return the removed elements whose names other elements have now."""
+    """Return the removed elements whose names renamed elements have now."""
     return {(kind, name) for (kind, _), name in renames.items()} - renames.keys()
 
 
 def plain(value: Any) -> Any:
-    """Return a value as JSON has it, with sorted keys, without what is None."""
+    """Return a value as JSON data, with sorted keys and without None."""
     return _without_none(msgspec.json.decode(msgspec.json.encode(value, order="sorted")))
 
 

@@ -32,7 +32,7 @@ def shown(path: Path) -> str:
     text = str(path)
     try:
         current = os.getcwd()  # noqa: PTH109 - every message asks, and a Path takes five times as long
-    except FileNotFoundError:  # somebody has deleted it
+    except FileNotFoundError:  # it was deleted
         return text
     inside = os.path.join(current, "")  # noqa: PTH118
     if os.path.normcase(text).startswith(os.path.normcase(inside)):
@@ -59,11 +59,11 @@ def put(file: Path, content: bytes) -> None:
     """Write a file outside of packages and state, as a whole or not at all. Raises OSError."""
     temporary = file.with_name(f".{file.name}-{os.urandom(8).hex()}{TEMPORARY}")
     try:
-        with temporary.open("xb") as new:  # follows no link that somebody left there
+        with temporary.open("xb") as new:  # follows no link in its place
             new.write(content)
         temporary.replace(file)
     finally:
-        with contextlib.suppress(OSError):  # what could not be made can't be removed
+        with contextlib.suppress(OSError):  # it may not have been made
             temporary.unlink(missing_ok=True)
 
 
@@ -149,7 +149,7 @@ class Tree:
                 note_content(LSTAT, path, content)
                 return content
         except (FileNotFoundError, NotADirectoryError):
-            return None  # it is gone since
+            return None  # it was deleted meanwhile
         except OSError as error:
             hint = _HINTS.get(error.errno or 0, "")
             raise _refusal("output-unreadable", path, f"it can't be read: {error.strerror}", hint) from None

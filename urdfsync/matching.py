@@ -1,18 +1,18 @@
-"""Which element of an old version of a model is which of a new one. Knows no domain.
+"""Matches the elements of two versions of a model, for any domain.
 
-All elements are matched at once, by their contents, their places and their names. A name is one witness:
+All elements are matched at once, by their contents, places and names:
 
-1. Declared matches hold. So does a content that is unique in both versions: its element is the same, whatever its name
-   is. A content is one aspect of an element, such as its shapes, or all of them. Aspects that disagree prove nothing,
-   but an aspect that stays with its name proves the name. If name and place stay and the content of the place, too, a
-   content that moved is taken for a change of numbers.
+1. Declared matches hold. A content that is unique in both versions matches two elements, whatever their names are. A
+   content is one aspect of an element, such as its shapes, or all aspects. Aspects that disagree prove nothing, but an
+   aspect that stays with its name proves the name. If an element keeps its name and its unchanged neighbours, a
+   content that moved is a change of numbers.
 2. Neighbours of the same element at the same place, with equal contents, are the same.
 3. Then names win: elements of one name are the same.
-4. What is left has another name. It is the same at the same place, if its content is there and nowhere else, or if its
-   old name has gone to another element.
+4. The remaining elements have other names. Two of them at the same place match if no other element has their content,
+   or if another element has the old name now.
 
-Numbers are equal if they differ by `NOISE` at most. Where a name won in step 3, but the place or a part of the content
-says otherwise, the match is a `Doubt`. Time grows with the number of elements alone.
+Numbers are equal if they differ by `NOISE` at most. A match of step 3 that the place or a part of the content
+contradicts is a `Doubt`. The time is linear in the number of elements.
 """
 
 from __future__ import annotations
@@ -27,37 +27,37 @@ import msgspec
 from urdfsync.domain import ElementKey, Features
 
 NOISE = 1e-6
-"""Relative change of a number that an exporter's rounding explains."""
+"""The greatest relative change of a number by an exporter's rounding."""
 
 Elements: TypeAlias = Mapping[ElementKey, Features]
 
 
 class Doubt(msgspec.Struct, frozen=True):
-    """Why an element that has an old name may be another part, or is one."""
+    """The reason why an element with an old name is, or may be, another part."""
 
     element: str
-    """In words: `link hand`."""
+    """Kind and name: `link hand`."""
     former: str = ""
-    """The old name of the element that it is, or may be; empty for a new element."""
+    """The likely old name of this element; empty for a new element."""
     aspects: tuple[str, ...] = ()
-    """What it shares with that element."""
+    """The aspects that it shares with the element of that name."""
     moved_to: str = ""
-    """The new name of the element that had the name before, if that can be guessed; empty if not."""
+    """The likely new name of the element that had this name before; empty if unknown."""
     is_certain: bool = False
     """Whether the element that had the name is gone."""
 
 
 class Matching(msgspec.Struct, frozen=True):
-    """Elements that have another name, and those of which it is not certain whose name they have."""
+    """The renamed elements, and those that have a name which may have been another element's."""
 
     renames: Mapping[ElementKey, str] = {}
     """New names by old elements, in order."""
     doubts: Mapping[ElementKey, Doubt] = {}
-    """By elements of the new version whose name an old one had."""
+    """By new elements; an old element had the same name."""
 
 
 def without_exchanges(matching: Matching, old: Elements) -> Matching:
-    """Return a matching in which names win: exchanged ones are doubts."""
+    """Return a matching in which names win: exchanged names become doubts."""
     formers = {(kind, new): name for (kind, name), new in matching.renames.items()}
     exchanged = {key for key in matching.renames if (key[0], matching.renames[key]) in old or key in formers}
     doubts = {
@@ -75,7 +75,7 @@ def match(old: Elements, new: Elements, declared: Mapping[ElementKey, ElementKey
 
 
 def _has_moved(old: Elements, new: Elements) -> bool:
-    """Whether something of an element may be that of another one now; both versions have the same names."""
+    """Whether contents may have moved between elements; both versions have the same names."""
     changed = [key for key, features in old.items() if features != new[key]]
     if any(old[key].neighbours != new[key].neighbours or old[key].files != new[key].files for key in changed):
         return True
@@ -96,7 +96,7 @@ class _Matcher:
         self._places = defaultdict[ElementKey, dict[ElementKey, None]](dict)
         """New elements at the places of old ones, next to matched elements."""
         self._removed, self._added = set[Hashable](), set[Hashable]()
-        """Contents of elements that have no match by name either."""
+        """Contents of elements that have no match."""
         self._take(declared.items())
 
     def run(self) -> Matching:
@@ -123,7 +123,7 @@ class _Matcher:
         return sorted(self._old, key=lambda key: (kinds[key[0]], key[1]))
 
     def _take(self, matches: Iterable[tuple[ElementKey, ElementKey]]) -> dict[ElementKey, ElementKey]:
-        """Add matches of elements that have none yet, and return these."""
+        """Add the matches of unmatched elements; return these."""
         taken = dict[ElementKey, ElementKey]()
         for old, new in matches:
             if old in self._old and new in self._new and old not in self._pairs and new not in self._taken:
@@ -131,7 +131,7 @@ class _Matcher:
         return taken
 
     def _votes(self) -> dict[ElementKey, dict[ElementKey, None]]:
-        """Return for each old element the new ones that have an aspect of it which no other element has."""
+        """Return, for each old element, the new ones that alone share an aspect with it."""
         votes = defaultdict[ElementKey, dict[ElementKey, None]](dict)
         holders = defaultdict[tuple[str, Any], tuple[list[ElementKey], list[ElementKey]]](lambda: ([], []))
         for side, elements in enumerate((self._before, self._after)):
@@ -167,13 +167,13 @@ class _Matcher:
         }
 
     def _stays(self, key: ElementKey, proved: Mapping[ElementKey, ElementKey]) -> bool:
-        """Whether an element has its name and all its neighbours as before, and these prove to be the same."""
+        """Whether an element keeps its name and its neighbours, which contents prove to be the same."""
         before = self._old[key].neighbours
         after = self._new[key].neighbours if key in self._new else {}
         return bool(before) and before == after and all(proved.get(one) == one for one in before.values())
 
     def _is_contested(self, key: ElementKey, match_: ElementKey) -> bool:
-        """Whether an element of a new name is at the old place, or one whose name is gone was at the new place."""
+        """Whether a new name took the old place, or a removed name left the new place."""
         for relation, one in self._old[key].neighbours.items():
             if self._before[one] == self._after.get(one) and one not in self._new[match_].neighbours.values():
                 heirs = self._children[1].get(one, {}).get(relation, ())
@@ -207,7 +207,7 @@ class _Matcher:
                 frontier = self._take(self._between())
 
     def _roots(self) -> list[tuple[ElementKey, ElementKey]]:
-        """Return the only elements of a kind that have no neighbour of their own, if their contents are equal."""
+        """Return the two roots, if each version has a single one and their contents are equal."""
         tops = [
             [key for key, features in elements.items() if not features.neighbours]
             for elements in (self._old, self._new)
@@ -217,7 +217,7 @@ class _Matcher:
         return [(tops[0][0], tops[1][0])] if is_one else []
 
     def _around(self, matches: Mapping[ElementKey, ElementKey]) -> Iterator[tuple[ElementKey, ElementKey]]:
-        """Yield pairs of old and new elements that are in the same place next to matched ones."""
+        """Yield pairs of an old and a new element at the same place next to a match."""
         for old, new in matches.items():
             after = self._new[new].neighbours
             yield from (
@@ -237,7 +237,7 @@ class _Matcher:
                         yield from ((key, key) for key in olds if key in news)
 
     def _likeness(self, key: ElementKey, side: int) -> Hashable:
-        """Return the content of an element with that of its neighbours that are not matched."""
+        """Return the content of an element, with its matched neighbours and the contents of the others."""
         elements, contents, matched = (
             (self._new, self._after, self._taken) if side else (self._old, self._before, self._pairs)
         )
@@ -252,12 +252,12 @@ class _Matcher:
         is_named = old in self._new and old not in self._taken
         if self._is_equal(old, new):
             return old == new or not is_named or not self._is_equal(old, old) or self._has_another_place(old)
-        # late, the element of the same name is another one
+        # in step 4, the old name is gone or another element has it, and no other element left has these contents
         is_unique = (old[0], self._before[old]) not in self._added and (new[0], self._after[new]) not in self._removed
         return is_late and not is_named and is_unique
 
     def _is_equal(self, old: ElementKey, new: ElementKey) -> bool:
-        """Whether two elements have equal contents, and the same files, or files that are called like them."""
+        """Whether two elements have equal contents, and the same files or files named after them."""
         if self._before[old] != self._after[new]:
             return False
         files, others = self._old[old].files, self._new[new].files
@@ -270,7 +270,7 @@ class _Matcher:
         )
 
     def _has_another_place(self, key: ElementKey) -> bool:
-        """Whether the new element of this name is at another place, or at that of another old one."""
+        """Whether the new element of this name has other neighbours than the old one."""
         for relation, one in self._old[key].neighbours.items():
             if one in self._pairs and self._new[key].neighbours.get(relation) != self._pairs[one]:
                 return True
@@ -294,14 +294,14 @@ class _Matcher:
     def _doubts(
         self, by_name: Collection[ElementKey], votes: Mapping[ElementKey, Collection[ElementKey]]
     ) -> dict[ElementKey, Doubt]:
-        """Return why elements of an old name may be, or are, other ones."""
+        """Return the doubts about elements that have an old name."""
         changed, shuffled = defaultdict[Hashable, list[ElementKey]](list), set[Hashable]()
         for key, aspects in self._after.items():
             if key in self._old and self._taken.get(key) != key:
                 shuffled.add((key[0], aspects))
             if self._taken.get(key, key) == key and self._before.get(key) != aspects:
                 changed[key[0], aspects].append(key)
-        has_moved = any(old != new for old, new in self._pairs.items())  # else another place is no other part
+        has_moved = any(old != new for old, new in self._pairs.items())  # else another place does not mean another part
         removed = {(key[0], aspects) for key, aspects in self._before.items() if key not in self._pairs}
         held = {(key[0], aspect): key[1] for key in self._in_order() for aspect in self._before[key]}
         doubts = dict[ElementKey, Doubt]()
@@ -331,7 +331,7 @@ class _Matcher:
         return doubts
 
     def _contradicts(self, key: ElementKey) -> bool:
-        """Whether an element is next to others than the former one: its only neighbour of a kind, or all of them."""
+        """Whether an element has other neighbours than before: the only one of a relation, or all."""
         before, after = self._old[key].neighbours, self._new[key].neighbours
         others = [
             (one, self._pairs[one] != after[relation])
@@ -353,9 +353,9 @@ Aspects: TypeAlias = tuple[tuple[str, Hashable], ...]
 def _comparable(
     old: Elements, new: Elements
 ) -> tuple[dict[ElementKey, Aspects], dict[ElementKey, Aspects], set[tuple[str, Hashable]]]:
-    """Return the aspects of all elements as keys, equal but for noise, and the telling ones.
+    """Return the aspects of all elements as keys that ignore noise, and the telling aspects.
 
-    What many things have is not telling: zeros and ones, such as those of an origin or an axis.
+    Zeros and ones are not telling: many origins and axes have them.
     """
     contents = [features.contents for elements in (old, new) for features in elements.values()]
     numbers = _clusters({number for content in contents for number in _numbers(content)})
@@ -380,7 +380,7 @@ def _is_telling(value: Any) -> bool:
 
 
 def _has_name(file: str, name: str) -> bool:
-    """Whether a file is called like an element."""
+    """Whether the file's name contains the element's."""
     return name.lower() in file.rpartition("/")[2].lower()
 
 
@@ -394,7 +394,7 @@ def _numbers(value: Any) -> Iterator[float]:
 
 
 def _clusters(numbers: Collection[float]) -> dict[float, int]:
-    """Return one number for all that are within noise of their neighbours."""
+    """Return one cluster for all numbers that differ from the next one by noise."""
     clusters, last, cluster = dict[float, int](), 0.0, 0
     for number in sorted(numbers):
         if number - last > NOISE * max(abs(number), abs(last)):
@@ -416,7 +416,7 @@ def _frozen(value: Any, numbers: Mapping[float, int]) -> Hashable:
 
 
 def _children(elements: Elements) -> dict[ElementKey, dict[str, list[ElementKey]]]:
-    """Return the elements that name each one as their neighbour, by the relation."""
+    """Return, for each element, those that name it as their neighbour, by relation."""
     children = defaultdict[ElementKey, defaultdict[str, list[ElementKey]]](lambda: defaultdict(list))
     for key, features in elements.items():
         for relation, one in features.neighbours.items():

@@ -55,7 +55,7 @@ def _place(name: str) -> str:
     if key not in _places:
         with Dependencies() as looked:
             place = _installed().get(name, "")
-        if not place:  # it may be installed while the daemon runs
+        if not place:  # a domain may be installed while the daemon runs
             return ""
         _places[key] = place, looked
         return place
@@ -71,15 +71,15 @@ def _installed() -> dict[str, str]:
     with Dependencies(is_program=True):
         for folder in sys.path:
             names = list[str]()
-            with contextlib.suppress(OSError):  # it need not exist, and may be an archive
+            with contextlib.suppress(OSError):  # the path may be missing, or an archive
                 names = list_folder(folder or ".")
             for name in names:
                 # strings take a third of the time of paths: there are hundreds of distributions
                 file = f"{folder or '.'}/{name}/entry_points.txt"
                 if not name.endswith("-info") or not os.path.isfile(file):  # noqa: PTH113
                     continue
-                with contextlib.suppress(OSError):  # Python passes over such a distribution, too
-                    if b"[urdfsync.domains]" in read_file(file):  # to parse those of all distributions takes 15 ms
+                with contextlib.suppress(OSError):  # Python ignores such a distribution, too
+                    if b"[urdfsync.domains]" in read_file(file):  # parsing all distributions takes 15 ms
                         entries = PathDistribution(Path(file).parent).entry_points.select(group="urdfsync.domains")
                         # an entry's name is the domain's, its value `module:object`; the first on the path counts
                         domains = {entry.name: entry.value for entry in entries} | domains

@@ -78,7 +78,7 @@ class Dependencies:
     def add_hash(self, entry: Entry, sha256: str) -> None:
         """Record the hash of a young file."""
         if self.hashes.get(entry) and self.hashes[entry] != sha256:
-            self.complete = False  # it changed between two reads, and its stat values did not
+            self.complete = False  # it changed between two reads with the same stat values
         self.hashes[entry] = self.hashes.get(entry) or sha256
 
     def renew(self, written: Mapping[str, bytes | None]) -> None:
@@ -231,7 +231,7 @@ def walk_files(folder: str | os.PathLike[str]) -> Iterator[str]:
         try:
             names = list_folder(current)
         except OSError:
-            continue  # the folder is missing, or can't be read
+            continue  # the folder is missing or unreadable
         for path in [f"{current}{os.sep}{name}" for name in names]:
             kind = file_type(path)
             if kind == stat.S_IFREG:

@@ -9,7 +9,7 @@ import errno
 import os
 import stat
 
-TYPE_CHECKING = False  # that of `typing` takes 2 of the 12 ms of the check
+TYPE_CHECKING = False  # importing it from `typing` takes 2 of the 12 ms of the check
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
@@ -109,14 +109,14 @@ def hash_file(path: str) -> str:
 
 def hash_content(content: bytes) -> str:
     """Return the hash of a content."""
-    from hashlib import sha256  # 3 ms, and saved answers of old files do without
+    from hashlib import sha256  # 3 ms that saved answers of old files save
 
     return sha256(content).hexdigest()
 
 
 def read_unrecorded(path: str | os.PathLike[str]) -> bytes:
     """Read a file as `read_file` does, without recording it: `read_stat` did, or no answer depends on it."""
-    # a pipe would wait for somebody who writes to it
+    # opening a pipe would wait for a writer
     with open(path, "rb", buffering=0, opener=lambda path, flags: os.open(path, flags | _NONBLOCK)) as file:
         status = os.fstat(file.fileno())
         if not stat.S_ISREG(status.st_mode):
@@ -125,5 +125,5 @@ def read_unrecorded(path: str | os.PathLike[str]) -> bytes:
             raise OSError(errno.EFBIG, f"it has more than {MAX_FILE:,} bytes", os.fspath(path))
         if status.st_size:
             return file.read()
-        # a file of the system may say that it is empty, and never end
+        # a file of the system may have size 0 and never end
         return file.read(MAX_FILE) or b""

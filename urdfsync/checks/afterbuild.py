@@ -61,11 +61,11 @@ class BuildChecker:
         earlier = {robot.name: self.find_earlier(self.key(robot)) for robot in robots}
         unknown = [robot for robot in robots if earlier[robot.name] is None]
         results = run.check_robots(self._config, unknown, self._options, tell)
-        trouble: BuildCheck | None = None  # it ends the checks of all other robots
+        trouble: BuildCheck | None = None  # if set, no other robot is checked
         for robot in robots:
             try:
                 yield earlier[robot.name] or trouble or _judge(next(results))
-            except Exception as error:  # noqa: BLE001 - the builds are told all the same
+            except Exception as error:  # noqa: BLE001 - the builds are reported all the same
                 trouble = BuildCheck(Checked.WRONG, findings_of(error))
                 yield trouble
 
@@ -89,13 +89,13 @@ def with_checks(config: Config, request: BuildOptions, results: Iterable[Result]
                 check = next(checks)
                 findings = robots[result.robot].without_ignored(check.diagnostics)
                 new = tuple(finding for finding in findings if finding not in told)
-                told.update(filter(is_general, new))  # findings about the machine are said once for all robots
+                told.update(filter(is_general, new))  # findings about the machine are shown once for all robots
                 diagnostics = (*result.diagnostics, *new)
                 result = msgspec.structs.replace(result, diagnostics=diagnostics, checked=check.checked)
             count += 1
             yield result
     except (KeyboardInterrupt, Exception):
-        yield from built[count:]  # they are built, whatever becomes of their checks
+        yield from built[count:]  # they are built, even if their checks failed
         raise
 
 

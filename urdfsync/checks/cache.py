@@ -26,11 +26,11 @@ T = TypeVar("T")
 
 LIMIT = 2**30
 """The most bytes on disk that the cache takes: 1 GiB."""
-_FULL, _AFTER = 0.75, 0.5  # parts of the limit: from the first on something is deleted, until the second is left
+_FULL, _AFTER = 0.75, 0.5  # parts of the limit: a cache fuller than the first is emptied to the second
 _IN_USE = 3600.0
 """A check may still use a copy of a library that was used within so many seconds."""
 
-_ACCESS = ".rumoca-access"  # suffix of the file beside another by which the compiler notes its last use
+_ACCESS = ".rumoca-access"  # suffix of the file in which the compiler notes the last use of another
 
 
 class CacheError(UrdfsyncError):
@@ -63,7 +63,7 @@ class UserCache:
         """Return the value that was saved with this key; None without one that can be read."""
         file = self.results / key
         try:
-            os.utime(file)  # its last use is noted
+            os.utime(file)  # note its last use
             return msgspec.msgpack.decode(file.read_bytes(), type=kind)
         except (OSError, ValueError):
             return None
@@ -89,11 +89,11 @@ class UserCache:
             in_use = path.parent == self.libraries and now - used < _IN_USE
             if total - freed <= _AFTER * limit or in_use:
                 continue
-            with contextlib.suppress(OSError):  # links themselves, and not what they lead to
+            with contextlib.suppress(OSError):  # links themselves, not their targets
                 if path.is_symlink() or not path.is_dir():
                     path.unlink()
                 else:
-                    aside = path.with_name(f"old-{uuid.uuid4().hex}")  # nobody shall find half of it
+                    aside = path.with_name(f"old-{uuid.uuid4().hex}")  # no process may find half of it
                     path.rename(aside)
                     shutil.rmtree(aside, ignore_errors=True)
                 freed += size
@@ -107,12 +107,12 @@ class UserCache:
         for folder in (self.libraries, self.results, self.compiler):
             if folder.is_symlink():
                 continue
-            for current, folders, files in os.walk(folder):  # which passes over what is gone: others trim, too
+            for current, folders, files in os.walk(folder):  # ignores deleted folders: other processes trim, too
                 if folder == self.compiler:
                     names = [name for name in files if not name.startswith(".")]
                 else:
                     names, folders[:] = [*files, *folders], []
-                found = dict[str, os.stat_result]()  # one look at each: the compiler leaves tens of thousands
+                found = dict[str, os.stat_result]()  # one stat for each: the compiler leaves tens of thousands
                 for name in names:
                     with contextlib.suppress(OSError):  # it was deleted
                         found[name] = os.lstat(f"{current}/{name}")

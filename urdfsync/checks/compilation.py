@@ -76,7 +76,7 @@ class Compilation:
         """
         self._package, self._users, self._processes = package, users, processes
         self._jobs = Jobs(package.robot, tool, needed, package.around, limits, folder)
-        # of their own: what can't be read of the user's files would keep the package from being compiled
+        # own jobs: an unreadable file of the user's would keep the package from being compiled
         self._users_jobs = msgspec.structs.replace(self._jobs, needed=needed_by_users)
         self._compiler = compilers.COMPILERS[tool.name]
         self.result = ToolResult(self._compiler.TITLE)
@@ -89,7 +89,7 @@ class Compilation:
 
     def run(self, experiment: Experiment | None) -> None:
         """Compile the package, and compare it by an experiment: 20 s for a six-axis arm, minutes for a humanoid."""
-        # versions of the package are compiled beside its models, so that these need not be divided
+        # with an experiment, other versions of the package are compiled at the same time: no need to divide its models
         models = self._model_jobs(1 if experiment else max(1, min(self._processes, len(self._package.models))))
         done = self._run_all({**models, **(self._versions(experiment) if experiment else {})})
         self._note_models(models, done)
@@ -124,7 +124,7 @@ class Compilation:
         if self.generated:
             generation, robot = package.generation, package.robot
             snapshot, domain = generation.now.snapshot, generation.inputs.domain
-            # templates of the user's may connect benches in another way
+            # the user's templates may connect benches in another way
             own = robot.templates is not None
             checks: Checks | None = None if own else domain.checks
             wiring = (
@@ -139,14 +139,14 @@ class Compilation:
             without_edits, faults = self._motions(done["generated"], trials)
             self.diagnostics += faults
         self.edited, faults = self._motions(done["edited"], trials)
-        if faults:  # no fault of an edited package
+        if faults:  # the package is not at fault
             self.gaps.append(f"the effect of your edits was not measured: {faults[0].message}")
         if not self.edited or not without_edits:
             return
         alone = {file: self._motions(done[file], trials)[0] for file in package.edits if file in done}
         single = {file: compare_all(trials[:1], motions, without_edits) for file, motions in alone.items() if motions}
         whole = compare_all(trials[:1], self.edited, without_edits)
-        # what else changes follows from that, but for files that change nothing there
+        # other changes follow from these, except in files that change nothing here
         others = compare_all(trials[1:], self.edited, without_edits)
         changes = tuple(deviation for deviation in others if not deviation.agrees)
         self.result.effects = tuple(
@@ -180,7 +180,7 @@ class Compilation:
                 if answer.problem:
                     self.diagnostics += explain(answer.problem, self._compiler, files)
                     continue
-                # another model with the same part has it under another name
+                # another model may have the same finding under another name
                 told = {(finding.file, finding.line, finding.code) for finding in self.diagnostics}
                 warnings = explain_warnings(answer.warnings, self._compiler, files)
                 self.diagnostics += [
@@ -191,7 +191,7 @@ class Compilation:
         self.result.compiled = tuple(sorted(compiled, key=lambda model: order.index(model.model)))
         parts = {part for model in compiled if model.is_users for part in users.uses.get(users.files[model.model], ())}
         for model, faults in failing.items():
-            if users.files[model] not in parts:  # else it compiles there, which is what it is for
+            if users.files[model] not in parts:  # it is made to compile there
                 self.diagnostics += map(_as_part, faults)
                 self.result.failing += (model,)
 
@@ -209,7 +209,7 @@ class Compilation:
                     done[label] = future.result()
                 except Exception as error:  # noqa: BLE001 - of one job
                     done[label], faults = [], findings_of(error)
-                    if label == _USERS:  # the package itself may be right
+                    if label == _USERS:  # the package itself may be sound
                         self.gaps.append(f"your models were not compiled: {faults[0].sentence}")
                     else:
                         self.diagnostics += faults
@@ -345,7 +345,7 @@ def explain(problem: str, compiler: Compiler, package: PackageTexts, file: Path 
     if (balance := _BALANCE.search(problem)) and balance[1] != balance[2]:
         equations, unknowns = (int(number.replace(",", "")) for number in balance.groups())
         lacking = abs(equations - unknowns)
-        # without the name of the model, since the models around it lack as many, which need not be said again
+        # without the model's name: the models around it lack as many equations, and the message is shown once
         message = f"there {'is' if lacking == 1 else 'are'} {counted(lacking, 'equation')} too "
         message += "many" if equations > unknowns else "few"
         return [_diagnostic(Complaint(message, users_file), package, "unbalanced")]

@@ -107,9 +107,9 @@ def package_texts(folder: Path, top: Path | None = None, without: Collection[Pat
         for place, folders, names in os.walk(folder, onerror=_refuse):
             visible = [name for name in sorted(folders) if name != RESOURCES and not name.startswith(".")]
             folders[:] = [name for name in visible if Path(place, name) not in without]
-            for path in [Path(place, name) for name in sorted(names) if not name.startswith(".")]:  # editors leave some
+            for path in [Path(place, name) for name in sorted(names) if not name.startswith(".")]:  # left by editors
                 if (path.suffix == ".mo" or path.name == "package.order") and path.is_file():
-                    with contextlib.suppress(FileNotFoundError):  # somebody deletes it at this moment
+                    with contextlib.suppress(FileNotFoundError):  # it was deleted meanwhile
                         texts[path.relative_to(top or folder).as_posix()] = read_unrecorded(path)
     except OSError as error:
         message = f"the package can't be read: {error.strerror or error}"

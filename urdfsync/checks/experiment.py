@@ -56,8 +56,8 @@ class Quantity(enum.StrEnum):
 TOLERANCE = 1e-10
 """The greatest difference that counts as agreement, relative to the greatest value of its kind or 1."""
 _TOLERANCES = {
-    Quantity.ACCELERATION: 1e-7,  # equations are solved for them, where digits are lost
-    Quantity.GROUND: 1e-2,  # without a reference, and stiff: 1 % of the depth makes 1 % of the force
+    Quantity.ACCELERATION: 1e-7,  # solving equations for them loses digits
+    Quantity.GROUND: 1e-2,  # no reference, and stiff: 1 % of the depth makes 1 % of the force
 }
 
 

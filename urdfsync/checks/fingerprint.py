@@ -46,7 +46,7 @@ def result_key(robot: RobotConfig, tools: Sequence[Tool], needed: libraries.Libr
             *program(robot.domain),
             *(compilers.state(tool) for tool in tools),
             [(name, str(path), content_hash(path)) for name, path in sorted(places.items())],
-            # of these a copy is used, without resources
+            # a copy of these is used, without resources
             [(str(path), content_hash(path, [RESOURCES])) for path in needed.standard.values()],
             *(str(needed.problem), robot.target, robot.domain),
             *facts,
@@ -68,14 +68,14 @@ def fingerprint(config: Config, robot: RobotConfig, options: CheckOptions) -> st
         request = BuildOptions(dry=True, package_paths=options.package_paths)
         content = source.read_source(config, robot, Store(config.root), request).content
         templates = source.templates(config, robot, domain).digest
-    except Exception:  # noqa: BLE001 - the check meets it, too, and tells it
+    except Exception:  # noqa: BLE001 - the check meets the same error and reports it
         return None
     key = result_key(
         robot,
         options.tools,
         msgspec.structs.replace(needed, others=others),
         *(robot.options, content, templates),
-        shown(robot.folder),  # findings name files as they are seen from the working folder
+        shown(robot.folder),  # findings name files relative to the working folder
         *(sorted(files.items()) for files in (texts, around, users)),
     )
     return f"{key}{PHYSICS}" if key and options.physics else key

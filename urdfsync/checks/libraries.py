@@ -21,10 +21,10 @@ from urdfsync.modelica.names import LIBRARY, STANDARD_LIBRARIES
 
 Version: TypeAlias = tuple[int, ...]
 
-OLDEST: Version = (4, 1)  # the first that the embedded compiler takes
-NEXT: Version = (5,)  # the first that is known only by its number; taken if there is no other
+OLDEST: Version = (4, 1)  # the oldest that the embedded compiler accepts
+NEXT: Version = (5,)  # newer versions are untested, and used only if there is no other
 
-# The copy of these takes the compiler a fifth of the time and memory that the whole library does (5 s and 1.1 GB).
+# With a copy of these parts, the compiler takes a fifth of the time and memory of the whole library (5 s and 1.1 GB).
 _COPIED = tuple(
     tuple(part.split("."))
     for part in (
@@ -32,7 +32,7 @@ _COPIED = tuple(
     ).split()
 )
 _LEFT_OUT = frozenset({"Examples", "UsersGuide", RESOURCES})
-_COPY_REVISION = 2  # raised when other parts are copied
+_COPY_REVISION = 2  # to be raised when other parts are copied
 
 _ANNOTATED_VERSION = re.compile(r'(?:^|,|\bannotation\s*\()\s*version\s*=\s*"(\d+(?:\.\d+)*)', re.MULTILINE)
 _NOISE = re.compile(rb'"(?:\\.|[^"\\])*"|//[^\n]*|/\*.*?\*/', re.DOTALL)
@@ -182,7 +182,7 @@ def standard_library_copy(parts: Mapping[str, Path], texts: Iterable[bytes], cac
             below = Path(folder).relative_to(top).parts
             for name in names:
                 path = (*below, name.removesuffix(".mo"))
-                is_part = any(path[: len(part)] == part[: len(path)] for part in _COPIED)  # of one, or around one
+                is_part = any(path[: len(part)] == part[: len(path)] for part in _COPIED)  # inside one, or around one
                 if path[-1] != "package" and not (is_part and _LEFT_OUT.isdisjoint(path)):
                     left_out.append(name)
         return left_out
@@ -221,7 +221,7 @@ def _copy(
                 except OSError:
                     if not target.is_dir():  # else another process was faster
                         raise
-        os.utime(target)  # the cache sees that it is in use
+        os.utime(target)  # so the cache keeps it
 
 
 def _is_in_copy(text: bytes) -> bool:

@@ -41,7 +41,7 @@ def check_names(package: RobotPackage, standard: Mapping[str, Path]) -> NameChec
     find = libraries.class_finder(robot.target.package, standard, libraries.search_path(robot))
     around = {robot.output / path: text for path, text in package.around.items() if path.endswith(".mo")}
     others = {**around, **package.users_files}
-    read = functools.cache(parse_file)  # for each file of the user anew
+    read = functools.cache(parse_file)  # parse each file once
     sources = StoredClasses(robot.target.package, robot.folder, package.files.texts, others, find, read)
     scopes = Scopes(sources)
     own = _findings(package, _unresolved(filter(None, map(scopes.node, sorted(sources.own))), scopes))
@@ -52,7 +52,7 @@ def check_names(package: RobotPackage, standard: Mapping[str, Path]) -> NameChec
     for name, definition in sources.users.items():
         if (path := Path(definition.file)) in package.users_files:
             sources.seen.clear()
-            scopes = Scopes(sources)  # one that has resolved a name does not ask for its class again
+            scopes = Scopes(sources)  # new scopes: old ones remember resolved names
             if (node := scopes.node(name)) is None:  # there is no such package
                 unplaced.add(path)
                 continue
@@ -60,7 +60,7 @@ def check_names(package: RobotPackage, standard: Mapping[str, Path]) -> NameChec
             if any(other[: len(top)] == top and len(other) > len(top) for other in sources.seen):
                 using.add(path)
             seen = {Path(file) for file in sources.seen.values() if file}
-            # each file asks for the packages around it
+            # add the packages around each file
             around_it = {folder / "package.mo" for folder in path.parents}
             uses.setdefault(path, set()).update(seen - around_it)
     while more := {path for path, seen in uses.items() if path not in using and seen & using}:

@@ -108,7 +108,7 @@ def read_package(config: Config, robot: RobotConfig, options: BuildOptions) -> R
     benches = {f"{name.replace('.', '/')}.mo" for name in models[1:]}
     shared = [path for path in sorted(generated.keys() & on_disk.keys()) if path.endswith(".mo")]
     edited = [path for path in shared if normalised(on_disk[path]) != generated[path]] if in_step else []
-    # elements whose new names wait are on disk by their old ones
+    # files of elements whose new names wait are on disk under the old names
     known = [action for action in built.actions if action.reason is not Reason.UNKNOWN]
     keys = (key for action in known for key in (action.path, action.origin) if key)
     written = {Path(os.path.normpath(config.root / key)) for key in keys}

@@ -74,7 +74,7 @@ def run(
     `progress` is called again and again until then.
     Raises LimitError, BrokenProcessError, and the function's own UrdfsyncError or ImportError.
     """
-    started = set[psutil.Process]()  # of a process that has ended, the system knows no children
+    started = set[psutil.Process]()  # the system forgets the children of an ended process
     with tempfile.TemporaryFile() as answers, tempfile.TemporaryFile() as errors:
         with subprocess.Popen(  # noqa: S603 - a command of ours
             processes.python_module("urdfsync.checks.process"),
@@ -86,7 +86,7 @@ def run(
         ) as process:
             try:
                 if process.stdin is not None:
-                    with contextlib.suppress(OSError):  # it has ended, and its exit code says why
+                    with contextlib.suppress(OSError):  # it has ended; its exit code says why
                         process.stdin.write(pickle.dumps((limits.deadline - time.monotonic(), function, arguments)))
                         process.stdin.flush()
                 _wait(process, limits, started, progress)
@@ -119,7 +119,7 @@ def _wait(
             process.wait(_INTERVAL)
             return
         used = 0
-        for child in psutil.Process().children(recursive=True):  # what other threads have started counts as well
+        for child in psutil.Process().children(recursive=True):  # also those of other threads
             with contextlib.suppress(psutil.Error):  # it has just ended
                 used += child.memory_info().rss
                 if process.pid in [parent.pid for parent in child.parents()]:
@@ -146,14 +146,14 @@ def main() -> None:
     """Call the function from stdin. Write each result, then None or an error, to stdout."""
     with processes.reserve_stdout() as answers:
         seconds, function, arguments = pickle.load(sys.stdin.buffer)  # noqa: S301 - from a process of ours
-        # If nobody is left to end this one: native code may keep all threads of Python from running.
+        # Ends this process if its parent is gone: native code may block all threads of Python.
         faulthandler.dump_traceback_later(max(seconds, 0.01) + 1, exit=True)
         processes.end_with_parent(lambda: os.read(0, 1))  # not by sys.stdin, whose lock would disturb Python at its end
         last = None
         try:
             for result in function(*arguments):
                 answers.write(pickle.dumps(result))
-                answers.flush()  # a crash leaves what was done until then
+                answers.flush()  # after a crash, earlier answers are complete
         except (UrdfsyncError, ImportError) as error:
             last = error
         answers.write(pickle.dumps(last))

@@ -102,7 +102,7 @@ def _two_tools(result: CheckResult) -> Iterator[tuple[str, str]]:
         between = {deviation.key: deviation for deviation in result.between}
         for deviation in first.deviations or ():
             if deviation.key not in by_second or deviation.key not in between:
-                continue  # by one compiler alone, or without any
+                continue  # compiled by one compiler, or by none
             three = deviation, by_second[deviation.key], between[deviation.key]
             if not all(each.agrees for each in three):
                 outlier = _outlier(first.tool, second.tool, reference, *three)
@@ -166,7 +166,7 @@ def to_section(result: CheckResult, *, verbose: bool | None = None) -> Section:
     finding = None
     if status not in (CheckStatus.RIGHT, CheckStatus.FAILED):
         file = f"{result.folder}/package.mo" if result.folder else ""
-        # what is wrong comes first; gaps, and that files are out of step, come last
+        # faults come first; gaps and stale files come last
         told = sentences[0 if status is CheckStatus.DIFFERS else -1][0].strip()
         severity = Severity.NOTE if status is CheckStatus.INCOMPLETE else Severity.WARNING
         finding = Diagnostic(severity, status.replace(" ", "-"), f"{result.package}: {told}", file)

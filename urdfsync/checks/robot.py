@@ -35,9 +35,9 @@ def known_check(config: Config, robot: RobotConfig) -> CheckResult | None:
 
     Only right results of the embedded compiler are remembered.
     """
-    if config.check.tool != "rumoca":  # the key has the version of OpenModelica, which nobody wants to start here
+    if config.check.tool != "rumoca":  # for its key, OpenModelica would have to be started
         return None
-    if key := fingerprint(config, robot, CheckOptions()):  # once for both: it reads the libraries
+    if key := fingerprint(config, robot, CheckOptions()):  # one key for both checks, since it reads the libraries
         cache = UserCache.default()
         return cache.load(f"{key}{PHYSICS}", CheckResult) or cache.load(key, CheckResult)
     return None
@@ -58,17 +58,17 @@ def check_robot(config: Config, robot: RobotConfig, options: CheckOptions, folde
         package = read_package(config, robot, request)
         earlier = cache.load(key, CheckResult) if key and package.in_step and not options.fresh else None
         if earlier and options.curves and earlier.reference and not any(tool.curves for tool in earlier.tools):
-            earlier = None  # nobody wanted to draw it
+            earlier = None  # an old result lacks the drawing
         if earlier is None:
             with tempfile.TemporaryDirectory(prefix="urdfsync-", dir=folder, ignore_cleanup_errors=True) as place:
                 _check(config, package, options, result, limits, Path(place))
             result.megabytes = limits.peak / 1e6
-            is_same = key == fingerprint(config, robot, options)  # else somebody has saved meanwhile
+            is_same = key == fingerprint(config, robot, options)  # else a file was saved meanwhile
             if key and package.in_step and is_same:
                 cache.save(key, None if result.failed or result.differs else result)
         result = earlier or result
-        result.folder, result.strict = shown(robot.folder), options.strict  # of this check, whichever was before
-        result.add(texts.missing_resources(package))  # files that no fingerprint knows of
+        result.folder, result.strict = shown(robot.folder), options.strict  # as in this check, not as in the saved one
+        result.add(texts.missing_resources(package))  # no fingerprint covers these files
     except Exception as error:  # noqa: BLE001 - of one robot
         result.add(findings_of(error))
     result.diagnostics = robot.without_ignored(result.diagnostics)

@@ -45,7 +45,7 @@ def check_robots(
     else:
         each = max(1, machine.cores() // jobs)
         share = msgspec.structs.replace(options, compilers=each, memory=budget / count)
-    # cleaned up here: processes that check may be ended
+    # clean up here, since processes of checks may be killed
     with (
         tempfile.TemporaryDirectory(prefix="urdfsync-", ignore_cleanup_errors=True) as folder,
         workers(count, options.executor) as pool,
@@ -55,7 +55,7 @@ def check_robots(
         for robot in robots:
             result = _result(robot, futures, pool, progress)
             if count > 1 and any(finding.code == "out-of-memory" for finding in result.diagnostics):
-                wait(futures.values())  # alone it may take all that there is
+                wait(futures.values())  # alone, a robot may take all memory
                 whole = msgspec.structs.replace(share, memory=budget)
                 futures[robot.name] = pool.submit(check_robot, config, robot, whole, place)
                 result = _result(robot, futures, pool, progress)

@@ -30,9 +30,9 @@ def check_layout(package: PackageTexts) -> list[Diagnostic]:
     A generated package has none.
     """
     findings: list[Diagnostic] = []
-    stored: dict[PurePosixPath, set[str]] = {PurePosixPath(): set()}  # by folder, the classes that are files or folders
-    misnamed: dict[PurePosixPath, set[str]] = {}  # by folder, names in it that no class can have
-    declarations: dict[PurePosixPath, dict[str, int]] = {}  # by folder, lines of what its `package.mo` declares
+    stored: dict[PurePosixPath, set[str]] = {PurePosixPath(): set()}  # classes that are files or folders, by folder
+    misnamed: dict[PurePosixPath, set[str]] = {}  # names that no class can have, by folder
+    declarations: dict[PurePosixPath, dict[str, int]] = {}  # lines of the declarations in `package.mo`, by folder
     for path in sorted(PurePosixPath(name) for name in package.texts if name.endswith(".mo")):
         if culprit := _misnamed_part(path):
             is_file = culprit == path

@@ -1,1 +1,1 @@
-"""The commands of the command line: each adds its parser, and turns arguments into calls and an exit code."""
+"""The commands of the command line: each one adds its parser, calls the API, and returns an exit code."""

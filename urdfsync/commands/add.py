@@ -20,17 +20,17 @@ def add(commands: arguments.Commands) -> None:
         commands,
         "add",
         help="add a robot to urdfsync.toml",
-        description="Add a table to urdfsync.toml for each source, with guesses and their reasons. What is there stays "
-        "as it is.",
+        description="Add a table to urdfsync.toml for each source, with guesses and their reasons. Existing tables "
+        "stay as they are.",
         epilog="example: urdfsync add cad/gripper.urdf",
     )
     sources = "the sources of the new robots; of xacro with arguments NAME:=VALUE"
     parser.add_argument("sources", nargs="+", metavar="SOURCE", help=sources)
-    parser.add_argument("--domain", default="urdf", metavar="NAME", help="what the sources are (default: %(default)s)")
+    parser.add_argument("--domain", default="urdf", metavar="NAME", help="format of the sources (default: %(default)s)")
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
-    """Write the new tables behind all others, and show what was guessed. Raises ConfigError, SourceError."""
+    """Append the new tables, and show the guesses. Raises ConfigError, SourceError."""
     loaded, domain = load(args.config), registry.domain(args.domain)
     taken = {name for robot in loaded.robots for name in (robot.name, robot.target.package)}
     named, given = arguments.split_sources(args.sources, args.parser)
@@ -47,7 +47,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     ending = "\r\n" if "\r\n" in text else "\n"
     new = f"{text}{'' if text.endswith(chr(10)) else ending}{tables.replace(chr(10), ending)}"
     plain = new.removeprefix("\ufeff").replace("\r\n", "\n")
-    config.parse(plain, loaded.file, shown(loaded.file))  # which refuses what does not fit together
+    config.parse(plain, loaded.file, shown(loaded.file))  # refuses contradictory settings
     with write_errors(loaded.file):
         write_schema(loaded.root)  # first: if it fails, the configuration stays as it is
         save(loaded.file, content, new.encode())

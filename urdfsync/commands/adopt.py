@@ -1,4 +1,4 @@
-"""`urdfsync adopt`: takes a package that was there before for an edited one."""
+"""`urdfsync adopt`: takes over an existing package as an edited one."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from urdfsync.output.edits import to_section
 from urdfsync.output.terminal import details, file_line
 
 _EDITS = 5
-"""So many edits of a file are listed at most, without --verbose."""
+"""The most edits of a file that are listed without --verbose."""
 
 
 def add(commands: arguments.Commands) -> None:
@@ -33,10 +33,10 @@ def add(commands: arguments.Commands) -> None:
         commands,
         "adopt",
         "--wait --trust",
-        help="take over packages that exist already; what differs counts as your edits",
-        description="Build robots whose packages were there before: written by another tool, or by urdfsync, whose "
-        "recorded state is lost. Every file that differs from the generated one counts as edited by you, and stays; "
-        "missing files are written. What differs is listed. From then on exports merge with it as with any edit.",
+        help="take over packages that exist already; differences count as your edits",
+        description="Build robots whose packages exist already: another tool wrote them, or urdfsync's recorded state "
+        "is lost. A file that differs from the generated one counts as edited by you: it stays, and is listed. Missing "
+        "files are written. Later exports merge with your files as with any edit.",
         epilog="example: urdfsync adopt arm --dry-run",
     )
     parser.add_argument("robots", nargs="+", metavar="ROBOT", help="robots of urdfsync.toml")

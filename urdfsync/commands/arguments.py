@@ -24,11 +24,11 @@ CODES = (
     "4 another build is running, 130 interrupted"
 )
 DRIVER_ERROR = 255
-"""Exit code with which a merge driver of git says that it failed; up to 128 are conflicts."""
+"""Exit code of a failed merge driver of git; lower ones count conflicts."""
 
 
 class UsageError(UrdfsyncError):
-    """Arguments that a command does not take; `usage` says which it takes."""
+    """Wrong arguments; `usage` lists the right ones."""
 
     def __init__(self, parser: argparse.ArgumentParser, message: str, hint: str = "") -> None:
         super().__init__(Diagnostic(Severity.ERROR, "usage", message, hint=hint or f"`{parser.prog} --help` says more"))
@@ -89,13 +89,13 @@ _SHARED: Mapping[str, dict[str, Any]] = {
     "--trust": {
         "dest": "trusted",
         "action": "store_true",
-        "help": "write to an `output` outside of the configuration's folder, run a robot's `command`, and start "
-        "OpenModelica though the configuration chooses it, or names its program with `omc`",
+        "help": "allow the configuration to write outside of its folder, to run a robot's `command`, and to choose "
+        "OpenModelica or its program (`omc`)",
     },
     "--jobs": {"type": count, "metavar": "N", "help": "processes for many robots (default: one per core)"},
-    "--timeout": {"type": amount, "metavar": "S", "default": 600.0, "help": "seconds for a robot (default: 600)"},
-    "--memory": {"type": amount, "metavar": "GB", "help": "memory for all of it (default: most of what is free)"},
-    # never from the configuration: workers may do whatever they want
+    "--timeout": {"type": amount, "metavar": "S", "default": 600.0, "help": "seconds for each robot (default: 600)"},
+    "--memory": {"type": amount, "metavar": "GB", "help": "memory for all processes (default: most of what is free)"},
+    # never from the configuration: a worker can do anything with the files
     "--executor": {
         "default": "",
         "metavar": "ADDRESS",
@@ -127,17 +127,17 @@ def add_command(commands: Commands, name: str, shared: str = "", *, formats: boo
 
 
 def wants_json(given: Sequence[str]) -> bool:
-    """Return whether arguments ask for JSON, also if they are wrong and no parser takes them."""
+    """Return whether arguments ask for JSON, even if no parser accepts them."""
     return "--format=json" in given or ("--format", "json") in itertools.pairwise(given)
 
 
 def add_dry_run(container: argparse._ActionsContainer) -> None:
     """Add the option for a run that writes nothing."""
-    container.add_argument("-n", "--dry-run", action="store_true", help="say what would be done, write nothing")
+    container.add_argument("-n", "--dry-run", action="store_true", help="show what would be done, write nothing")
 
 
 def add_tool(parser: Parser, titles: Mapping[str, str]) -> None:
-    """Add the option that chooses a compiler by its name; `titles` are what else it is called."""
+    """Add the option that chooses a compiler; `titles` are the names of its option and argument."""
     *names, last = (name if name == title else f"{name} for {title}" for name, title in titles.items())
     which = f"the compiler: {', '.join(names)}, or {last}"
     parser.add_argument("--tool", choices=tuple(titles), help=f"{which} (default: as configured, else {names[0]})")
@@ -153,7 +153,7 @@ def select_robots(args: argparse.Namespace, configuration: Config, console: Cons
 
 
 def select_robot(args: argparse.Namespace, console: Console) -> tuple[Config, RobotConfig]:
-    """Return the configuration, and the robot that the arguments of a command name that takes one, likewise."""
+    """Return the configuration and the one robot that the arguments name; warn of settings without effect."""
     loaded = load(args.config)
     robots = select_robots(args, loaded, console)
     return loaded, loaded.select_one([robot.name for robot in robots], args.command)
@@ -162,7 +162,7 @@ def select_robot(args: argparse.Namespace, console: Console) -> tuple[Config, Ro
 def call(
     function: Callable[..., Value], kind: type[msgspec.Struct], args: argparse.Namespace, console: Console, **given: Any
 ) -> Value:
-    """Call a function of the API for the robots that are meant; tell settings without effect before.
+    """Call a function of the API for the chosen robots; warn of settings without effect before.
 
     The options of a `kind` are arguments of the same names, or `given`.
     """
@@ -184,7 +184,7 @@ def chosen(kind: type[msgspec.Struct], args: argparse.Namespace) -> dict[str, An
 
 
 def split_sources(texts: Sequence[str], parser: argparse.ArgumentParser) -> tuple[list[Path], dict[str, str]]:
-    """Return sources, and arguments of xacro, which are written as on its command line: `NAME:=VALUE`."""
+    """Return the sources, and the arguments of xacro, `NAME:=VALUE`."""
     values = dict[str, str]()
     for text in texts:
         name, is_argument, value = text.partition(":=")
@@ -197,7 +197,7 @@ def split_sources(texts: Sequence[str], parser: argparse.ArgumentParser) -> tupl
 
 
 def _may_be_xacro(source: Path) -> bool:
-    """Return whether a source is xacro, as far as that can be told: whoever reads it says why it can't be read."""
+    """Return whether a source looks like xacro; its reader reports an unreadable one."""
     from urdfsync.engine.source import is_xacro
 
     try:
@@ -207,12 +207,12 @@ def _may_be_xacro(source: Path) -> bool:
 
 
 def can_ask(console: Console) -> bool:
-    """Return whether somebody is there to answer."""
+    """Return whether a person can answer a question."""
     return not console.is_document and sys.stdin is not None and sys.stdin.isatty()
 
 
 def is_confirmed(question: str, done: str, console: Console) -> bool:
-    """Ask the user whether something is to be `done`. Raises UrdfsyncError if nobody is there to answer."""
+    """Ask the user to confirm; `done` is the action as a participle. Raises UrdfsyncError without a terminal."""
     if not can_ask(console):
         message, hint = f"nothing was {done}: there is no terminal to ask on", "look at what is shown, then give --yes"
         raise UrdfsyncError.of("not-confirmed", message, hint=hint)

@@ -45,7 +45,7 @@ def add(commands: arguments.Commands) -> None:
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
-    """Build the robots, one after the other, and show each as soon as it is built."""
+    """Build the robots one by one, and show each result at once."""
     given = {"dry": args.dry_run or args.check, "merge": args.merge}
     results = arguments.call(build, BuildOptions, args, console, on_result=partial(show_result, console), **given)
     console.tell(_next_steps(results))

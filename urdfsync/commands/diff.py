@@ -26,8 +26,8 @@ def add(commands: arguments.Commands) -> None:
         "--wait",
         formats=True,
         help="show what changed in the sources since the last build",
-        description="Show what changed in a source since the last build, or since another version of it: by element, "
-        "with what follows for the whole model and for the files of the package. Nothing is written.",
+        description="Show what changed in a source since the last build, or since another version of it: the elements, "
+        "the effects on the whole model, and the files that change. Nothing is written.",
         epilog="examples: urdfsync diff cad/arm.urdf\n"
         "          urdfsync diff arm --against HEAD~1\n"
         "          urdfsync diff cad/arm.urdf --against old/arm.urdf\n"

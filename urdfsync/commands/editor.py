@@ -1,6 +1,6 @@
-"""`urdfsync resolve --edit`: the user's editor on files outside of the project: that of `$VISUAL` or `$EDITOR`.
+"""`urdfsync resolve --edit`: starts the editor of `$VISUAL` or `$EDITOR` on files outside of the project.
 
-Nothing else chooses the program: the project may be a clone of a stranger's, and its folders may pose as repositories.
+No setting of git chooses the program: the project may be a stranger's clone, and its folders may pose as repositories.
 """
 
 from __future__ import annotations
@@ -25,10 +25,10 @@ _HINT = "set $VISUAL or $EDITOR"
 
 
 def edit(conflicts: Sequence[Conflict]) -> tuple[Path, dict[str, str]]:
-    """Let the user make one text of both sides of each conflict.
+    """Let the user write one text for each conflict.
 
-    Returns the folder with the edited files, and their texts by the paths of the conflicts. Raises UrdfsyncError if
-    there is no editor, if it fails, and for a text that can't be used; the folder stays.
+    Returns the folder with the edited files, and the texts by the conflicts' paths. Raises UrdfsyncError if there is no
+    editor, if it fails, and for an unusable text; the folder stays.
     """
     command = os.environ.get("VISUAL") or os.environ.get("EDITOR") or ""
     try:
@@ -38,9 +38,9 @@ def edit(conflicts: Sequence[Conflict]) -> tuple[Path, dict[str, str]]:
     if not words:
         raise UrdfsyncError.of("no-editor", "there is no editor to open", hint=_HINT)
     folder, texts = Path(tempfile.mkdtemp(prefix="urdfsync-edit-")), dict[str, str]()
-    hint = f"what you edited is in {folder}; --edit begins anew"
+    hint = f"your text is in {folder}; --edit begins anew"
     for number, conflict in enumerate(conflicts):
-        file = folder / str(number) / PurePosixPath(conflict.path).name  # many have the same name
+        file = folder / str(number) / PurePosixPath(conflict.path).name  # several may have the same name
         file.parent.mkdir()
         proposal = conflict.merge.proposal if conflict.merge else _both(conflict.mine, conflict.generated)
         proposal = proposal if conflict.edited is None else conflict.edited
@@ -67,7 +67,7 @@ def edit(conflicts: Sequence[Conflict]) -> tuple[Path, dict[str, str]]:
 
 
 def _both(mine: str, generated: str) -> str:
-    """Return both texts as one, with markers around what differs: there is no base to merge with."""
+    """Return both texts as one, with markers around differences; for conflicts without a base."""
     sides = [text.replace("\r\n", "\n").splitlines() for text in (mine, generated)]
     lines: list[str] = []
     for what, *places in difflib.SequenceMatcher(a=sides[0], b=sides[1], autojunk=False).get_opcodes():
@@ -77,7 +77,7 @@ def _both(mine: str, generated: str) -> str:
 
 
 def _flaw(content: bytes, conflict: Conflict) -> str:
-    """Return why an edited text can't be used, as the end of a sentence; empty if it can."""
+    """Return the fault of an edited text, as the end of a sentence; empty for a usable one."""
     try:
         text = content.decode()
     except UnicodeDecodeError:

@@ -31,8 +31,8 @@ def add(commands: arguments.Commands) -> None:
         "--wait --trust --set --timeout --memory",
         help="export a robot as FMU, by OpenModelica",
         description="Export the Run model of a robot, or a model of yours, as FMU, with the package as it is on disk. "
-        "It has the inputs and outputs of the model by their names. OpenModelica has to be there. With --check FMPy "
-        "validates the FMU, and its trajectory is compared with that of `urdfsync simulate`.",
+        "It has the model's inputs and outputs under their names. It needs OpenModelica. With --check, FMPy validates "
+        "the FMU and runs it, and the result is compared with `urdfsync simulate`.",
         epilog="examples: urdfsync fmu arm\n"
         "          urdfsync fmu arm --fmi 3 --kind cs --output arm.fmu --check\n"
         "          urdfsync fmu arm --input motion.csv --check",
@@ -44,17 +44,17 @@ def add(commands: arguments.Commands) -> None:
     option("--fmi", choices=tuple(_VERSIONS), default="2", help="the version of FMI (default: 2)")
     kind = "model exchange, co-simulation or both (default: both)"
     option("--kind", choices=tuple(_EXPORTED), default="both", help=kind)
-    tolerance = f"of the integration inside, for co-simulation (default: {TOLERANCE:g})"
+    tolerance = f"tolerance of the FMU's own integration, for co-simulation (default: {TOLERANCE:g})"
     option("--tolerance", type=arguments.amount, metavar="T", help=tolerance)
     stop = f"end of the simulation that the FMU proposes (default: as the model says, else {STOP:g})"
     option("--stop", type=arguments.amount, metavar="S", help=stop)
-    option("--step", type=arguments.amount, metavar="S", help="the step that it proposes (default: likewise)")
+    option("--step", type=arguments.amount, metavar="S", help="the step that the FMU proposes (default: likewise)")
     option("--check", action="store_true", help="validate it with FMPy, and compare its trajectory with `simulate`")
     option("--input", dest="motion", type=Path, metavar="FILE.csv", help="the motion for the check (default: at rest)")
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
-    """Export one model, check it if that is wanted, and write it."""
+    """Export one model, check it on demand, and write it."""
     configuration, robot = arguments.select_robot(args, console)
     if args.check and importlib.util.find_spec("fmpy") is None:
         raise ConfigError.of("no-fmpy", "`--check` needs FMPy, which is not installed", hint=install_command("fmu"))

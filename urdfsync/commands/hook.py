@@ -1,7 +1,7 @@
-"""`urdfsync hook`: builds or checks before a commit, as `build` and `build --check` do, then asks git for the rest.
+"""`urdfsync hook`: builds or checks before a commit, as `build` and `build --check` do, then looks at git's index.
 
-A commit passes if the working tree is in step, and all that a build reads and writes of the robots that the commit
-touches is staged as it is there. Under pre-commit the working tree is what is staged, but for untracked files.
+A commit passes if the working tree is in step, and if all files that a build of the touched robots reads or writes are
+staged as they are on disk. Under pre-commit, the working tree equals the index but for untracked files.
 """
 
 from __future__ import annotations
@@ -34,11 +34,11 @@ from urdfsync.output.console import Console
 from urdfsync.spelling import counted
 
 _FEW = 4
-"""So many files to add are named one by one."""
+"""The most files to add that are named one by one."""
 _COMMITTED = (f"robots{os.sep}", f"bases{os.sep}", ".git")
-"""Parts of the state that belong into version control."""
+"""Parts of the state to commit."""
 _UNNEEDED = ORPHANS | {Reason.FORGET, Reason.UNKNOWN}
-"""Actions on files that a clone can do without."""
+"""Actions on files that other clones do not need."""
 
 
 class Fault(msgspec.Struct, frozen=True):
@@ -46,7 +46,7 @@ class Fault(msgspec.Struct, frozen=True):
 
     diagnostic: Diagnostic
     result: Result | None = None
-    """The result of a build or a dry run; None if nothing is to be built."""
+    """The result of a build or a dry run; None if neither ran."""
 
 
 def add(commands: arguments.Commands) -> None:
@@ -56,8 +56,8 @@ def add(commands: arguments.Commands) -> None:
         "hook",
         "--wait --jobs",
         help="build or check what is being committed; for hooks of git",
-        description="Build or check the robots that a commit touches, and make sure that all of it is staged. "
-        "All configurations that git tracks are looked at, or that of --config. The index is never written.",
+        description="Build or check the robots that a commit touches, and require that all their files are staged. "
+        "All configurations that git tracks are checked, or that of --config. The index is never written.",
         epilog="example: urdfsync hook check",
     )
     modes = "build brings packages in step, check writes nothing"
@@ -65,7 +65,7 @@ def add(commands: arguments.Commands) -> None:
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
-    """Check the configuration that the arguments name, or all that git tracks."""
+    """Check the configuration of --config, or all that git tracks."""
     faults, errors = list[Fault](), list[Diagnostic]()
     try:
         commit = Commit()
@@ -90,7 +90,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
 
 
 class Commit:
-    """The files of a commit, named as git does: by their path from the top of the repository."""
+    """The files of a commit, named by their paths from the top of the repository, as in git."""
 
     def __init__(self) -> None:
         """Raises GitError, and SourceError while files are unmerged."""
@@ -101,13 +101,13 @@ class Commit:
         self.files = self.index.find_committed()
         is_commit = self.files or "GIT_INDEX_FILE" in os.environ
         self.touched = self.files if is_commit else self.index.tracked
-        """The files whose robots are checked; all if nobody commits, such as for `pre-commit run --all-files`."""
+        """The files whose robots are checked; all files if there is no commit, as in `pre-commit run --all-files`."""
         self._real_folders: dict[str, str] = {}
 
     def path(self, file: str | Path) -> str | None:
-        """Return the path of a file from the top; None if it lies outside. For one in a submodule, this is the path.
+        """Return the path of a file from the top; None outside. For a file in a submodule, return the submodule's path.
 
-        Links among the folders are followed, as git does not track what is behind them.
+        Links to folders are followed, since git tracks no files behind them.
         """
         folder, name = os.path.split(os.path.abspath(file))  # noqa: PTH100 - strings: there are thousands of files
         if folder not in self._real_folders:
@@ -119,29 +119,29 @@ class Commit:
         return next((module for module in self.index.submodules if path.startswith(f"{module}/")), path)
 
     def paths(self, files: Iterable[str | Path]) -> set[str]:
-        """Return the paths of files, and of what they are links to."""
+        """Return the paths of files, and of the targets of links."""
         names = {os.fspath(file) for file in files}
         names |= {os.path.realpath(name) for name in names if os.path.islink(name)}  # noqa: PTH114
         return {path for name in names if (path := self.path(name)) is not None}
 
 
 class RobotFiles:
-    """The files of one robot as git names them: all that a build of it reads and writes."""
+    """The files that a build of one robot reads or writes, by their paths in git."""
 
     def __init__(self, commit: Commit, config: Config, robot: RobotConfig, planned: Result) -> None:
         """`planned` is the result of a dry run."""
         self._commit, self._config_file, self.robot, self.planned = commit, config.file, robot, planned
         self._state = f"{config.root / STATE_FOLDER}{os.sep}"
         self.outputs = commit.paths(parents.files(robot))
-        """Files that a commit has to have if they exist."""
+        """Files that the commit needs if they exist."""
         self.known = commit.paths([config.file])
-        """These, and files that are read, or could have been there."""
+        """These, files that a build read, and files that it looked for."""
         self.note(planned)
         folders = [robot.folder, Path(self._state, "bases", robot.name), *filter(None, [robot.templates])]
         self.folders = tuple(f"{path}/" for folder in folders if (path := commit.path(folder)) is not None)
 
     def note(self, result: Result) -> None:
-        """Add all that a plan or a build has read and written."""
+        """Add the files that a plan or a build has read or written."""
         entries = [entry for entry in result.reads.entries if entry[0] not in (*LISTINGS, VARIABLE)]
         package = f"{self.robot.folder}{os.sep}"
         outputs = {path for check, path in entries if check == LSTAT or path.startswith(package)}
@@ -151,7 +151,7 @@ class RobotFiles:
         self.known |= self.outputs | self._commit.paths(path for _, path in entries)
 
     def _is_for_git(self, path: str) -> bool:
-        """Return whether a file is no uncommitted part of the state."""
+        """Return whether a file is to be committed: not all of the state is."""
         return not path.startswith(self._state) or path.removeprefix(self._state).startswith(_COMMITTED)
 
     def select(self, paths: Iterable[str]) -> set[str]:
@@ -162,12 +162,12 @@ class RobotFiles:
         """Return the files that have to be added to the commit."""
         index = self._commit.index
         outputs = {path for path in self.outputs - index.tracked if Path(index.top, path).is_file()}
-        # what git ignores may be read, and the user's models need not be in the commit
+        # a build may read ignored files, and the user's models need not be in the commit
         inputs = {path for path in self.known & index.untracked if not path.endswith(".mo")}
         return self.select(index.unstaged) | outputs | inputs
 
     def find_fault(self) -> Fault | None:
-        """Return why a commit that touches the robot does not pass, before anything is built."""
+        """Return why the commit fails before a build; None if it does not."""
         index = self._commit.index
         if hidden := self.select(index.hidden):
             message = f"git is told not to look at {', '.join(sorted(hidden))}"
@@ -183,7 +183,7 @@ class RobotFiles:
         return None
 
     def fault_of_build(self, result: Result, hint: str) -> Fault:
-        """Return the fault of a robot that a build has written, or would have to."""
+        """Return the fault of a robot that a build wrote, or that is out of step."""
         if result.failed or result.conflicts or result.is_broken:
             return self.fault("out-of-step", result.summary, "", result)
         return self.fault("out-of-step", f"out of step: {result.summary}", hint, result)
@@ -194,14 +194,14 @@ class RobotFiles:
         return Fault(Diagnostic(Severity.ERROR, code, message, place, hint=hint), result)
 
     def adding(self, paths: Collection[str]) -> str:
-        """Return the command that adds files to the commit, from whichever folder of the repository."""
+        """Return the command that adds files to the commit; it works in each folder of the repository."""
         index, names = self._commit.index, set(paths)
         ignored = names - index.tracked - index.untracked
         for folder in self.folders if len(names) > _FEW and not ignored else ():
             inside = {path for path in index.unstaged | index.untracked if path.startswith(folder)}
-            if len(inside) > 1 and inside <= names:  # nothing else is to add in there
+            if len(inside) > 1 and inside <= names:  # all new files of this folder are to be added
                 names = names - inside | {folder.removesuffix("/")}
-        # hooks run at the top, the user's shell elsewhere; a second colon ends what git takes for its signs
+        # `:/` names the top: hooks run there, the user's shell elsewhere; a second colon ends git's signs
         from_top = [f":/{'' if name[0].isalnum() or name[0] == '.' else ':'}{name}" for name in sorted(names)]
         return f"`{shlex.join(['git', 'add', *(['-f'] if ignored else []), *from_top])}`"
 
@@ -226,11 +226,11 @@ def _find_faults(commit: Commit, path: str, options: BuildOptions, writing: bool
             yield fault
     alone = msgspec.structs.replace(options, renews=False)
     results = list(build(config, [robot.robot for robot in to_build], alone)) if to_build else []
-    commit.index = git.Index()  # of which builds have changed files
+    commit.index = git.Index()  # builds have changed files
     for robot, result in zip(to_build, results, strict=True):
         robot.note(result)
         unstaged = robot.find_unstaged()
-        if unstaged or exit_code([result]) is not Exit.IN_STEP:  # else all that was written lies elsewhere
+        if unstaged or exit_code([result]) is not Exit.IN_STEP:  # else the commit has none of the written files
             yield robot.fault_of_build(result, robot.adding(unstaged))
 
 

@@ -1,4 +1,4 @@
-"""`urdfsync init`: writes a first configuration, guessed from the sources, with the reason of every guess."""
+"""`urdfsync init`: guesses a first configuration from the sources, and gives the reason of each guess."""
 
 from __future__ import annotations
 
@@ -38,14 +38,14 @@ _DEFAULTS = """\
 output = "modelica"  # the folder that the packages go into
 # create_parents = true  # make the packages around `package` if they do not exist
 # on_build = "check"  # compile each package after its build, as `urdfsync check` does; default "nothing"
-{on_conflict}on_conflict = "merge"  # where you and the source changed a file, merge what fits together; default "keep"
+{on_conflict}on_conflict = "merge"  # merge your edits with new exports unless they contradict; default "keep"
 # package_paths = []  # folders in which `package://` is looked for
-# users = []  # where models of your own use the robots, beside this folder: a build names the uses of what is gone
-# ignore = []  # codes of warnings that are not told, as in ["mesh-not-found"]
+# users = []  # more folders with models of your own that use the robots: a build lists uses of removed names
+# ignore = []  # codes of warnings to hide, as in ["mesh-not-found"]
 # templates = "templates"  # folder with templates of your own; each replaces that of urdfsync with its name
 """
 _LONGEST = 80
-"""A longer stem is cut: robots and packages become names of files."""
+"""The most characters of a guessed name: robots and packages become names of files."""
 
 
 class Guess(msgspec.Struct, frozen=True):
@@ -77,7 +77,7 @@ def add(commands: arguments.Commands) -> None:
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
-    """Write the configuration, and show what was guessed."""
+    """Write the configuration, and show the guesses."""
     file = config.working_folder() / (args.config or config.FILE_NAME)
     _refuse_existing(file)
     domain = registry.domain(args.domain)
@@ -106,11 +106,10 @@ def run(args: argparse.Namespace, console: Console) -> int:
 def guess_robots(
     domain: Domain, root: Path, named: Sequence[Path], given: Mapping[str, str], taken: Collection[str] = ()
 ) -> tuple[list[Guess], list[Diagnostic]]:
-    """Guess a robot for each source that is named, or for each below `root` if none is; with warnings about them.
+    """Guess a robot for each of the `named` sources, else for each source below `root`; also return warnings.
 
-    Sources of xacro get the arguments that are `given`. No robot gets one of the names of robots and packages that are
-    `taken`. A source that is named twice counts once. Raises ConfigError if there is no source, SourceError if one that
-    is named can't be read, or none of those that were found.
+    `given` are arguments for xacro, `taken` names of robots and packages. A source that is named twice counts once.
+    Raises ConfigError if there is no source, SourceError if a named one, or each found one, is unreadable.
     """
     unique: dict[str, Path] = {}
     for source in named or _search(root, f".{domain.name}"):
@@ -152,7 +151,7 @@ def _search(folder: Path, suffix: str) -> Iterator[Path]:
 def _guess(
     domain: Domain, source: Path, given: Mapping[str, str], root: Path, taken: Collection[str]
 ) -> tuple[Guess, Sequence[Diagnostic]]:
-    """Return a robot for a source, under names that are not taken; with warnings. Raises SourceError."""
+    """Return a robot for a source, under free names; also warnings. Raises SourceError."""
     path = source if source.is_absolute() and root not in source.parents else Path(os.path.relpath(source, root))
     if any(ord(char) < 32 or ord(char) == 127 or "\ud800" <= char <= "\udfff" for char in str(path)):
         message, hint = "the name of the source can't be written into a configuration", "rename it"
@@ -173,13 +172,13 @@ def _guess(
 
 
 def configuration_text(domain: Domain, guesses: Sequence[Guess], *, merges: bool) -> str:
-    """Return a configuration with comments; `merges` is consent to merge edited files."""
+    """Return a configuration with comments; `merges`: builds may merge edited files."""
     defaults = _DEFAULTS.format(on_conflict="" if merges else "# ")
     return "\n".join([_HEADER, defaults, *(robot_table(guess, domain) for guess in guesses)])
 
 
 def robot_table(guess: Guess, domain: Domain) -> str:
-    """Return the table of a robot, with its options: those that are guessed, and the others as comments."""
+    """Return the table of a robot, with guessed options, and the others as comments."""
     lines = [
         f"[robots.{guess.robot}]",
         _assignment("source", guess.source),
@@ -238,7 +237,7 @@ def _refuse_existing(file: Path) -> None:
 
 
 def show_guesses(console: Console, file: Path, done: str, guesses: Sequence[Guess]) -> int:
-    """End a command: show what was `done` to the configuration, and what was guessed for each robot, and why."""
+    """End a command: show what was `done` to the configuration, and each guess with its reason."""
     lines = [line((shown(file), "bold"), (f" {done}", ""))]
     for guess in guesses:
         name, package = (guess.robot, "bold"), (guess.package, "bold")

@@ -1,4 +1,4 @@
-"""`urdfsync library`: says where the Modelica library is."""
+"""`urdfsync library`: prints the folder of the Modelica library."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def add(commands: arguments.Commands) -> None:
         "library",
         help="print where the Modelica library is",
         description="Print the folder of the Modelica library, and the line that puts it on MODELICAPATH. "
-        "Into a pipe or a file goes the line alone.",
+        "A pipe or a file gets only the line.",
         epilog='example: eval "$(urdfsync library)"',
     )
 

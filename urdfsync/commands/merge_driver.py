@@ -1,4 +1,4 @@
-"""`urdfsync merge-driver`: git merges Modelica files with it, by the elements of their classes."""
+"""`urdfsync merge-driver`: lets git merge Modelica files by the elements of their classes."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ from urdfsync.output.console import Console, line
 from urdfsync.spelling import counted
 
 _MARKER_SIZE = 7
-"""Length of markers, unless another one is given."""
+"""The default length of markers."""
 _ATTRIBUTE = b"*.mo merge=urdfsync\n"
-"""The line that says for which files git calls the driver."""
+"""The line that names the driver's files."""
 _PLACEHOLDERS = "--path=%P --marker-size=%L --ours=%X --theirs=%Y %O %A %B"
 
 
@@ -30,22 +30,22 @@ def add(commands: arguments.Commands) -> None:
         "merge-driver",
         help="let git merge Modelica files by their elements",
         description="Let git merge Modelica files by the elements of their classes, in merges, rebases and "
-        "cherry-picks. With --install, tell git in this clone, and write into .gitattributes of the working folder for "
-        "which files. Without, git calls it: what changed from BASE to OTHER is brought into MINE, and what both "
-        "changed is put between markers.",
+        "cherry-picks. With --install, set it up in this clone, and name the files in .gitattributes of the working "
+        "folder. Git then calls it with three files: it merges the changes from BASE to OTHER into MINE, and puts "
+        "contradictions between markers.",
         epilog="example: urdfsync merge-driver --install\n\nexit codes: 0 merged or installed, "
         "1 conflicts, 255 error (2 by --install)",
     )
-    parser.add_argument("--install", action="store_true", help="set it up in the clone around")
+    parser.add_argument("--install", action="store_true", help="set it up in the clone of the working folder")
     for name, words in (
         ("base", "the common ancestor (%%O of git)"),
         ("mine", "the version of this side, to which the result is written (%%A)"),
         ("other", "the version of the other side (%%B)"),
     ):
         parser.add_argument(name, metavar=name.upper(), type=Path, nargs="?", help=words)
-    parser.add_argument("--path", metavar="PATH", type=Path, help="what messages call the file (%%P)")
-    parser.add_argument("--ours", metavar="LABEL", default="", help="what MINE is called in markers (%%X)")
-    parser.add_argument("--theirs", metavar="LABEL", default="", help="what OTHER is called in markers (%%Y)")
+    parser.add_argument("--path", metavar="PATH", type=Path, help="name of the file in messages (%%P)")
+    parser.add_argument("--ours", metavar="LABEL", default="", help="name of MINE in markers (%%X)")
+    parser.add_argument("--theirs", metavar="LABEL", default="", help="name of OTHER in markers (%%Y)")
     size = "length of markers (%%L; default: 7)"
     parser.add_argument("--marker-size", metavar="N", type=int, default=_MARKER_SIZE, help=size)
 
@@ -62,7 +62,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
 
 
 def can_install(folder: Path) -> bool:
-    """Return whether a folder is in a clone in which git does not merge its models by their elements yet."""
+    """Return whether a folder is in a clone without the driver."""
     try:
         git.run("-C", str(folder), "rev-parse", "--show-toplevel")
     except git.GitError:
@@ -84,9 +84,9 @@ def _is_named(folder: Path) -> bool:
 
 
 def install(folder: Path, console: Console) -> None:
-    """Enter the command into the settings of the clone, and into `.gitattributes` of the folder, if no line has it.
+    """Write the command to the clone's settings, and its line to `.gitattributes` of the folder if it is not there.
 
-    Raises UrdfsyncError if that can't be.
+    Raises UrdfsyncError if that fails.
     """
     # git starts it in the top folder of the clone: without -P, Python would import a folder `urdfsync` from there
     command = f"{shlex.quote(sys.executable)} -P -m urdfsync merge-driver".replace("%", "%%")
@@ -131,5 +131,5 @@ def _merge(args: argparse.Namespace) -> list[Diagnostic]:
 
 
 def _label(given: str, default: str) -> str:
-    """Return a label of git's as one line; git before 2.44 gives its placeholder as it is."""
+    """Return a label of git's as one line; git before 2.44 leaves the placeholder."""
     return default if given in ("", "%X", "%Y") else " ".join(given.split())

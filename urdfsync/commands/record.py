@@ -27,8 +27,8 @@ def add(commands: arguments.Commands) -> None:
         help="write the whole robot as one record",
         description="Write the record of a source alone: all numbers of the robot, and the tables by which "
         "UrdfSync.Robots.GenericRobot reads them. It needs no urdfsync.toml and leaves nothing else behind; meshes "
-        "are not imported. For a record that follows its source, and for a robot whose base floats, use "
-        '`approach = ["record"]` in a project: only there is the height computed that it stands at.',
+        "are not imported. For a record that follows its source, and for a floating base, use "
+        '`approach = ["record"]` in a project: only a project computes the height at which the robot stands.',
         epilog="examples: urdfsync record robot.urdf\n"
         "          urdfsync record robot.urdf -o modelica/Plant/ArmParameters.mo --within Plant",
     )
@@ -58,17 +58,17 @@ def run(args: argparse.Namespace, console: Console) -> int:
         written = msgspec.structs.replace(written, file=file, is_written=is_written)
     elif not console.is_document:
         if hasattr(sys.stdout, "reconfigure") and not sys.stdout.isatty():
-            sys.stdout.reconfigure(encoding="utf-8", newline="\n")  # a file is what Modelica tools read
+            sys.stdout.reconfigure(encoding="utf-8", newline="\n")  # as in a file: Modelica tools read UTF-8
         sys.stdout.write(written.text)
     console.add(written)
     return console.end(Exit.IN_STEP)
 
 
 def _write(text: str, source: Path, file: Path, *, force: bool) -> bool:
-    """Write the record, as a whole or not at all; return whether that was necessary.
+    """Write the record, as a whole or not at all; return whether it changed.
 
-    A file that holds something else is replaced with `force` only, the source never. Raises OutputError for that, and
-    for what can't be written.
+    Another file's content is replaced only with `force`, the source never. Raises OutputError for both, and if writing
+    fails.
     """
     check_file(file, {"the source": source})
     content = text.encode()

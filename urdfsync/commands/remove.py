@@ -1,4 +1,4 @@
-"""`urdfsync remove`: takes a robot out of the configuration, with its package as far as that is untouched."""
+"""`urdfsync remove`: takes a robot out of the configuration, with the unedited files of its package."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from urdfsync.output.terminal import file_line, text
 from urdfsync.state.transaction import save
 
 _FILES = 20
-"""So many files that go are listed at most, without --verbose."""
+"""The most deleted files that are listed without --verbose."""
 
 
 def add(commands: arguments.Commands) -> None:
@@ -31,29 +31,29 @@ def add(commands: arguments.Commands) -> None:
         "--wait --trust",
         help="take a robot out of urdfsync.toml, with its package",
         description="Take a robot's table out of urdfsync.toml, with all files of its package that nobody edited, its "
-        "line in the package.order around, and its recorded state. What goes is shown before. Files that you edited, "
-        "and records that your own files need, stay.",
+        "line in the package.order around, and its recorded state. You see first what will be deleted. Files that you "
+        "edited, and records that your own files need, stay.",
         epilog="example: urdfsync remove gripper --dry-run",
     )
-    parser.add_argument("robot", metavar="ROBOT", help="the robot of urdfsync.toml that leaves")
+    parser.add_argument("robot", metavar="ROBOT", help="the robot to remove")
     mode = parser.add_mutually_exclusive_group()
     arguments.add_dry_run(mode)
     mode.add_argument("--yes", action="store_true", help="do not ask")
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
-    """Show what goes, ask, and take it away: package and recorded state first, then the table."""
+    """Show what will be deleted, ask, and delete it: package and recorded state first, then the table."""
     configuration = load(args.config)
     robots = configuration.select([args.robot])
     if len(robots) > 1:
         raise arguments.UsageError(args.parser, f"{args.robot!r} means {len(robots)} robots: name one")
     name = robots[0].name
-    _without_robot(configuration, name, configuration.file.read_bytes())  # refuses a table that can't be taken out
+    _without_robot(configuration, name, configuration.file.read_bytes())  # refuses a table that can't be removed
     if not args.yes:
         (result,) = build(configuration, robots, arguments.request(args, console, dry=True, removes=True))
         _show(console, result, f"its table in {shown(configuration.file)} goes")
     if args.yes or not (args.dry_run or result.failed or not arguments.is_confirmed("Remove it?", "removed", console)):
-        # the generator holds the build lock until the loop ends: no other build brings the package back meanwhile
+        # the generator holds the build lock until the loop ends: no other build can write the package again meanwhile
         for result in build(configuration, robots, arguments.request(args, console, removes=True)):
             if not result.failed:
                 _take_out(configuration, name)
@@ -62,7 +62,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
 
 
 def _show(console: Console, result: Result, words: str) -> None:
-    """Show what was done, or would be, with each file that goes, changes or stays."""
+    """Show what was done, or would be done, with each file."""
     if console.is_document or result.failed:
         show_result(console, result)
         return
@@ -82,7 +82,7 @@ def _reason(action: Action) -> str:
 
 
 def _take_out(configuration: Config, robot: str) -> None:
-    """Write the configuration without the robot. Raises UrdfsyncError, also if somebody saves it meanwhile."""
+    """Write the configuration without the robot. Raises UrdfsyncError, also if it was saved meanwhile."""
     with write_errors(configuration.file):
         content = configuration.file.read_bytes()
         save(configuration.file, content, _without_robot(configuration, robot, content))

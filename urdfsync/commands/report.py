@@ -45,7 +45,7 @@ def add(commands: arguments.Commands) -> None:
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
-    """Write the page of one robot, and say where it is."""
+    """Write the page of one robot, and show its path."""
     from urdfsync.checks.robot import known_check
     from urdfsync.pages.page import is_page  # with Jinja 50 ms, which `urdfsync --help` does without
 
@@ -60,10 +60,10 @@ def run(args: argparse.Namespace, console: Console) -> int:
 def prepare_page(
     args: argparse.Namespace, console: Console, file: Path, *, against: str | None = None, motion: Path | None = None
 ) -> Callable[..., PageDocument]:
-    """Return a function that writes the page of one robot, with the results that `page` takes.
+    """Return a function that writes the page of one robot, with the same results as arguments as `page`.
 
-    `against` is the older version, `motion` a file that the command reads and the page must not replace.
-    Raises an error for a file that can't be written, before what it shows is worked out.
+    `against` is the older version; `motion` is an input file that the page must not replace. Raises an error for an
+    unwritable file, before the work for the page begins.
     """
     from urdfsync.pages.content import gather  # see above
     from urdfsync.pages.page import check_page, page

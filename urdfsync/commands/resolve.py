@@ -1,4 +1,4 @@
-"""`urdfsync resolve`: settles conflicts as the user says, file by file or all at once, and builds what waited."""
+"""`urdfsync resolve`: settles conflicts by the user's choice, one file or all, and writes the files that waited."""
 
 from __future__ import annotations
 
@@ -30,9 +30,9 @@ def add(commands: arguments.Commands) -> None:
         commands,
         "resolve",
         "--wait --trust",
-        help="settle conflicts between your edits and what is generated",
-        description="Settle conflicts between your edits and what is generated. "
-        "Then the files that waited for that are written.",
+        help="settle conflicts between your edits and the generated files",
+        description="Settle conflicts between your edits and the generated files. "
+        "Then write the files that waited for that.",
         epilog="A file that you edited and that is no longer generated can be named too: --keep makes it yours, "
         "--take deletes it.\n\nexample: urdfsync resolve modelica/Arm/Links/Elbow.mo --merge",
     )
@@ -48,7 +48,7 @@ def add(commands: arguments.Commands) -> None:
     }
     for kind, words in kinds.items():
         choice.add_argument(f"--{kind}", dest="choice", action="store_const", const=kind, help=words)
-    words = "say that your edit belongs to the element that is called so now"
+    words = "move your edit to the element that is now called NAME"
     choice.add_argument("--moved", metavar="NAME", help=words)
     words = "with --merge: which side counts where both changed the same"
     parser.add_argument("--prefer", choices=["mine", "generated"], help=words)
@@ -56,7 +56,7 @@ def add(commands: arguments.Commands) -> None:
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
-    """Find the files that the user means, and build their robots with the user's choice."""
+    """Find the named files, and build their robots with the user's choice."""
     choice = _choice(args)
     configuration = load(args.config)
     names = {robot.name for robot in configuration.robots if choice is not Choice.UNDO}.intersection(args.paths)
@@ -73,7 +73,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     if not targets and not any(result.failed for result in planned):
         console.warnings([Diagnostic(Severity.NOTE, "no-conflict", "nothing is in conflict")])
     robots = [robot for robot in configuration.robots if robot.name in concerned]
-    # a choice belongs to the texts that this plan has seen: a file that is saved from now on stays as it is
+    # a choice holds for the texts of this plan: a file that is saved from now on is not touched
     choices = {action.path: UsersChoice(choice, action.sides, args.moved) for _, action in targets.values()}
     edited, folder = dict[str, str](), None
     if choice is Choice.EDIT:
@@ -94,14 +94,14 @@ def run(args: argparse.Namespace, console: Console) -> int:
     if folder and not args.dry_run and edited.keys() <= accepted:
         shutil.rmtree(folder)
     elif folder:
-        hint = "put what you want of it into your file, or edit again"
-        message = "what you edited was not used, or not all of it"
+        hint = "copy from it into your file, or edit again"
+        message = "not all of your edited text was used"
         problems.append(Diagnostic(Severity.NOTE, "edit-left", message, shown(folder), hint=hint))
     return console.end(code, problems)
 
 
 def _choice(args: argparse.Namespace) -> Choice:
-    """Return the choice that the arguments make. Raises UsageError."""
+    """Return the choice of the arguments. Raises UsageError."""
     wrong = "" if args.all or args.paths else "name files or folders, or use --all"
     wrong = "--all goes without paths" if args.all and args.paths else wrong
     wrong = "--undo goes with paths, not with --all" if args.all and args.choice is Choice.UNDO else wrong
@@ -117,9 +117,9 @@ def _choice(args: argparse.Namespace) -> Choice:
 
 
 def _find_named(planned: Sequence[Result], text: str, choice: Choice) -> Iterator[tuple[Result, Action]]:
-    """Yield the files that a path means: itself if it can be decided about, or all conflicts below it.
+    """Yield the file at a path if the choice is possible for it, else all conflicts below the path.
 
-    A file is known by where the user's is, and by where it is to go.
+    A renamed file is found by its old and by its new path.
     """
     path = Path(os.path.normpath(config.working_folder() / text))
     for result in planned if text else ():
@@ -136,11 +136,11 @@ def _find_named(planned: Sequence[Result], text: str, choice: Choice) -> Iterato
                 is_found = True
                 yield result, action
         if choice is Choice.UNDO and not is_found and not os.path.lexists(path) and path.is_relative_to(result.folder):
-            yield result, Action(key_of(path, root), Reason.FORGET, Role.MODEL)  # which a build may have deleted
+            yield result, Action(key_of(path, root), Reason.FORGET, Role.MODEL)  # a build may have deleted it
 
 
 def _refuse(console: Console, planned: Sequence[Result], unknown: Sequence[str]) -> int:
-    """Say that paths mean no file that could be resolved."""
+    """Report paths without a file to resolve."""
     failed = [result for result in planned if result.failed]
     for result in failed:
         show_result(console, result)
@@ -153,9 +153,9 @@ def _refuse(console: Console, planned: Sequence[Result], unknown: Sequence[str])
 def _compare(
     targets: Mapping[str, tuple[Result, Action]], results: Sequence[Result], choice: Choice
 ) -> tuple[set[str], list[Diagnostic]]:
-    """Return the paths at which the choice came about, and why it did not at others.
+    """Return the paths at which the choice was applied, and the reasons why it was not at others.
 
-    A conflict that the choice does not settle is shown as such, with the reason.
+    A conflict that the choice does not settle is shown with its reason.
     """
     actions = {action.path: action for result in results for action in result.actions}
     result_of = {result.robot: result for result in results}
@@ -180,7 +180,7 @@ def _compare(
 
 
 def _without_effect(choice: Choice, action: Action, place: str) -> Diagnostic:
-    """Return why a choice changes nothing about a file that does not conflict."""
+    """Return why a choice has no effect on a file without a conflict."""
     code, message, hint = "no-conflict", "the file has no conflict", "see `urdfsync status`"
     if choice is Choice.UNDO:
         code, hint = "no-undo", "texts that were replaced are below .urdfsync/aside"

@@ -1,4 +1,4 @@
-"""`urdfsync simulate`: simulates a model with a robot's package, and holds the joints against their limits."""
+"""`urdfsync simulate`: simulates a model with a robot's package, and compares the joints with their limits."""
 
 from __future__ import annotations
 
@@ -24,10 +24,10 @@ def add(commands: arguments.Commands) -> None:
         commands,
         "simulate",
         "--wait --trust --set --timeout --memory",
-        help="simulate a robot, and hold its joints against their limits",
+        help="simulate a robot, and compare its joints with their limits",
         description="Simulate the Test model of a robot, or a model of yours, with the package as it is on disk. Show "
-        "for each joint its range, speed and effort beside its limits, and warn of limits that are passed. Nothing is "
-        "written but the files that you name.",
+        "for each joint its range, speed and effort beside its limits, and warn of exceeded limits. Only the files "
+        "that you name are written.",
         epilog="examples: urdfsync simulate arm --plot arm.png\n"
         "          urdfsync simulate --model Plant.Cell --stop 5 --csv cell.csv\n"
         "          urdfsync simulate arm --set robot.elbow.parameters.dynamics.damping=4\n"
@@ -40,13 +40,13 @@ def add(commands: arguments.Commands) -> None:
     option("--stop", type=arguments.amount, metavar="S", help=stop)
     steps = f"interval of results (default: as the model says, else {STEPS} of them)"
     option("--step", type=arguments.amount, metavar="S", help=steps)
-    tolerance = f"of the integration (default: as the model says, else {TOLERANCE:g})"
+    tolerance = f"tolerance of the integration (default: as the model says, else {TOLERANCE:g})"
     option("--tolerance", type=arguments.amount, metavar="T", help=tolerance)
     methods = "; ".join(f"{', '.join(compiler.METHODS)} ({compiler.TITLE})" for compiler in COMPILERS.values())
-    option("--method", metavar="M", default="", help=f"of the integration: {methods}")
+    option("--method", metavar="M", default="", help=f"method of the integration: {methods}")
     option("--input", dest="motion", type=Path, metavar="FILE.csv", help="drive the inputs of the model")
     option("--csv", type=Path, metavar="FILE", help="write the series of joints, inputs and outputs")
-    more = "a variable for that file as well, such as 'robot.hand.*'; may be repeated"
+    more = "another variable for the CSV file, such as 'robot.hand.*'; may be repeated"
     option("--variable", dest="variables", action="append", metavar="PATTERN", default=[], help=more)
     option("--plot", type=Path, metavar="FILE.png|svg", help="draw positions, speeds and efforts against their limits")
     option("--report", type=Path, metavar="FILE.html", help="write a page in which the robot moves, as `report` does")
@@ -54,7 +54,7 @@ def add(commands: arguments.Commands) -> None:
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
-    """Simulate one robot, write what was asked for, and show what came out."""
+    """Simulate one robot, write the named files, and show the result."""
     files = {kind: file for kind in ("csv", "plot") if (file := getattr(args, kind)) is not None}
     write_report = prepare_page(args, console, args.report, motion=args.motion) if args.report else None
     extra = {"files": files, "tool": args.tool, "trusted": args.trusted}

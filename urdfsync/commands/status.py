@@ -1,4 +1,4 @@
-"""`urdfsync status`: says of each file whether it is in step, from the plan of a build that writes nothing."""
+"""`urdfsync status`: shows which files are in step, from the plan of a build that writes nothing."""
 
 from __future__ import annotations
 
@@ -19,15 +19,14 @@ def add(commands: arguments.Commands) -> None:
         commands,
         "status",
         "robots --wait",
-        help="say which files are stale, edited, missing or in conflict",
-        description="Say of each file whether it is in step, stale, edited, missing, an orphan or in conflict. "
-        "Nothing is written.",
+        help="show which files are stale, edited, missing or in conflict",
+        description="Show which files are in step, stale, edited, missing, orphans or in conflict. Nothing is written.",
         epilog="example: urdfsync status arm --verbose",
     )
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
-    """Show how each robot's package stands."""
+    """Show the files of each robot's package."""
     results = arguments.call(
         status, BuildOptions, args, console, on_result=lambda result: show(console, result, status_section, result)
     )

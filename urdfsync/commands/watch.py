@@ -22,16 +22,16 @@ if TYPE_CHECKING:
 
 _CODES = "exit codes: 0 ended by SIGTERM or SIGHUP, 2 error, 4 watched already, 130 ended by SIGINT"
 _SIGNALS = ("SIGINT", "SIGTERM", "SIGHUP", "SIGALRM")
-"""Signals that end the daemon; the last one comes from its own timer."""
+"""Signals that end the daemon; its own timer sends the last one."""
 _TIMES = (
     ("settle", "MS", 300, "milliseconds without an event before a build"),
-    ("sample", "MS", 200, "milliseconds between two reads that have to show the same"),
+    ("sample", "MS", 200, "milliseconds between two reads of files that must be equal"),
     ("patience", "S", 30, "seconds before an invalid source is reported as an error"),
-    ("rescan", "S", 30, "seconds between two reads of all files: the system may drop events, and mounts have none"),
+    ("rescan", "S", 30, "seconds between two reads of all files: the system may drop events, and mounts send none"),
 )
 _PORT = 8357
 _GRACE = 10.0
-"""Seconds after the first signal in which the work in hand has to end."""
+"""Seconds from the first signal until the work in hand is interrupted."""
 
 
 def add(commands: arguments.Commands) -> None:
@@ -99,7 +99,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
 
 
 def _open(address: str) -> bool:
-    """Open a page in a browser; without a screen this would be one for terminals, where the daemon writes."""
+    """Open a page in a browser, but not in one for terminals: the daemon writes there."""
     import webbrowser
 
     has_screen = sys.platform != "linux" or any(map(os.environ.get, ("BROWSER", "DISPLAY", "WAYLAND_DISPLAY")))
@@ -108,9 +108,9 @@ def _open(address: str) -> bool:
 
 @contextlib.contextmanager
 def _signals(daemon: Daemon) -> Iterator[list[str]]:
-    """Stop the daemon when the process is told to end. The first signal lets it finish its work.
+    """Stop the daemon on a signal. The first signal lets it finish its work.
 
-    The second one interrupts the work, and so does the time: a source may be such that reading it never ends.
+    A second signal, or a timer, interrupts the work: reading a source may never end.
     """
     received: list[str] = []
 

@@ -55,7 +55,7 @@ _fields = functools.cache(msgspec.structs.fields)
 def find(start: Path) -> Path:
     """Find the configuration file in `start` or the nearest folder above it. Raises ConfigError if there is none."""
     for folder in (start, *start.parents):
-        # a pipe in its place is no reason to look elsewhere: `load` says that it can't be read
+        # a pipe in its place counts, too: `load` reports it as unreadable
         if dependencies.file_type(folder / FILE_NAME) not in (0, stat.S_IFDIR):
             return folder / FILE_NAME
     message = f"no {FILE_NAME} in {start} or a folder above it"
@@ -191,7 +191,7 @@ class _Reader:
         keys: CheckConfig = self._read(table, CheckConfig) or CheckConfig()
         for compiler in get_args(Compiler):
             program = keys.program(compiler)
-            if Path(program).name != program:  # else a name, which is looked for on the PATH
+            if Path(program).name != program:  # a bare name is looked for on the PATH
                 keys = msgspec.structs.replace(keys, **{compiler: str(self._absolute(Path(program)))})
         return keys, table.lines
 
@@ -213,7 +213,7 @@ class _Reader:
     def check_ignored(self, robots: Sequence[RobotConfig]) -> None:
         """Report ignored codes that no warning of the robots' formats has."""
         if not any(robot.ignore for robot in robots):
-            return  # a domain that is not ours is looked for on Python's path, which takes 3 ms
+            return  # other domains are looked for on Python's path, which takes 3 ms
         domains = {robot.domain for robot in robots}
         codes = IGNORABLE.union(*(registry.domain(domain).warnings for domain in domains))
         wrong = {(robot.lines["ignore"], code) for robot in robots for code in robot.ignore - codes}
@@ -300,7 +300,7 @@ class _Reader:
                 self._report("wrong-value", table.lines[key], f"`{key}` must be {words}, not {given}")
         try:
             return struct(**values) if len(self.problems) == before else None
-        except (TypeError, ValueError) as error:  # options that do not go together
+        except (TypeError, ValueError) as error:  # contradictory options
             self._report("wrong-value", table.lines[""], f"{table.name}: {error}")
             return None
 
@@ -311,7 +311,7 @@ class _Reader:
         if struct is None or not isinstance(items, list):
             return False
         before, line = len(self.problems), table.lines[key]
-        # of `[[…]]`; tables of a list in one value have the line of that
+        # lines of `[[…]]`; tables within one value have the line of the value
         headers = (lines for path, lines in self._item_lines.items() if path[-1] == key and lines[0] == line)
         lines = next(headers, [line] * len(items))
         for item, item_line in zip(items, lines, strict=False):

@@ -57,7 +57,7 @@ def config_schema() -> dict[str, Any]:
             "robots": {
                 "type": "object",
                 "propertyNames": {"pattern": ROBOT_PATTERN},
-                # of one table editors say what is wrong, and where; of several, that none fits
+                # with one table editors show the faulty key; with several, only that none fits
                 "additionalProperties": tables[0] if len(tables) == 1 else {"anyOf": tables},
             },
         },

@@ -34,7 +34,7 @@ def parse(text: str, file: str, error: type[UrdfsyncError]) -> dict[str, Any]:
         if all(len(path) <= DEEPEST for path, _ in strings(document)):
             return document
     except RecursionError:
-        pass  # that is the message
+        pass  # the message above is right
     except tomli.TOMLDecodeError as problem:
         message = str(problem)
         if found := find_markers(text):
@@ -90,7 +90,7 @@ def _paths(text: str) -> Iterator[tuple[bool, tuple[str, ...]]]:
     for line in text.split("\n"):
         keys: tuple[str, ...] = ()
         if match := _LINE.match(line):
-            with contextlib.suppress(tomli.TOMLDecodeError):  # a line of a longer string that looks like a key
+            with contextlib.suppress(tomli.TOMLDecodeError):  # a line of a long string may look like a key
                 parts = re.findall(_KEY, match[2])
                 keys = tuple(tomli.loads(f"key = {part}")["key"] if part[0] in "\"'" else part for part in parts)
         opens = bool(match and match[1] and keys)
@@ -105,7 +105,7 @@ def without_table(text: str, *table: str) -> str:
     """
     lines, paths = re.findall(r"[^\n]*\n|[^\n]+", text), list(_paths(text))
     starts = [number for number, (opens, _) in enumerate(paths) if opens]
-    begins = []  # of each table, with the comments above it
+    begins = []  # first lines of the tables, with the comments above
     for start in starts:
         while start and _is_comment(lines[start - 1]):
             start -= 1

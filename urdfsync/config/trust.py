@@ -53,7 +53,7 @@ def find_untrusted_compiler(config: Config, compiler: str, title: str) -> Diagno
 
 def _find_untrusted(config: Config, message: str, line: int, code: str = "untrusted-output") -> Diagnostic | None:
     """Return an error with this message if the configuration's folder is not trusted. Raises ConfigError."""
-    import platformdirs  # 6 ms, and few configurations lead out of their folder
+    import platformdirs  # 6 ms, and few configurations write outside of their folder
 
     file = platformdirs.user_config_path("urdfsync", appauthor=False) / "trusted.toml"
     try:

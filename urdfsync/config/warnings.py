@@ -36,7 +36,7 @@ def _find_warnings(config: Config, robot: RobotConfig) -> Iterator[Diagnostic]:
     for name in sorted(own.keys() - templates):
         replaces = name if name.endswith(_SUFFIX) else f"{name}{_SUFFIX}"
         if replaces != name and replaces not in templates:
-            continue  # a text that only lies there
+            continue  # an unused file
         if any(name.encode() in read_file(path) for other, path in own.items() if other != name):
             continue
         near = nearest(replaces, sorted(templates), 0.5)

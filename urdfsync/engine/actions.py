@@ -79,8 +79,8 @@ class FileStatus(enum.StrEnum):
 class Reason(enum.StrEnum):
     """The reason of an action. Its effect and all words about it follow."""
 
-    # Word, kind, status (None where there is no file any more), text: the end of a sentence about the path.
-    # Then what a dry run says of n such files, and a build if it says something else: in this order.
+    # Word, kind, status (None without a file), and the end of a sentence that begins with the path.
+    # Then the words for n such files in a dry run and, if they differ, after a build. Lists are in this order.
     # fmt: off
     UPDATE = ("update", Kind.WRITE, FileStatus.STALE, "its generated text changed",
               "{n} file{s} to write", "{n} file{s} written")

@@ -42,7 +42,7 @@ def put_aside(
         elif is_unsaved or not contents:
             index[path] = aside
     for key in settled.contents:
-        index.pop(folder.path(key), None)  # another choice follows, or this one is taken back
+        index.pop(folder.path(key), None)  # another choice replaces it, or it is undone
     chosen = {
         moved.get(key, key): _follow(generation, former, moved[key], names) if key in moved else former
         for key, former in settled.before.items()
@@ -61,7 +61,7 @@ def _is_as_written(files: PackageFiles, key: str, aside: Aside) -> bool:
     """Return whether a file is unchanged since its text was put aside."""
     try:
         state = files.state_on_disk(key)
-    except OutputError:  # the user has put a link or a folder in its place
+    except OutputError:  # the user replaced it by a link or a folder
         return False
     return (state.text_sha256 if state else None) == aside.after
 
@@ -96,7 +96,7 @@ def _replaced(
     for action in decision.actions:
         key, is_moving = action.path, action.reason is Reason.MOVE
         if not action.writes or key not in contents or action.role is Role.ORDER or (key in origins and not is_moving):
-            continue  # the text goes elsewhere
+            continue  # the text moves to another file
         text = files.read(action.origin or key) if is_moving else files.read_on_disk(key)
         if text is None or state_of(text).text_sha256 in last.notes.written:
             continue
@@ -113,7 +113,7 @@ def _bases_given_back(generation: Generation, action: Action, text: bytes) -> tu
     record = inputs.last.files.get(
         action.path if action.reason is not Reason.MOVE else action.origin or "", FileRecord()
     )
-    # else the next build would merge it again, or take it for the text that it wrote
+    # else the next build would merge it again, or take it for its own text
     is_merge = (action.reason is Reason.MERGE or action.is_left_by_git) and inputs.always_merges
     is_own_base = state_of(text).text_sha256 in record.hashes
     if action.generated and action.role is not Role.IMPORT and (is_merge or is_own_base):

@@ -84,9 +84,9 @@ class _Builder:
         try:
             untrusted = None if self._options.trusted else find_untrusted_output(self._config, robot)
             if untrusted and not self._options.dry:
-                raise ConfigError(untrusted)  # noqa: TRY301 - it is told as all else is
+                raise ConfigError(untrusted)  # noqa: TRY301 - it is reported like other errors
             result = self._plan_and_write(robot)
-        except Exception as error:  # noqa: BLE001 - it is this robot's: the next one reads all from the disk
+        except Exception as error:  # noqa: BLE001 - other robots are not affected: each one reads all from the disk
             return Result(
                 robot.name,
                 robot.target.package,
@@ -118,7 +118,7 @@ class _Builder:
             if not (plan.result.writes or plan.writes or self._transactions.is_pending()):
                 self._note(robot, plan)
                 return plan.result
-            dependencies.mark_incomplete()  # what was read is about to change
+            dependencies.mark_incomplete()  # files that were read are about to change
             self._lock.acquire(self._wait)
             if not self._is_current(plan):
                 continue
@@ -126,7 +126,7 @@ class _Builder:
             shared = [change for file in plan.shared if (change := file.change(files)) is not None]
             applied = self._transactions.apply(robot.name, [*shared, *plan.writes], plan.emptied)
             self.notes += applied.diagnostics
-            if not applied.not_done:  # else somebody saved a file in between
+            if not applied.not_done:  # else a file was saved meanwhile
                 self._reads.renew({str(change.path): change.content for change in (*shared, *plan.writes)})
                 self._note(robot, plan)
                 return plan.result
@@ -152,7 +152,7 @@ class _Builder:
             self.notes += self._transactions.recover()
             return
         with contextlib.suppress(OutputError), build_lock(self._state_folder, self._options.wait) as lock:
-            lock.acquire(self._wait)  # where that can't be, nobody is writing
+            lock.acquire(self._wait)  # where no lock can be made, no process writes
         if is_interrupted(self._state_folder):
             message, hint = "the last build was interrupted", "run `urdfsync build`, which finishes it"
             raise StateError.of("interrupted", message, shown(self._state_folder), hint=hint)

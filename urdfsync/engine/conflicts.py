@@ -1,4 +1,4 @@
-"""Files that both sides changed: their texts, what the user may decide about them, and what becomes of them."""
+"""Files that both sides changed: their texts, their merges, and the user's choices."""
 
 from __future__ import annotations
 
@@ -15,32 +15,32 @@ if TYPE_CHECKING:
 
 
 PREFERENCES = frozenset({Choice.MERGE_MINE, Choice.MERGE_GENERATED})
-"""Choices to take both sides' changes, and one side's where they contradict each other."""
+"""Choices that take both sides' changes, and one side's where they contradict each other."""
 
 
 class Conflict(msgspec.Struct, frozen=True):
-    """One text file in conflict: the three texts as they are, line endings included."""
+    """One text file in conflict. Its texts keep their line endings."""
 
     path: str
     """Path of the generated text as in the record: from the configuration's folder, POSIX."""
     base: str | None
-    """The generated text that *mine* took into account last; None if it is not known, or there was none."""
+    """The generated text that *mine* took into account last; None if there was none, or if it is lost."""
     mine: str
     generated: str
     merge: Merge | None
-    """None without a base. Its `text` is None if both sides changed the same, or if the result makes no sense."""
+    """None without a base. Its `text` is None if both sides changed the same, or if the merge was rejected."""
     origin: str | None = None
     """Path of the user's file, if its element was renamed; None if it is at `path`."""
     files: Mapping[str, str] = {}
     """Where the versions are saved, by kind: paths below the robot's folder in `.urdfsync/conflicts`."""
     edited: str | None = None
-    """The proposed merge as a person has changed it."""
+    """The proposed merge as the user edited it."""
     rejected: str = ""
     """Why there is no merge although the sides do not contradict each other, as a clause; empty if there is one."""
     moved_to: str = ""
-    """The likely new name of the element that the file was edited for, if the file may be another's now."""
+    """The likely new name of the element that was edited, if the file may belong to another element now."""
     refused: Mapping[Choice, str] = {}
-    """Preferences of a side that would bring in a name that means nothing, with the reason as a clause."""
+    """Preferences that would bring in an unknown name, each with the reason as a clause."""
 
     def merged(self, choice: Choice | None) -> str | None:
         """Return the merged text that a choice asks for; None if there is none."""
@@ -54,15 +54,15 @@ class Conflict(msgspec.Struct, frozen=True):
 def find_conflict(
     action: Action, bases: Sequence[str], mine: str, generated: str, names: Mapping[str, str] | None = None
 ) -> Conflict:
-    """Merge the texts of a file; a merge that is no sound Modelica is rejected, and so is one that is ambiguous.
+    """Merge the texts of a file. Ambiguous merges and merges that are no sound Modelica are rejected.
 
-    `bases` are all texts that may be the base, best first; `names` has new names by the old ones.
+    `bases` are all texts that may be the base, best first; `names` has new names by old ones.
     """
     from urdfsync.merge import merge
 
     is_modelica = action.path.endswith(".mo")
     merges = [merge(base, mine, generated, is_modelica=is_modelica, names=names) for base in bases]
-    if len(bases) > 1 and any(one.text != mine for one in merges):  # else the text has all that is new since each base
+    if len(bases) > 1 and any(one.text != mine for one in merges):  # else the text has all changes since each base
         edited = over_bases(bases, mine, is_modelica=is_modelica) or [(base, mine) for base in bases]
         merges = [merge(base, text, generated, is_modelica=is_modelica, names=names) for base, text in edited]
     first = merges[0] if merges else None
@@ -75,10 +75,10 @@ def find_conflict(
 
 
 def over_bases(bases: Sequence[str], mine: str, *, is_modelica: bool) -> list[tuple[str, str]]:
-    """Return the edits of a file as edits of its last base and of its first one: the base, and that with the edits.
+    """Carry the edits of a file over to its last and its first base; return each base with its edited text.
 
-    Git may have united what several branches recorded: what one of these texts has is no edit of another. A base is
-    left out that the edits contradict.
+    Git may have united the bases of several branches, so a difference between two bases is no edit. A base that the
+    edits contradict is left out.
     """
     from urdfsync.merge import merge
 

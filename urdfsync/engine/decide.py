@@ -1,4 +1,4 @@
-"""The decision about one robot's package: looks at its files, applies the rules, and resolves conflicts."""
+"""Decides on one robot's package: looks at its files, applies the rules, and resolves conflicts."""
 
 from __future__ import annotations
 
@@ -36,19 +36,19 @@ if TYPE_CHECKING:
 
 
 class Decision(msgspec.Struct, frozen=True):
-    """All actions of one robot, and what there is to say about them."""
+    """All actions of one robot, and the findings about them."""
 
     actions: Actions
     texts: Mapping[str, str]
     """New texts of every `package.order` and of merged files, by key."""
     disputed: Mapping[str, Conflict] = {}
-    """The texts of files that both sides changed, and of edited ones that move, by key."""
+    """Texts of files that both sides changed, and of edited files that move, by key."""
     shared: tuple[SharedFile, ...] = ()
     """Changes of files around the package."""
     misfits: tuple[Misfit, ...] = ()
-    """Names in the user's files that mean nothing, and texts that are no Modelica."""
+    """Unknown names in the user's files, and texts that are no Modelica."""
     names: Mapping[str, str] = {}
-    """New names by the old ones, of all that has got another one, if edits or texts put aside follow."""
+    """New names by old ones; empty if no edit and no text put aside needs them."""
 
     @property
     def conflicts(self) -> tuple[Conflict, ...]:
@@ -65,7 +65,7 @@ class Decision(msgspec.Struct, frozen=True):
 def decide_package(generation: Generation) -> Decision:
     """Decide on every file of a robot.
 
-    Raises OutputError for what can't be worked with, such as links or merge markers.
+    Raises OutputError for links and for merge markers.
     """
     inputs, files = generation.inputs, generation.inputs.files
     decided = decide(_find_files(generation), generation.moves)
@@ -96,7 +96,7 @@ def decide_package(generation: Generation) -> Decision:
 
 
 def _find_unknown(inputs: Inputs, known: Collection[str]) -> Iterator[str]:
-    """Yield the Modelica files in the package that nothing generates and that no record knows."""
+    """Yield the Modelica files in the package that are neither generated nor recorded."""
     others = tuple(f"{inputs.files.key(one.folder)}/" for one in inputs.config.robots if one != inputs.robot)
     for key in sorted(inputs.files.classes(inputs.folder) - set(known)):
         if not key.startswith(others) and key.removesuffix("/package.mo") + ".mo" not in known:
@@ -135,7 +135,7 @@ def _find_files(generation: Generation) -> dict[str, File]:
 
 
 def _adjust(generation: Generation, action: Action, doubts: Mapping[str, Doubt]) -> Action:
-    """Return the action that contents and options lead to, beyond what hashes say."""
+    """Correct an action, which follows from hashes, by contents and options."""
     inputs = generation.inputs
     contradictions = inputs.files.left_by_git.get(action.path)
     if contradictions and action.reason is Reason.KEEP:
@@ -154,7 +154,7 @@ def _adjust(generation: Generation, action: Action, doubts: Mapping[str, Doubt])
 
 
 def _with_other_names(generation: Generation, actions: Iterable[Action]) -> Iterator[Action]:
-    """Yield the actions; an edit that uses a name which is another part's now is merged, whatever else is new."""
+    """Yield the actions. An edit that uses a name of another part now is merged, even if nothing else is new."""
     inputs, names = generation.inputs, None
     for action in actions:
         is_settled = inputs.files.is_chosen(action.path) or action.mine in inputs.last.record.confirmed
@@ -180,7 +180,7 @@ def _conflict(
     record = last.files.get(key)
     hashes = record.hashes if record and action.base in record.hashes else (action.base,)
     known = [generated if sha256 == action.generated else last.base(sha256) for sha256 in hashes]
-    # each base counts: of one that is lost nobody knows what is new
+    # a file may have several bases: if the text of one is lost, its changes are unknown, and no merge is possible
     bases = [text for text in known if text is not None] if None not in known else []
     if mine is None:
         package = files.text(f"{key.removesuffix('.mo')}/package.mo") or ""
@@ -207,9 +207,9 @@ def _conflict(
 def _without_misfits(
     generation: Generation, actions: Sequence[Action], conflicts: Mapping[str, Conflict]
 ) -> dict[str, Conflict]:
-    """Return the conflicts without the merges that would bring in what means nothing.
+    """Return the conflicts without the merges that would use unknown names.
 
-    Merges are tried first. Then, for contradictions, each side that may be preferred.
+    Merges are tried first. Contradictions are then tried with each side preferred.
     """
     sound, before = dict(conflicts), None
     for side in (None, *sorted(PREFERENCES)):
@@ -241,7 +241,7 @@ def _without_misfits(
 
 
 def _with_texts(conflicts: Mapping[str, Conflict], texts: Mapping[str, str]) -> dict[str, Conflict]:
-    """Return conflicts that merge to these texts."""
+    """Return the conflicts with these texts as their merges."""
     merges = {key: conflicts[key].merge for key in texts}
     return {
         key: msgspec.structs.replace(conflicts[key], merge=msgspec.structs.replace(merge, text=texts[key]))
@@ -259,7 +259,7 @@ def _misfits_of(
 
 
 def _find_misfits(generation: Generation, actions: Sequence[Action], texts: Mapping[str, str]) -> Sequence[Misfit]:
-    """Find what does not fit in the files that the user wrote, once all actions are done but those that wait."""
+    """Find misfits in the user's files, as they will be once all actions but waiting ones are done."""
     if generation.inputs.has_moved and any(action.is_waiting for action in actions):
         return ()  # the package stays where it was
     package = PackageAfter(generation, actions, texts)
@@ -273,7 +273,7 @@ def _find_misfits(generation: Generation, actions: Sequence[Action], texts: Mapp
 def _renumbered(
     generation: Generation, actions: Iterable[Action], merged: Mapping[str, str], conflicts: Mapping[str, Conflict]
 ) -> frozenset[str]:
-    """Return the records of which only numbers change, those in conflict included."""
+    """Return the records in which only numbers change, also those in conflict."""
     files, keys = generation.inputs.files, set()
     changes = generation.changes.by_element() if generation.changes else {}
     for action in actions:
@@ -285,7 +285,7 @@ def _renumbered(
             if numbers_only(files.text(action.path) or "", text):
                 keys.add(action.path)
         elif action.reason is Reason.CONFLICT and (base := conflicts[action.path].base) is not None:
-            # the record of a whole robot has no changes of its own: a number in its tables may be its structure
+            # the record of a whole robot has no changes of its own: a number in its tables may be structural
             own = changes.get(action.owner, ())
             is_parameter = own and all(change.change_class.rank <= ChangeClass.PARAMETER.rank for change in own)
             if is_parameter and numbers_only(base, conflicts[action.path].generated):
@@ -297,7 +297,7 @@ def _refuse_markers(files: PackageFiles, actions: Iterable[Action], orders: Iter
     """Refuse files in which version control left its merge markers. Raises OutputError."""
     errors = []
     edited = [a for a in actions if a.mine not in (None, a.base, a.generated) and a.role is not Role.IMPORT]
-    # what the branches contradict each other about is told as a conflict; the user asked for what is given back
+    # contradictions of branches are conflicts, and texts of `--undo` are the user's own choice: no error for either
     told = {action.origin or action.path for action in edited if action.is_conflict} & files.left_by_git.keys()
     told |= files.overlay.keys()
     for key in dict.fromkeys((*(action.origin or action.path for action in edited), *orders)):
@@ -313,7 +313,7 @@ def _refuse_markers(files: PackageFiles, actions: Iterable[Action], orders: Iter
 def _recorded_orders(generation: Generation) -> dict[str, tuple[str, ...]]:
     """Return the lines of each `package.order` that the last build wrote, by key.
 
-    Without its model they are those of the recorded files: their order is lost then.
+    Without a recorded model, the lines follow from the recorded files, and their order is lost.
     """
     inputs, last, orders = generation.inputs, generation.inputs.last, dict[str, tuple[str, ...]]()
     package = last.package if generation.is_structural or inputs.has_moved else generation.package
@@ -333,10 +333,10 @@ def _recorded_orders(generation: Generation) -> dict[str, tuple[str, ...]]:
 def _removable_lines(
     generation: Generation, order: str, text: str, recorded: Sequence[str], actions: Iterable[Action]
 ) -> list[str]:
-    """Return the lines of a `package.order` that go: those of deleted classes, and recorded ones that no class has.
+    """Return the lines of a `package.order` to remove: deleted classes, and recorded lines without a class.
 
-    That a line is recorded is no proof: it may be that of a class of the user's. Where git has united two states, the
-    file may be that of one branch, with classes that the other one has renamed.
+    A recorded line may name a class of the user's, so the class is looked for. If git has united two states, the file
+    may come from one branch and name classes that the other branch renamed: then each line is looked for.
     """
     inputs, folder = generation.inputs, order.removesuffix("package.order")
     paths = (action.path.removesuffix("/package.mo").removesuffix(".mo") for action in actions if action.is_deletion)
@@ -347,7 +347,7 @@ def _removable_lines(
 
 
 def _dangling_lines(files: PackageFiles, order: str, names: Iterable[str]) -> list[str]:
-    """Return the names in a `package.order` that no class has, and that its `package.mo` does not mention."""
+    """Return the names in a `package.order` that have no class and that `package.mo` does not mention."""
     folder = order.removesuffix("package.order")
     missing = [name for name in names if is_identifier(name) and not files.has_class(folder, name)]
     mentioned = set(re.findall(r"\w+", files.text(f"{folder}package.mo") or "")) if missing else set()
@@ -355,7 +355,7 @@ def _dangling_lines(files: PackageFiles, order: str, names: Iterable[str]) -> li
 
 
 def _classes_beside(order: str, keys: Iterable[str]) -> list[str]:
-    """Return the classes beside a `package.order` that some of these files are for."""
+    """Return the classes of those files that stand beside a `package.order`."""
     folder = order.removesuffix("package.order")
     paths = (key.removeprefix(folder).removesuffix("/package.mo") for key in keys if key.startswith(folder))
     return sorted(filter(is_identifier, (path.removesuffix(".mo") for path in paths)))
@@ -364,9 +364,9 @@ def _classes_beside(order: str, keys: Iterable[str]) -> list[str]:
 def _decide_orders(
     generation: Generation, actions: Iterable[Action]
 ) -> tuple[list[Action], dict[str, str], list[SharedFile]]:
-    """Return the actions for `package.order` files and for packages around the robot's, and the new texts of orders.
+    """Decide on `package.order` files, and on the packages around the robot's.
 
-    Also what to do with the files around the package, that of the last build included.
+    Returns the actions, the new texts of orders, and the files around this package and that of the last build.
     """
     inputs, files, robot = generation.inputs, generation.inputs.files, generation.inputs.robot
     recorded = _recorded_orders(generation)
@@ -385,10 +385,10 @@ def _decide_orders(
             written = recorded.get(key, ())
             removable = _removable_lines(generation, key, text, written, actions)
             owned = [*(name for name in written if name in names), *removable]
-        if inputs.options.adopts and old is None:  # a new file would hide classes of the user's from tools
+        if inputs.options.adopts and old is None:  # tools hide classes that a new file lacks
             users = _classes_beside(key, files.classes(key.removesuffix("package.order")))
             names = (*names, *(name for name in users if name not in names))
-        if recorded.get(key):  # an orphan that was given back
+        if recorded.get(key):  # `--undo` brought an orphan back
             names = (*names, *(name for name in _classes_beside(key, orphans) if name not in names))
         new = texts[key] = merge_order(text, names, owned)
         if old is None:

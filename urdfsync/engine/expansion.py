@@ -64,7 +64,7 @@ class Inputs:
             for package, folder in packages.items():
                 if file.is_relative_to(folder):
                     return f"{_PACKAGE}{package}/{file.relative_to(folder).as_posix()}"
-        # else both have nothing in common
+        # else no relative path leads to it, as between drives
         return Path(os.path.relpath(file, self.root) if file.parts[:2] == self.root.parts[:2] else file).as_posix()
 
     def look(self, robot: RobotConfig, names: Expansion) -> Expansion:
@@ -111,7 +111,7 @@ class Inputs:
             files = [shown(self.path(name) or Path(name)) for name in made.files]
             entries = (map(int, re.split("[=:]", entry)) for entry in made.places.split())
             return [(line, files[number], origin) for line, number, origin in entries]
-        except (IndexError, ValueError):  # not from here
+        except (IndexError, ValueError):  # not an answer of ours
             return []
 
 
@@ -150,7 +150,7 @@ def expand(inputs: Inputs, arguments: Mapping[str, str]) -> Expansion:
         message = problem.message or f"expanding it takes more than {CPU_SECONDS:g} s or {MEMORY / 1e9:g} GB"
         file = shown(Path(problem.file)) if problem.file else shown(inputs.source)
         place, hint = (file, problem.line), problem.hint or _HINTS.get(problem.code, _HINTS["xacro"])
-        for path in answer.files:  # those of a source that was made are looked at by `find_changes`
+        for path in answer.files:  # `find_changes` looks at those of a generated source
             file_hash(Path(path))
         for pattern in answer.patterns:
             names_hash(Path(pattern))
@@ -184,14 +184,14 @@ def _ask(request: Request) -> Answer:
             input=question,
             capture_output=True,
             timeout=WALL_SECONDS,
-            env={**os.environ, **importable(), "PYTHONHASHSEED": "0"},  # the same text each time
+            env={**os.environ, **importable(), "PYTHONHASHSEED": "0"},  # so that the text is the same each time
             start_new_session=True,  # an interruption from the keyboard is for whoever waits, who ends the process
             check=False,
         )
         return msgspec.json.decode(done.stdout, type=Answer)
     except subprocess.TimeoutExpired:
         return limits
-    except msgspec.DecodeError:  # it ended before it was done
+    except msgspec.DecodeError:  # the process ended too early
         if done.returncode < 0:
             return limits
         words = done.stderr.decode(errors="replace").strip().splitlines()[-1:]

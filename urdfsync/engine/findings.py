@@ -69,7 +69,7 @@ def _diagnose(generation: Generation, misfits: Sequence[Misfit]) -> Iterator[Dia
     inputs, renamed = generation.inputs, recently_renamed(generation)
     places: dict[tuple[object, ...], list[Misfit]] = {}
     for misfit in misfits:
-        if misfit.key or misfit.file in inputs.users_files.mentioning:  # others are left in a former folder
+        if misfit.key or misfit.file in inputs.users_files.mentioning:  # the others are in a former folder
             finding = misfit.finding
             what = misfit.use.part if misfit.use else (misfit.lacking or finding.message, finding.code, finding.line)
             places.setdefault((misfit.file, what), []).append(misfit)
@@ -110,7 +110,7 @@ def _left_behind(inputs: Inputs, actions: Actions) -> Iterator[Diagnostic]:
     if not inputs.has_moved or any(action.is_waiting for action in actions):
         return
     gone = {files.path(action.path) for action in actions if action.is_deletion}
-    # a record may be a stranger's: no look into a folder elsewhere, and no command that deletes it
+    # a record may be a stranger's: never look into another folder, or propose a command that deletes it
     is_inside = files.is_inside(f"{inputs.last.folder}/package.mo")
     below = sorted(path for path in old.rglob("*") if not path.is_dir()) if is_inside else [old]
     rest = [shown(path) for path in below if path not in gone and new not in path.parents]

@@ -149,7 +149,7 @@ class Package(PackageAfter):
     def _passed_statements(self) -> dict[str, frozenset[str]]:
         """Return the files to check, with those statements that equal generated ones."""
         artifacts, statements = self._generation.package.artifacts, dict[str, frozenset[str]]()
-        # first the names of classes that generated texts mention, and that are not there
+        # first the missing classes that generated texts mention
         before = self._inputs.last.files
         expected = set(map(self._inputs.folder.path, before)) if self._is_waiting else set(artifacts)
         missing = expected - set(map(as_file, self)) - self._files.keys()
@@ -189,7 +189,8 @@ class Package(PackageAfter):
         """Whether a replaced or deleted text declares a name that the new text lacks."""
         files, folder = self._inputs.files, self._inputs.folder
         replaced = list[tuple[str, str]]()
-        if not all(action.is_waiting for action in self._actions):  # else the package is as it was before the choices
+        # if all wait, the package stays as it was before the choices
+        if not all(action.is_waiting for action in self._actions):
             chosen = (key for key in files.overlay if key.endswith(".mo") and files.is_chosen(key))
             replaced += [(folder.path(key), text_of(files.read_on_disk(key) or b"")) for key in chosen]
         for action in self._actions:

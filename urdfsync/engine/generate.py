@@ -178,7 +178,7 @@ def _render(renderer: Renderer, artifact: Artifact, package: str) -> bytes:
         reason = str(problem).rstrip(".") or type(problem).__name__
     message = f"the template can't be rendered for `{artifact.path}`: {reason}"
     file, line, frame = "", 0, problem.__traceback__
-    while frame is not None:  # Jinja names templates in the traceback; the innermost one counts
+    while frame is not None:  # the innermost template in the traceback counts
         name = frame.tb_frame.f_code.co_filename
         if any(folder in Path(name).parents for folder in renderer.folders):
             file, line = name, frame.tb_lineno
@@ -190,7 +190,7 @@ def _render(renderer: Renderer, artifact: Artifact, package: str) -> bytes:
         message = reason
     elif isinstance(problem, jinja2.TemplateNotFound):
         message = f"there is no template `{problem.name}`"
-    elif isinstance(problem, UnicodeDecodeError):  # it has nothing but the bytes of the template
+    elif isinstance(problem, UnicodeDecodeError):  # the error has only the bytes of the template
         message, content = "the template is not UTF-8", problem.object
         files = (path for folder in renderer.folders for path in sorted(folder.rglob("*")) if path.is_file())
         file = next((str(path) for path in files if path.read_bytes() == content), "")

@@ -50,7 +50,7 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
         if last.version is None or not matching.renames:
             return matching
         old = self.inputs.domain.features(last.version.snapshot)
-        if last.record.is_united:  # elements of both branches: nobody knows which of them a name was
+        if last.record.is_united:  # a united record has elements of both branches: a name may mean either
             return Matching(without_exchanges(matching, old).renames)
         found = {key: new for key, new in matching.renames.items() if key[1] not in declared}
         exchanged = {f"{kind} {name}" for (kind, name), new in found.items() if (kind, new) in old}
@@ -66,7 +66,7 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
                 on_disk = files.hash(last.folder.key(path), Role.RECORD)
                 recorded = last.files.get(last.folder.key(path), FileRecord()).hashes
                 if last.record.open and on_disk in last.notes.written:
-                    continue  # a build that was not complete has renewed it
+                    continue  # an incomplete build has renewed it
                 if on_disk in recorded and package.hash(path) != on_disk:
                     return False
         return True
@@ -110,7 +110,7 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
         except NO_MODEL:
             return None
         if differences.change_class.rank >= ChangeClass.STRUCTURAL.rank and last.package is None:
-            return None  # git may have made a model of two that is none
+            return None  # git may have merged two models into an invalid one
         is_same = last.record.generator == self.inputs.generator and last.target == robot.target
         if is_same and last.record.options == option_values(robot.options):
             return differences

@@ -32,7 +32,7 @@ MOST_PARTS = 100
 _IN_LIBRARY = r"\s*modelica:/*([^/.]+)"
 _HINTS = {
     r"(?:https?|ftp):": "urdfsync does not look on the network: download it, and let the source refer to it",
-    # a place on this machine, to which search paths make no difference
+    # a place on this machine, for which search paths are not used
     r"file:(?!/*\$)|[/\\]|[a-z]:[/\\]": "put it there, or let the source refer to it by a package or a relative path",
     _IN_LIBRARY: "put the folder that holds the library `{}` on MODELICAPATH",
     "[a-z]+://([^/]+)/": "put it into the package `{}`, or add the folder around it to `package_paths`",
@@ -121,7 +121,7 @@ def import_files(
         if dependency.guessed and isinstance(content, tuple):
             package = dependency.uri.partition("://")[2].partition("/")[0]
             guessed.setdefault((noun, package), []).append(dependency)
-        # no copy of a former folder serves: it may be the user's
+        # copies in a former folder may be the user's: do not use them
         before = {} if options.full or has_moved else recorded
         trouble = _import(domain, dependency, content, before, source, result)
         if trouble is not None:
@@ -219,7 +219,7 @@ def _read_mentioned(domain: Domain, dependency: Dependency, path: Path, content:
         name = waiting.pop(0)
         if name not in contents:
             contents[name] = b""
-            with contextlib.suppress(OSError, ValueError):  # the conversion goes without it
+            with contextlib.suppress(OSError, ValueError):  # the conversion does not get it
                 contents[name] = read_file(path.parent / name)
                 waiting += mentions.mentioned(dependency, name, contents[name])
     return contents
@@ -260,7 +260,7 @@ def _find_other_case(path: Path) -> Path | None:
     """Return the file or folder whose path differs in case only: exports are made where that makes no difference."""
     try:
         folder = path.parent if path.parent == path or path.parent.is_dir() else _find_other_case(path.parent)
-        # not recorded: the place itself is, and a folder above it may change all the time
+        # not recorded as a dependency: the path itself is, and the folder may change all the time
         names = sorted(os.listdir(folder)) if folder else []  # noqa: PTH208
     except OSError:
         return None
@@ -288,7 +288,7 @@ def _keep_copy(
         raise StateError.of("lost-state", message, trouble.file, trouble.line, hint=hint)
     for key, target, file in files:
         entry = file.entry
-        # an older copy, which was put back, was not made from the recorded source
+        # an older copy, which the user put back, does not belong to the recorded source
         is_older = not file.is_intact and file.hash in file.written
         is_placed_anew = has_moved or entry.target != target
         entry = msgspec.structs.replace(
@@ -339,7 +339,7 @@ def _find(dependency: Dependency) -> tuple[Path, bytes] | OSError | None:
             if kind not in (0, stat.S_IFDIR):
                 return path, read_file(path)
         except PermissionError:
-            continue  # a folder above it may not let us in, and another candidate is as good
+            continue  # no permission for a folder above: another candidate may serve
         except OSError as error:
             trouble = trouble or error
     return trouble

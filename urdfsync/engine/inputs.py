@@ -77,9 +77,9 @@ def inspect(config: Config, robot: RobotConfig, options: BuildOptions) -> Inputs
     above = Parents(listed=False) if options.removes else parents.check(config, robot, domain.uses(robot.options))
     (record, damage), name = store.load(robot.name), robot.name
     others = {files.key(other.folder) for other in config.robots if other.name != robot.name}
-    if record and record.folder in others:  # it is another robot's, whose files are not to be deleted
+    if record and record.folder in others:  # the folder belongs to another robot now, whose files must not be deleted
         record = None
-    if record is None:  # was it built into this folder by another name, which is no longer configured?
+    if record is None:  # a robot of another name, no longer configured, may have been built into this folder
         name = next((name for name, place in orphaned_robots(store, config) if place == folder), name)
         record = store.load(name)[0] if name != robot.name else None
     damage, notes = damage or store.find_damaged_base(name), store.notes(name)
@@ -98,7 +98,7 @@ def inspect(config: Config, robot: RobotConfig, options: BuildOptions) -> Inputs
         options=option_values(robot.options),
     )
     program = program_hash(robot.domain, templates.digest)
-    if notes.program != program:  # what another program made is made anew; what was written stays so
+    if notes.program != program:  # another version of urdfsync wrote these texts and imports
         notes = msgspec.structs.replace(notes, texts={}, imports=frozenset())
     last = LastBuild(name, record, notes, store, files, domain, robot, templates)
     read = domain, templates, generator, text, store, last, files, folder, above

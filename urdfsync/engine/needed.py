@@ -55,7 +55,7 @@ def _find_mentioned(generation: Generation, actions: Sequence[Action], merged: M
     package = PackageAfter(generation, actions, merged)
     words = {inputs.files.key(file): code_words(content) for file, content in package.users.items()}
     all_words = set().union(*words.values())
-    # names that a file has since it was generated so before: the user kept it as it was
+    # names from older generated texts, which the user kept
     kept_words = set[str]()
     for key in {action.path for action in actions if action.reason is Reason.KEEP} & words.keys():
         if before is not None and (path := inputs.last.folder.path(key)) in before.artifacts:

@@ -1,6 +1,7 @@
-"""The user's own files that use names which mean other parts since an export: models, and the configuration.
+"""Finds names in the user's models and configuration that an export has given to other parts.
 
-Such a file goes on to work. So it is told, until it is saved: this machine notes which file used what.
+Such a file still works, but with another part. So each build warns until the user saves the file: the notes of this
+machine have each file and the names it uses.
 """
 
 from __future__ import annotations
@@ -24,11 +25,11 @@ from urdfsync.state.notes import Use
 
 CODE = "other-part"
 MAYBE = "?"
-"""Stands for the new name of a part of which it is not known whether it is another one."""
+"""The new name of a part that may be another one."""
 
 
 def find_uses(generation: Generation, decision: Decision) -> dict[str, Use]:
-    """Return the uses of names that mean another part, by file: of this build, and of earlier ones."""
+    """Return the uses of names that mean another part, by file; also those that earlier builds found."""
     inputs = generation.inputs
     uses = {path: use for path, use in inputs.last.notes.uses.items() if use.facts == _facts(Path(path))}
     if not decision.is_complete:
@@ -64,13 +65,13 @@ def tell_uses(uses: Mapping[str, Use]) -> Iterator[Diagnostic]:
         lines = _lines(Path(path), use.names)
         for name, line in sorted(lines.items(), key=lambda item: item[1]):
             new = use.names[name]
-            message = f"`{name}` is that of another part now: the part that had this name has `{new}`"
+            message = f"`{name}` names another part now: its former part is called `{new}`"
             hint = f"use `{new}`, or save the file as it is"
             if new.endswith(GONE):
-                message = f"`{name}` is that of another part now: the part that had this name is gone"
+                message = f"`{name}` names another part now: its former part is gone"
                 hint = "change this use, or save the file as it is"
             elif new == MAYBE:
-                message, hint = f"`{name}` may be that of another part now", "look at it, and save the file"
+                message, hint = f"`{name}` may name another part now", "look at it, and save the file"
             yield Diagnostic(Severity.WARNING, CODE, message, shown(Path(path)), line, hint=hint)
 
 
@@ -82,7 +83,7 @@ def _facts(path: Path) -> tuple[int, ...]:
 
 
 def _lines(path: Path, names: Mapping[str, str]) -> dict[str, int]:
-    """Return the first lines in which a file uses names, by name; in a model, those of other classes."""
+    """Return the first line in which a file uses each name; a model may also declare them."""
     from urdfsync.merge.renames import find_uses_of  # the lexer takes a while to load
     from urdfsync.modelica.files import text_of
 

@@ -56,7 +56,7 @@ def unchanged_state(path: str, facts: tuple[int, ...]) -> FileState | None:
 def note_state(path: str, facts: tuple[int, ...], content: bytes) -> FileState:
     """Return the state of a read file, and remember it by its stat values before the reading."""
     state = state_of(content)
-    if len(facts) > 1 and not is_young(facts, time.time_ns()):  # else there was no file
+    if len(facts) > 1 and not is_young(facts, time.time_ns()):  # a missing file has one fact
         _unchanged[path] = facts, state
     return state
 

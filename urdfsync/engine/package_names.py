@@ -52,7 +52,7 @@ def renamed_names(generation: Generation) -> dict[str, str]:
             for kind, of_kind in inputs.domain.names(last.snapshot, inputs.last.target).items()
             for name, identifier in of_kind.items()
         }
-        # else they would be taken for those of the elements that have their names now
+        # else they would mean the elements that have these names now
         names |= {name: f"{name}{GONE}" for name in before if identifiers.get(identifier_of(name, identifiers)) in gone}
     return names
 

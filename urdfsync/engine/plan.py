@@ -34,5 +34,5 @@ def plan_robot(config: Config, robot: RobotConfig, options: BuildOptions) -> Pla
     uses = find_uses(generation, decision)
     plan = stage(generation, decision, (*find_all(generation, decision), *tell_uses(uses)), settled, uses)
     if options.full or options.draw or plan.result.writes:
-        dependencies.mark_incomplete()  # not all that this work reads is recorded as a dependency of the answer
+        dependencies.mark_incomplete()  # some files that this work reads are not recorded as dependencies of the answer
     return plan

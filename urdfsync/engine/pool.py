@@ -56,7 +56,7 @@ class Pool:
         try:
             try:
                 plan, reads = self._plan_ahead(robot, options)
-            except BrokenExecutor:  # a robot has ended its worker, and with it all others: this one need not be the one
+            except BrokenExecutor:  # one robot's worker died and ended all others: it may not be this robot's
                 with workers(1) as alone:
                     plan, reads = alone.submit(plan_in_worker, self._config, robot, options).result()
         except Exception as error:  # the worker is lost, in one of many ways
@@ -89,7 +89,7 @@ def plan_in_worker(config: Config, robot: RobotConfig, options: BuildOptions) ->
             plan: Plan | UrdfsyncError | OSError = plan_robot(config, robot, options)
         except (UrdfsyncError, OSError) as error:
             plan = error
-        except Exception as error:  # noqa: BLE001 - else it were taken for the end of a worker
+        except Exception as error:  # noqa: BLE001 - else it would look like the end of a worker
             plan = UrdfsyncError(*findings_of(error))
     reads.add_modules()
     return plan, reads

@@ -46,7 +46,7 @@ def save_versions(inputs: Inputs, conflicts: Sequence[Conflict]) -> Versions:
             if text is not None:
                 files[kind] = f"{stem}.{kind}{suffix}"
                 contents[files[kind]] = encode(text)
-        if merge is not None:  # with markers in it, it is no Modelica
+        if merge is not None:  # a text with markers is no Modelica
             ending, proposal = ".txt" if merge.text is None else suffix, encode(merge.proposal)
             sides = sides_hash(text_hash(conflict.mine), text_hash(conflict.generated))
             numbers = itertools.chain(("",), map("-{}".format, itertools.count(2)))

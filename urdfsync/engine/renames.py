@@ -1,4 +1,4 @@
-"""Which element of the last build is which one now: matched by the core, declared by the configuration or a choice."""
+"""Finds the new names of elements: the core matches them, and the configuration or a choice declares them."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from urdfsync.spelling import nearest
 
 
 def find_matching(domain: Domain, old: Snapshot, new: Snapshot, declared: Mapping[str, str]) -> Matching:
-    """Match the elements of two versions; `declared` names count for elements that changed."""
+    """Match the elements of two versions; `declared` maps old names to new ones, until a kind has its new names."""
     if old == new:
         return Matching()
     before, after = domain.features(old), domain.features(new)
     named = {(kind, name): (kind, declared[name]) for kind, name in before if name in declared}
     named = {key: new for key, new in named.items() if new in after}
-    done = {key[0] for key in named if before[key] == after.get(key)}  # kinds whose names have been brought before
+    done = {key[0] for key in named if before[key] == after.get(key)}  # kinds that an earlier build renamed
     return match(before, after, {key: new for key, new in named.items() if key[0] not in done})
 
 
@@ -33,8 +33,8 @@ def find_matching_since(
 ) -> Matching:
     """Match the elements of the last complete build with those of now.
 
-    While something is open, an element may get another name in one export and other numbers in another. So the matches
-    up to the model last seen are followed by those from it.
+    While a conflict is open, one export may rename an element and the next one change its numbers. So the renames up to
+    the model last seen are joined with those since then.
     """
     direct = find_matching(domain, recorded, now, declared)
     if last_seen is None:
@@ -57,7 +57,7 @@ def find_matching_since(
 
 
 def describe_doubt(doubt: Doubt, *, is_used: bool = False) -> str:
-    """Return why an element may be another one, as a clause; `is_used` if a common file only names it."""
+    """Return the doubt as a clause. `is_used`: a file of the whole robot uses the element's name."""
     name, aspects = doubt.element.partition(" ")[2], " and ".join(doubt.aspects)
     subject = f"it uses `{name}`, which" if is_used else f"`{name}`"
     if doubt.is_certain:
@@ -70,15 +70,15 @@ def describe_doubt(doubt: Doubt, *, is_used: bool = False) -> str:
 
 
 def pending(inputs: Inputs) -> Mapping[str, str]:
-    """Return the declared renames that the last complete build has not brought yet."""
+    """Return the declared renames that no complete build has made yet."""
     done = inputs.last.record.renamed
     return {old: new for old, new in inputs.robot.renamed.items() if done.get(old) != new}
 
 
 def check_declared(inputs: Inputs, now: Snapshot) -> Iterator[Diagnostic]:
-    """Yield a note for each declared rename that the last complete build has brought already.
+    """Yield a note for each declared rename that the last complete build has made already.
 
-    Raises ConfigError with each one that can't be.
+    Raises ConfigError with all impossible renames.
     """
     robot, errors, open_renames = inputs.robot, list[Diagnostic](), pending(inputs)
     if not robot.renamed:

@@ -123,7 +123,7 @@ class _CodeCache(jinja2.BytecodeCache):
 
     def load_bytecode(self, bucket: Bucket) -> None:
         """See Jinja."""
-        # a file that is damaged can raise anything when it is taken for a pickle; the template is compiled then
+        # a damaged pickle can raise any exception; then the template is compiled
         with contextlib.suppress(Exception), open(f"{self._stem}.{bucket.key}", "rb") as file:  # noqa: PTH123
             bucket.load_bytecode(file)
 
@@ -147,7 +147,7 @@ class _Sandbox(ImmutableSandboxedEnvironment):
         self.deadline = math.inf
         self.pieces: dict[str, set[str]] = {}
         """The templates that each rendered template includes or imports."""
-        for name in ("lipsum", "random"):  # their text is another one each time
+        for name in ("lipsum", "random"):  # their texts differ each time
             self.globals.pop(name, None)
             self.filters.pop(name, None)
 
@@ -187,7 +187,7 @@ def _limited_process() -> Iterator[None]:
     raises nothing within a single step of its own.
     """
     if sys.platform == "linux":
-        with open("/proc/self/statm", "rb", buffering=0) as file:  # noqa: PTH123 - once for each text
+        with open("/proc/self/statm", "rb", buffering=0) as file:  # noqa: PTH123 - called for each text
             now = int(file.read().split()[0]) * resource.getpagesize()
         soft, hard = _ADDRESS_SPACE
         allowed = [limit for limit in (soft, hard) if limit != resource.RLIM_INFINITY]
@@ -255,7 +255,7 @@ class Renderer:
         Returns an empty name and 0 if that is unknown. Raises the errors of `render`.
         """
         marked = _render(self._environment.overlay(extensions=[_MarkLines]), template, data)
-        if _MARK.sub("", marked) != text:  # a filter counts characters, say
+        if _MARK.sub("", marked) != text:  # for example, a filter counts characters
             return "", 0
         *before, last = marked.split("\n")[: max(line, 1)]
         places = _MARK.findall("\n".join((*before, *_BLANK.findall(last))))

@@ -213,7 +213,7 @@ class Result(msgspec.Struct, frozen=True):
         for conflict in (Reason.UNOWNED, Reason.MARKERS, Reason.ASKED):
             reasons[Reason.CONFLICT] += reasons.pop(conflict, 0)
         phrases = []
-        for reason in Reason:  # in the order in which they are told
+        for reason in Reason:  # in the order of the lines
             if (number := reasons[reason]) and reason not in silent and reason.done:
                 them, have, s = ("them", "have", "s") if number > 1 else ("it", "has", "")
                 phrase = reason.to_do if self.dry else reason.done

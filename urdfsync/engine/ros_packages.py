@@ -45,7 +45,7 @@ class Packages:
         A folder of this name without `package.xml` counts if there is no other, as for meshes.
         """
         if name not in self._named:
-            self._named[name] = None if "\0" in name else self._find(name)  # it may be a stranger's
+            self._named[name] = None if "\0" in name else self._find(name)  # the name may come from a stranger's file
         return self._named[name]
 
     @functools.cached_property
@@ -72,7 +72,7 @@ def libraries(environment: Mapping[str, str]) -> Mapping[str, Path]:
         folder = Path(entry).absolute()
         try:
             names = list_folder(folder)
-        except OSError:  # it is not there, or can't be read: that may change
+        except OSError:  # it is missing or unreadable now
             continue
         for name in sorted(names, key=_precedence):
             if is_visible_file(folder / name / "package.mo"):
@@ -95,7 +95,7 @@ def is_visible_file(path: Path) -> bool:
 
 
 def _below(top: Path) -> Iterator[tuple[str, Path]]:
-    # what is not there, or can't be read, may change
+    # depend on missing and unreadable folders, which may change
     for current, folders, files in os.walk(top, onerror=lambda error: depend_on(error.filename)):
         path = Path(current)
         note_names(path, (*folders, *files))

@@ -100,7 +100,7 @@ def decide(files: Mapping[str, File], moves: Mapping[str, str]) -> tuple[Action,
                 base = old_base  # the user moved the file there by hand
             reason = decide_file(base, mine, generated)
         if reason is Reason.FORGET and not file.record.hashes:
-            continue  # it was never written, and is not wanted any more
+            continue  # it was never written, and is no longer generated
         on_disk_hash = mine if isinstance(mine, str) else None
         actions.append(Action(path, reason, file.role, file.owner, base, generated, origin, mine=on_disk_hash))
     return tuple(actions)
@@ -110,7 +110,7 @@ def _edited_moves(files: Mapping[str, File], moves: Mapping[str, str]) -> dict[s
     """Return new and old path of the edited files that move with their elements."""
     edited = {new: old for new, old in moves.items() if files[old].is_edited}
     taken = {path for path in moves if not files[path].is_free}
-    # an edited file that can't move blocks the one that would take its place, and so on
+    # an edited file that can't move blocks the file that would take its place, and so on
     while blocked := edited.keys() & taken - set(edited.values()):
         edited = {new: old for new, old in edited.items() if new not in blocked}
     return edited

@@ -1,7 +1,7 @@
-"""Choices of the user: each acts at once on its file, at the file's present path, and on its base.
+"""Applies the user's choices: each one changes its file, at the file's present path, and its base.
 
-A choice is what a person could do by hand: save a text, and say which generated text it takes into account. So the
-files and bases are taken as the choices make them, and the build decides on that; it writes both together.
+The user could do the same by hand: save a text, and name the generated text that it takes into account. So choices
+change files and bases first, and the build then decides on these. It writes both together.
 """
 
 from __future__ import annotations
@@ -27,20 +27,20 @@ from urdfsync.spelling import nearest
 from urdfsync.state.record import FileRecord, role_of
 
 _EDITED = frozenset({Reason.KEEP, Reason.INCLUDED, Reason.MOVE, Reason.MERGE})
-"""Actions on files that the user edited, which he may replace by the generated ones."""
+"""Actions on edited files that the user may replace by the generated ones."""
 
 
 class Former(NamedTuple):
-    """A text that is replaced, and its base."""
+    """A replaced text, and its base."""
 
     text: bytes
     record: FileRecord
     bases: Mapping[str, str]
-    """The texts of its bases that are known, by hash."""
+    """Texts of its known bases, by hash."""
 
 
 class Settled(msgspec.Struct):
-    """The files that choices have changed, before the build goes on; by their present keys."""
+    """The files that choices have changed, by their present keys."""
 
     actions: dict[str, Action] = msgspec.field(default_factory=dict)
     contents: dict[str, bytes | None] = msgspec.field(default_factory=dict)
@@ -49,18 +49,18 @@ class Settled(msgspec.Struct):
     texts: dict[str, str] = msgspec.field(default_factory=dict)
     """Texts of bases that were put aside, by hash."""
     generated: set[str] = msgspec.field(default_factory=set)
-    """Hashes of generated texts that are given back."""
+    """Hashes of generated texts that `--undo` brings back."""
     before: dict[str, Former] = msgspec.field(default_factory=dict)
-    """What was there before the choice."""
+    """Texts before the choice."""
     names: Mapping[str, str] = {}
-    """New names by the old ones, as they were before."""
+    """New names by old ones, before the choices."""
     keys: set[str] = msgspec.field(default_factory=set)
-    """The keys under which the choices were made that came about."""
+    """Keys of the choices that were applied."""
 
     def add(
         self, inputs: Inputs, action: Action, content: bytes | None, record: FileRecord, reason: Reason, choice: Choice
     ) -> None:
-        """Add what a choice makes of a file at its present path."""
+        """Add the new content and base that a choice gives a file."""
         key = action.origin or action.path
         mine, former = inputs.files.read_on_disk(key), inputs.last.files.get(key, FileRecord())
         if mine is not None and (choice is not Choice.UNDO or content != mine):  # else there is nothing to bring back
@@ -71,24 +71,24 @@ class Settled(msgspec.Struct):
 
 
 def settle(generation: Generation, decision: Decision) -> Settled:
-    """Return what the choices of the options make of their files.
+    """Apply the choices of the options.
 
-    A choice is passed over if one of its two texts is another one now, and if it does not settle its file. Raises
-    OutputError for a file with markers of git that is to be kept.
+    A choice is ignored if one of its two texts changed since then, or if it does not fit its file. Raises OutputError
+    for `--keep` on a file with markers of git.
     """
     settled = Settled(names=decision.names)
     choices, folder = generation.inputs.options.choices, generation.inputs.folder
     by_path = {action.path: action for action in decision.actions}
     for key, chosen in choices.items():
         role = role_of(folder.path(key))
-        action = by_path.get(key, Action(key, Reason.FORGET, role))  # such as a file that is deleted
+        action = by_path.get(key, Action(key, Reason.FORGET, role))  # such as a deleted file
         if chosen.sides == action.sides and _settle(generation, decision, action, chosen, settled):
             settled.keys.add(key)
     return settled
 
 
 def _settle(generation: Generation, decision: Decision, action: Action, chosen: UsersChoice, settled: Settled) -> bool:
-    """Add what one choice makes of its file; return whether it settles it."""
+    """Apply one choice; return whether it fits its file."""
     inputs, choice, key = generation.inputs, chosen.choice, action.origin or action.path
     reason, record = Reason.KEEP, FileRecord((action.generated,) if action.generated else ())
     content = mine = inputs.files.read_on_disk(key)
@@ -121,7 +121,7 @@ def _settle(generation: Generation, decision: Decision, action: Action, chosen: 
         return False
     elif choice is Choice.KEEP:
         content = inputs.files.read(key)
-        if action.reason is Reason.ASKED:  # it is the same part, so what is new of it still counts
+        if action.reason is Reason.ASKED:  # it is the same part, so later changes of it still count
             record = inputs.last.files.get(key, record)
         if conflict and action.origin:
             from urdfsync.merge.renames import rename, without_clashes  # imports the parser
@@ -148,7 +148,7 @@ def _settle(generation: Generation, decision: Decision, action: Action, chosen: 
 
 
 def _move(generation: Generation, decision: Decision, action: Action, new: str, settled: Settled) -> bool:
-    """Add that an edit goes to the file of another element. Raises ConfigError if it can't."""
+    """Move an edit to the file of another element. Raises ConfigError if that is impossible."""
     inputs, (kind, _, name), key = generation.inputs, action.owner.partition(" "), action.path
     conflict, artifacts = decision.disputed[key], generation.package.artifacts
     template = artifacts[inputs.folder.path(key)].template
@@ -158,9 +158,9 @@ def _move(generation: Generation, decision: Decision, action: Action, new: str, 
     near = nearest(new, sorted(known - {name}))
     hint = f"did you mean `{near}`?" if near else "name the part as the source has it"
     if not name:
-        message, hint = "it is the file of no single part", "change the names in it, then use --keep"
+        message, hint = "it belongs to no single part", "change the names in it, then use --keep"
     elif new == name:
-        message = f"it is the file of {kind} `{name}`"
+        message = f"it belongs to {kind} `{name}` already"
     elif not message and f"{kind} {new}" not in places:
         message = f"{kind} `{new}` has no such file"
     if message:
@@ -185,7 +185,7 @@ def _move(generation: Generation, decision: Decision, action: Action, new: str, 
 
 
 def _merge_into(generation: Generation, conflict: Conflict, kind: str, old: str, new: str, text: str) -> str | None:
-    """Return a text with the edit of another element's file, in its own names; None if the two contradict."""
+    """Merge the edit of another element's file into a text, with that text's names; None if both contradict."""
     from urdfsync.merge import merge  # imports the parser
     from urdfsync.modelica.lexer import words_in
 
@@ -208,13 +208,13 @@ def _generated(generation: Generation, action: Action, mine: bytes) -> bytes | N
 
 
 def known_bases(base: str | None) -> tuple[FileRecord, Mapping[str, str]]:
-    """Return the record of a file with this base, and the base by its hash."""
+    """Return a record with this base, and the base's text by its hash."""
     texts = {} if base is None else {text_hash(base): base}
     return FileRecord(tuple(texts)), texts
 
 
 def with_choices(generation: Generation, settled: Settled) -> Generation:
-    """Return the same robot with its files and bases as choices have made them."""
+    """Return the robot with the files and bases that choices have changed."""
     inputs = generation.inputs
     files, left = PackageFiles(inputs.config, inputs.robot), inputs.files.left_by_git
     files.overlay = {**inputs.files.overlay, **settled.contents}
@@ -230,7 +230,7 @@ def with_choices(generation: Generation, settled: Settled) -> Generation:
 
 
 def actions_after(actions: Actions, settled: Settled) -> Actions:
-    """Return all that happens to the files: what choices do, and then the build."""
+    """Return the actions of the choices and of the build together."""
     after = {action.path: action for action in actions}
     for key, chosen in settled.actions.items():
         decided = after.get(key)

@@ -85,7 +85,7 @@ class Source(msgspec.Struct, frozen=True):
             return found
         file, line = self._place(found.line)
         message = self._with_places(found.message, file)
-        details = tuple(dict.fromkeys(map(self._with_places, found.details)))  # a macro has the same each time
+        details = tuple(dict.fromkeys(map(self._with_places, found.details)))  # each use of a macro gives the same ones
         return msgspec.structs.replace(found, message=message, file=file, line=line, column=0, details=details)
 
     def _place(self, line: int) -> tuple[str, int]:
@@ -124,7 +124,7 @@ def read_source(config: Config, robot: RobotConfig, store: Store, options: Build
     unreadable source, at the line of the configuration, and ConfigError for an untrusted command.
     """
     if not robot.command:
-        content = _read(config, robot)  # says what is wrong with a file that xacro can't read
+        content = _read(config, robot)  # reports a file that xacro can't read
         if robot.arguments is None and not is_xacro(robot.source, content):
             return _with_file_beside(registry.domain(robot.domain), robot.source, content)
     from urdfsync.engine import expansion  # 5 ms, and few robots need it
@@ -176,7 +176,7 @@ def _expand(config: Config, robot: RobotConfig, inputs: Inputs, options: BuildOp
     else:
         raise ConfigError(untrusted)
     if inputs.find_changes(robot, made):
-        mark_incomplete()  # somebody saved meanwhile
+        mark_incomplete()  # a file was saved meanwhile
     return made
 
 

@@ -86,7 +86,7 @@ def stage(
     changes += state
     news = generation.changes
     if news and not is_writing and decision.is_complete:
-        # the record may keep the old generator and options then, so that each later plan would tell them again
+        # the record may keep the old generator and options: each later plan would report them again
         news = msgspec.structs.replace(news, generator=False, options=())
     result = Result(
         robot.name,
@@ -172,7 +172,7 @@ def _record(generation: Generation, decision: Decision, settled: Settled) -> Rec
     inputs, old, news = generation.inputs, generation.inputs.last.record, generation.changes
     imports, inside = generation.imported.imports, inputs.folder.key("")
     if not decision.is_complete:
-        # the model stays that of the last complete build; what is renewed counts, but in a former folder
+        # the model stays that of the last complete build; renewed files are recorded, but not in a former folder
         files = {} if inputs.has_moved else files_after(decision.actions, old.files, is_complete=False)
         files = {**old.files} | {key: file for key, file in files.items() if key.startswith(inside)}
         renewed = {
@@ -206,7 +206,7 @@ def _record(generation: Generation, decision: Decision, settled: Settled) -> Rec
     )
     if news is None or any(change.change_class.rank > ChangeClass.UNMODELLED.rank for change in news.changes):
         return new
-    # not worth a commit is what no file of the package says: extensions that nothing models, options without effect
+    # changes that no file of the package shows are not worth a commit: unmodelled extensions, options without effect
     silent = msgspec.structs.replace(new, snapshot=old.snapshot, options=old.options, generator=old.generator)
     return old if silent == old else new
 
@@ -287,14 +287,14 @@ def _state_changes(
     recorded = store.save(store.path(name), statefile.dumps(record).encode())
     is_writing = is_writing or bool(changes or recorded)
 
-    # A text that is missing or damaged is written if it is generated now. One that no state mentions any more, neither
-    # the record before nor the one after, goes with a complete build that writes something: alone it is no reason.
+    # A missing or damaged text is written if it is generated now. A text that neither the old record nor the new one
+    # mentions is deleted by the next complete build that writes: it is no reason for a build.
     needed = {*last.record.hashes, *record.hashes, *(sha256 for text in aside.values() for sha256 in text.bases)}
     stored = {digit: store.bases(last.name, digit) for digit in bases.DIGITS}
     absent = record.hashes - {sha256 for texts in stored.values() for sha256 in texts or ()}
     missing, package = {sha256: settled.texts[sha256] for sha256 in absent & settled.texts.keys()}, generation.package
     if absent:
-        made = generation.paths_by_hash  # an element may get another name yet
+        made = generation.paths_by_hash  # elements may still be renamed
         missing |= {sha256: package.content(made[sha256]).decode() for sha256 in absent & made.keys()}
     cleans = decision.is_complete and (is_writing or bool(missing))
     # git may have united lines, which have an order

@@ -69,7 +69,7 @@ def _find_meaning(inputs: Inputs, key: str) -> str | tuple[str, ...] | None:
     sides = find_sides(file, text)
     if sides is None and has_markers:
         ours, theirs = markers.read_sides(_plain(text))
-        # they are what two builds wrote, so that nobody can have settled anything
+        # both sides are generated texts, so the user has settled nothing
         return ours if _are_generated(last, (ours, theirs)) else None
     if sides and _are_generated(last, (sides.ours, sides.theirs)):
         return sides.ours
@@ -143,14 +143,14 @@ def find_sides(file: Path, text: str) -> Sides | None:
     """
     import pygit2
 
-    dependencies.mark_incomplete()  # a commit changes the answer, and no file
+    dependencies.mark_incomplete()  # a commit may change the answer without a change of files
     text = _plain(text)
     try:
         repository = Revision(file.parent, "HEAD").repository
         candidates = itertools.chain(_staged(repository, file, text), _committed(repository, file))
         return next((sides for sides in candidates if sides.ours == sides.theirs or _is_untouched(text, sides)), None)
     except (SourceError, pygit2.GitError, KeyError, OSError, ValueError):
-        return None  # as without a repository: one that is damaged, or lacks commits, tells no versions
+        return None  # a damaged or shallow repository counts as none
 
 
 def find_left_records(inputs: Inputs, keys: Iterable[str]) -> dict[str, FileRecord]:
@@ -160,13 +160,13 @@ def find_left_records(inputs: Inputs, keys: Iterable[str]) -> dict[str, FileReco
     """
     top = Path(git.find_top(inputs.config.root) or "")
     folder = top / ".git"
-    if folder.is_file():  # of a working tree beside the first one
+    if folder.is_file():  # a working tree of `git worktree`
         folder = top / folder.read_text(errors="replace").removeprefix("gitdir: ").strip()
     if not any((folder / name).exists() for name in (*_UNDER_WAY, "SQUASH_MSG")):
         return {}  # importing pygit2 takes 55 ms
     import pygit2
 
-    dependencies.mark_incomplete()  # a commit changes the answer, and no file
+    dependencies.mark_incomplete()  # a commit may change the answer without a change of files
     wanted = {os.path.relpath(os.path.realpath(inputs.files.path(key)), top).replace(os.sep, "/"): key for key in keys}
     found = dict[str, FileRecord]()
     try:
@@ -195,7 +195,7 @@ def _staged(repository: pygit2.Repository, file: Path, text: str) -> Iterator[Si
         if ours and theirs and entries:
             yield Sides(*texts)
         elif entries and text in texts[1:]:
-            # of a file that both renamed, git puts its merge at either path: it is each branch's own version there
+            # git puts its merge of a file that both renamed at both paths: each branch has its own version there
             for name in ("HEAD",) if ours else (*_UNDER_WAY, label[1] if label else ""):
                 if (own := _read(name, file)) is not None:
                     yield Sides(own, own, own)
@@ -211,7 +211,7 @@ def _committed(repository: pygit2.Repository, file: Path) -> Iterator[Sides]:
             continue
         commits = [repository.revparse_single(name).peel(pygit2.Commit) for name in names]
         ancestor = repository.merge_base(commits[0].id, commits[1].id)
-        # a merge begins where the branches part, a commit that is picked at the one before it
+        # the base of a merge is the common ancestor, that of a picked commit its parent
         for base in dict.fromkeys([str(ancestor or ""), f"{names[1]}^"]):
             yield Sides(_read(base, file) or "", ours, theirs)
 
@@ -237,7 +237,7 @@ def _is_untouched(text: str, sides: Sides) -> bool:
     from urdfsync.merge.texts import merge_file
 
     readings = markers.read_sides(text)
-    if not any(map(markers.find_markers, readings)):  # else some are left over
+    if not any(map(markers.find_markers, readings)):  # else some markers remain
         is_merged = readings[0] == text
         ours, theirs = (_changes(sides.base, side) for side in sides[1:]) if is_merged else _apart(sides)
         if _changes(sides.ours, readings[0]) <= theirs and _changes(sides.theirs, readings[1]) <= ours:

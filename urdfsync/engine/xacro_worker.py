@@ -222,7 +222,7 @@ class _Builder(expatbuilder.ExpatBuilderNS):
 class _Copied(xml.dom.UserDataHandler):
     """Gives copies of an element, such as in a macro, the place of the original."""
 
-    def handle(self, operation: int, key: str, data: Any, src: Any, dst: Any) -> None:  # noqa: ARG002 - as DOM has it
+    def handle(self, operation: int, key: str, data: Any, src: Any, dst: Any) -> None:  # noqa: ARG002 - DOM's signature
         """Take part in the copying of an element."""
         if operation == self.NODE_CLONED and dst is not None:
             dst.setUserData(key, data, self)
@@ -261,7 +261,7 @@ def expand(request: Request) -> Answer:
     xacro.open, xacro.glob, xacro.root_dir = files.open, files, request.folder
     xml.dom.minidom.parse = _parse  # type: ignore[assignment]
     arguments, environment = _Asked(request.arguments), _Asked(os.environ)
-    os.environ = environment  # type: ignore[assignment] # noqa: B003 - it only notes who asks
+    os.environ = environment  # type: ignore[assignment] # noqa: B003 - it only records which variables are read
     text, problem = "", None
     places: tuple[tuple[int, str, int], ...] = ()
     try:
@@ -279,7 +279,7 @@ def expand(request: Request) -> Answer:
                 if element.tagName in _macros:
                     name, (_, line) = element.tagName, element.getUserData(_PLACE)
                     said.write(f"warning: <{name}> of line {line} calls no macro: write <xacro:{name} …>\n")
-    except Exception as error:  # noqa: BLE001 - expressions raise whatever they like
+    except Exception as error:  # noqa: BLE001 - expressions may raise anything
         problem = _problem(error, xacro.filestack[-1] if xacro.filestack else request.source, files.packages)
     lines = [line.strip() for line in said.getvalue().splitlines()]
     return Answer(
@@ -330,7 +330,7 @@ def _problem(error: BaseException, current: str, packages: Mapping[str, str]) ->
     `packages` are the folders of the ROS packages that the file named.
     """
     place, frame = None, error.__traceback__
-    while frame is not None:  # the innermost element that xacro has in hand
+    while frame is not None:  # the innermost element that xacro is processing
         names = frame.tb_frame.f_locals
         node = next((names[name] for name in ("node", "elt", "tag") if hasattr(names.get(name), "getUserData")), None)
         node = node if node is None or node.nodeType == node.ELEMENT_NODE else node.parentNode

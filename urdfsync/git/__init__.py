@@ -41,14 +41,14 @@ class Index:
         """
         folders, differing = tuple(set(paths) - self.tracked), self.unstaged | self.hidden
         if not all(path.endswith("/") for path in folders):
-            return False  # one is not tracked
+            return False  # a file is not tracked
         return differing.isdisjoint(paths) and not any(path.startswith(folders) for path in differing)
 
     def find_committed(self) -> set[str]:
         """Return the files that the commit changes, deleted ones included."""
         try:
             return set(_list("diff-index", "--cached", "--name-only", "--no-renames", "HEAD", "--"))
-        except GitError:  # the first commit
+        except GitError:  # there is no commit yet
             return set(self.tracked)
 
     @cached_property
@@ -90,7 +90,7 @@ def run(*arguments: str) -> str:
 
     Git's variables are passed on: GIT_DIR and GIT_INDEX_FILE name the commit under way.
     """
-    # git before 2.38 ignores safe.bareRepository, and later ones end instead of passing over such a folder
+    # git before 2.38 ignores safe.bareRepository; later versions fail instead of skipping such a folder
     top = None
     if "GIT_DIR" not in os.environ and (top := find_top(os.curdir)) is None:
         raise GitError("git failed: not a git repository")

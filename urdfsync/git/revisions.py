@@ -32,7 +32,7 @@ def open_repository(folder: Path) -> pygit2.Repository | None:
 
     Raises SourceError if it can't be read.
     """
-    import pygit2  # 55 ms, which a comparison with the last build does without
+    import pygit2  # 55 ms that a comparison with the last build saves
 
     from urdfsync import git  # likewise
 
@@ -42,7 +42,7 @@ def open_repository(folder: Path) -> pygit2.Repository | None:
         # discover_repository of libgit2 would take a folder of a stranger's files for a repository
         flags = pygit2.enums.RepositoryOpenFlag.NO_SEARCH | pygit2.enums.RepositoryOpenFlag.NO_DOTGIT
         repository = pygit2.Repository(Path(top, ".git"), flags)
-    except pygit2.GitError as problem:  # such as that of another user
+    except pygit2.GitError as problem:  # for example, it belongs to another user
         message, hint = f"the repository can't be read: {problem}", "repair it, or use --against ./FILE"
         raise SourceError.of("git", message, shown(Path(top)), hint=hint) from None
     return repository if repository.workdir else None

@@ -216,7 +216,7 @@ def _merge_parts(
             pieces = _merge(here, old.node, part.node, nothing, users_layout)
         elif not is_picture and part.key not in (users_layout or ()):
             pieces = [_contradiction(here, old.node, part.node, None)]
-        # inside of an element, blanks depend on those beside them
+        # inside of an element, the blanks depend on neighbouring blanks
         blanks = _blanks(old, part, new if mine.kind is TreeKind.BODY else None)
         if is_two_people and is_class and new:
             blanks, pieces = _merge_around(here, old, part, new, pieces)
@@ -237,7 +237,7 @@ def _merge_parts(
             pieces = [_contradiction((*path, part.key), old.node, None, part.node)]
         items[part.key] = _Item(part.key, part.before, pieces, part.after, part.remark)
     order = sequence if sequence and mine.kind is TreeKind.ARRAY else _order(trees, items)
-    # what one side moved and the other removed has a place, but is no longer there
+    # an element that one side moved and the other removed still has a place in the order
     if sequence is None or set(order) - items.keys() or [key for key in order if key in sequence] != sequence:
         place = (*path, "order") if mine.kind is TreeKind.BODY else path
         return [_contradiction(place, base, mine, generated)]
@@ -256,7 +256,7 @@ def _sequence(trees: Sequence[SyntaxTree]) -> list[str] | None:
     base, mine, generated = keys
     if mine == base or generated in (base, mine):
         return generated if mine == base else mine
-    # of two equal items of an array nobody can say which one stayed
+    # if an array has equal items, it is unknown which one stayed
     has_repetitions = kind is TreeKind.ARRAY and not all(key.endswith(" #1") for key in itertools.chain(*keys))
     return None if has_repetitions else merge_sequences(base, mine, generated)
 

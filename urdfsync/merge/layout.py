@@ -103,7 +103,7 @@ def _shifts(
     comparisons, previous = _MOST_COMPARISONS, ""
     for key, (low, high) in planned.items():
         if not mine.find(key):
-            # as far as the part that it hangs on, else as the one before it
+            # shifted with the part that it is connected to, else with the part before it
             neighbour = next((other for other in neighbours[key] if other != key and other in shifts), previous)
             wanted = shifts.get(neighbour, 0)
             shifts[key] = wanted
@@ -165,7 +165,7 @@ def _box(part: Part, place: str) -> Box | None:
         return None
     xs, ys = sorted(corner.real for corner in corners), sorted(corner.imag for corner in corners)
     box = [complex(xs[0], ys[0]) + sum(origins), complex(xs[1], ys[1]) + sum(origins)]
-    if not all(math.isfinite(abs(corner)) for corner in box):  # such as 1e999
+    if not all(math.isfinite(abs(corner)) for corner in box):  # 1e999, for example, is infinite
         return None
     return box[0], box[1]
 

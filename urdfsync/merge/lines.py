@@ -121,7 +121,7 @@ def compare(old: Sequence[Hashable], new: Sequence[Hashable]) -> list[Change]:
     import pygit2
 
     numbers: dict[Hashable, int] = {}
-    # libgit2 compares lines; numbers stand for the items, whatever these contain
+    # libgit2 compares lines: write each item as a number
     old_text, new_text = (
         "".join(f"{numbers.setdefault(item, len(numbers))}\n" for item in items) for items in (old, new)
     )
@@ -139,11 +139,11 @@ def find_regions(base: Sequence[str], mine: Sequence[str], generated: Sequence[s
     groups: list[list[tuple[Change, int]]] = []
     stop = -1
     for change, side in sorted(changes):
-        if change.start > stop:  # an unchanged line keeps it apart from those before
+        if change.start > stop:  # an unchanged line separates it from the changes before
             groups.append([])
         groups[-1].append((change, side))
         stop = max(stop, change.stop)
-    shifts = [0, 0]  # how far a line of base has moved in each side
+    shifts = [0, 0]  # offset of a base line in each side
     for group in groups:
         start, stop = group[0][0].start, max(change.stop for change, _ in group)
         starts = [start + shift for shift in shifts]

@@ -92,6 +92,6 @@ def _uses(text: str) -> Iterator[tuple[str, Token]]:
         if before == "." and number > 1:
             yield tokens[number - 2].text, token
         else:
-            # also the name of an argument of a function
+            # this includes names of function arguments
             begins = depth and before in ("(", ",", "each", "final") and tokens[number + 1].text in ("=", "(")
             yield (_MODIFIER if begins else ""), token

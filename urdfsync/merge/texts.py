@@ -63,7 +63,7 @@ def merge(
         flaw = find_flaw(merged, sides, statements) if is_modelica and merged != mine else ""
         return Merge(None if flaw else merged, merged, told, flaw)
     if any(map(_is_new_part, contradictions)):
-        return Merge(None, merged, told)  # both added a part of this name: no side has what the other one means
+        return Merge(None, merged, told)  # both added a part of this name, and they may mean different parts
     preferred = [_preferring(side, pieces, ending) for side in ("mine", "generated")]
     sound = [text if not is_modelica or not find_flaw(text, sides, statements) else None for text in preferred]
     return Merge(None, merged, told, "", sound[0], sound[1])

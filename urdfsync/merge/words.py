@@ -69,7 +69,7 @@ def describe(contradiction: Contradiction) -> str:
         shared = f"changed {what} "
         is_alike = yours.startswith(shared) and theirs.startswith(shared)
         told = f"you {yours}, the export {theirs.removeprefix(shared if is_alike else '')}"
-    is_base = element.startswith("extends ") and is_value  # the name of the value tells enough
+    is_base = element.startswith("extends ") and is_value  # the name of the value is enough
     return told if is_base else f"{element}: {told}"
 
 

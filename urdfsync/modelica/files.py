@@ -58,7 +58,7 @@ def modelica_files(
         for entry in inside:
             if entry.name.startswith(".") or entry.name == NOT_CLASSES:
                 continue
-            with contextlib.suppress(OSError):  # some file systems do not tell the type with the name
+            with contextlib.suppress(OSError):  # some file systems list no types
                 if entry.is_dir(follow_symlinks=False):
                     waiting += [entry.path] if entry.path not in left_out else []
                 elif entry.name.endswith(".mo") and entry.is_file(follow_symlinks=False):
@@ -73,7 +73,7 @@ def files_that_use(files: Mapping[Path, bytes], names: Iterable[str]) -> dict[Pa
     users, words, known = dict[Path, bytes](), set(names), set[str]()
     while words:
         known |= words
-        for path, content in files.items():  # which may be read only now, each time
+        for path, content in files.items():  # contents may be read lazily
             if path not in users and any(_is_used(word, content) for word in words):
                 users[path] = content
         words = {*map(class_of_file, users)} - known

@@ -14,7 +14,7 @@ from urdfsync.modelica.syntax import StoredText
 from urdfsync.spelling import nearest
 
 _BYTE_ORDER_MARK = "\ufeff"
-_ALLOWED_TWICE = ("has the equation", "connects", "extends")  # the language has nothing against these
+_ALLOWED_TWICE = ("has the equation", "connects", "extends")  # the language allows these twice
 
 
 def with_within(text: str, name: str) -> str:
@@ -42,7 +42,7 @@ def check_class_file(
         hint = "save it without: some compilers refuse it"
         say(Severity.WARNING, "byte-order-mark", "the file begins with a byte order mark", 1, hint)
     declared = stored or parse(text)
-    if declared.is_broken:  # only the first place is told, since others may follow from it
+    if declared.is_broken:  # report only the first place: others may follow from it
         breaking = [fault for fault in declared.faults if not fault.is_repetition]
         first = next(iter(find_markers(text)), min(breaking, key=lambda fault: fault.line))
         hint = "correct it first: other errors in the file may follow from it" if declared.faults[1:] else ""

@@ -75,7 +75,7 @@ class Lexer:
             add_start(match.start(_WORD))
             if not word:
                 break
-        if statement:  # what ends a statement does not end the text
+        if statement:  # the text goes on after the end of a statement
             del self.words[-1], self.starts[-1]
         elif match["endless_comment"]:
             self._add_endless("comment", match.start("endless_comment"))

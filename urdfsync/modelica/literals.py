@@ -18,7 +18,7 @@ _LITERAL = r"""(?xs)
         | (?<![\w.])\d+(?:\.\d*)?(?:[eE][-+]?\d+)?
       )
     """
-_LARGEST_INTEGER = 2**31 - 1  # what every Modelica tool takes without a decimal point
+_LARGEST_INTEGER = 2**31 - 1  # every Modelica tool accepts it without a decimal point
 
 
 def real(value: float | None, absent: str = INFINITY) -> str:

@@ -167,7 +167,7 @@ class Scopes:
             return ()
         with self._without_bases(node):
             types = self._bases(node)
-        if not self._resolving:  # else a name may be missing only because a class around it is being resolved
+        if not self._resolving:  # during the resolution of a class around it, a name may only seem to be missing
             node.bases = types
         return types
 
@@ -217,7 +217,7 @@ class Scopes:
             is_certain &= meaning.is_certain
             if not is_certain and not name[:1].isupper():
                 return meaning
-            # a model inherits components from a library that is not at hand, and hardly ever classes
+            # from missing libraries, models inherit components but hardly ever classes
             scope = None if "encapsulated" in scope.definition.prefixes else scope.parent
         if name in _ANYTHING:
             return ANYTHING
@@ -235,7 +235,7 @@ class Scopes:
         for clause in scope.definition.imports:
             if name in clause.names:
                 imported = self.lookup(clause.names[name], None)
-                return imported if isinstance(imported, Element) else ANYTHING  # it is told where it is imported
+                return imported if isinstance(imported, Element) else ANYTHING  # the import reports it
         for clause in scope.definition.imports:
             if not clause.names:
                 imported = self.lookup(clause.name._replace(parts=(*clause.name.parts, name)), None)
@@ -276,7 +276,7 @@ class Scopes:
         nested = _nested(modifiers, name)
         types = (*self._redeclared(modifiers, name), Type(child, nested))
         if "replaceable" in child.definition.prefixes and not child.definition.constraint:
-            # packages of media use what only the classes have that replace their empty ones
+            # packages of media use names that only their redeclared classes have
             types += ANYTHING.types
         if child.definition.constraint:
             types += _modified(self.types_of(child.definition.constraint, node), nested)

@@ -74,7 +74,7 @@ def compare(mine: str, generated: str) -> Difference:
         return Difference(same, frozenset(), is_whole=False, generated=None)
     rests = [*map(parse, texts)]
     paths = (declaration.path for rest in rests for declaration in declared(rest.classes))
-    names = frozenset(path[-1] for path in paths if path[1:])  # a class of another name is a fault of its file alone
+    names = frozenset(path[-1] for path in paths if path[1:])  # a misnamed class is a fault of its file alone
     visible = [dict(_visible(rest.classes)) for rest in rests]
     read = parse_without(mine, same)
     # a comment or a string around it may hide a component
@@ -111,7 +111,7 @@ def is_plain(statement: str) -> bool:
     rest, longer = statement[component.end() :], ""
     while "," in rest and rest != longer:
         rest, longer = _ENCLOSED.sub("", rest), rest
-    return "," not in rest  # else it declares several components
+    return "," not in rest  # a comma separates several components
 
 
 def mentioning(statements: Collection[str], names: Collection[str]) -> set[str]:

@@ -77,7 +77,7 @@ class StoredClasses:
         file = self.seen[name] = self.file(name)
         if file is None:
             return None
-        if name in self.users and name not in self.own:  # another one each time: a node has what was resolved with it
+        if name in self.users and name not in self.own:  # a new node each time: nodes keep resolved names
             return Node(self.users[name].definition, name, file)
         try:
             text = self._read(self.content(file))
@@ -94,7 +94,7 @@ class StoredClasses:
             return self.users[name].file
         if any(name[: len(package)] == package for package in self._not_on_disk):
             return None
-        # a file that stands in a wrong place may be meant for any package that lacks its class
+        # a misplaced file may belong to any package that lacks its class
         path = self._file(name) or next((path for path in self.unread if name[-1] == class_of_file(path)), None)
         return str(path) if path else None
 

@@ -486,7 +486,7 @@ class _TreeReader(Parser):
             if is_section(previous.key):
                 body.parts.append(previous)
                 part = Part(f"statements of {previous.key.partition(' ')[2]}", before, Leaf(own_text))
-            else:  # all statements of a section are one part
+            else:  # the statements of a section are one part
                 own_text = f"{previous.node.text}{previous.remark}{before}{own_text}"
                 part = Part(previous.key, previous.before, Leaf(own_text))
         elif self.faults or not body.skips:
@@ -520,7 +520,7 @@ class _TreeReader(Parser):
         ends = [span for span in first.inner if span.key in ("header", "left")]
         if ends and ends[0].key == "header":
             return f"{kind}{_said(_words(self.words[ends[0].start : ends[0].stop]))}"
-        # an equation is named by a variable that stands alone on its left side
+        # a single variable on the left side names the equation
         variable = self.words[ends[0].start : ends[0].stop] if ends else []
         is_alone = all(is_name(word) or word[0] in ".()[]" or word == "der" for word in variable)
         return f"{kind}equation {_said(_words(variable if variable and is_alone else inner))}"

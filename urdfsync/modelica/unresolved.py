@@ -144,7 +144,7 @@ class _Walk(NamedTuple):
             meaning = self.scopes.lookup(name, scope)
             yield from self._missing(name, meaning, scope, UnresolvedKind.ELEMENT)
             if name.arguments and isinstance(meaning, Element) and not meaning.is_component:
-                # constructors of operator records and of external objects have arguments of their own
+                # operator records and external objects have constructors with other arguments
                 is_plain = all(type_.node.definition.kind in _CALLED for type_ in meaning.types)
                 for argument in name.arguments if is_plain else ():
                     part = self.scopes.part(meaning.types, argument.parts[0])
@@ -188,7 +188,7 @@ class _Walk(NamedTuple):
     ) -> Iterator[Unresolved]:
         if isinstance(meaning, Element):
             return
-        # a model inherits components from a library that is not read, but hardly ever classes
+        # from unread libraries, models inherit components but hardly ever classes
         is_class = kind is UnresolvedKind.CLASS and meaning.number == 0 and scope is not None
         is_missing = meaning.is_certain or (is_class and not _is_in_open_package(scope, self.scopes))
         if not (is_missing or (self.lost and self.lost(meaning.part))):
@@ -196,9 +196,9 @@ class _Walk(NamedTuple):
         owner = str(meaning.types[0] if meaning.types else scope or "")
         names = self.scopes.names_in(meaning.types) if meaning.types else self.scopes.names_around(scope)
         candidates = {key for key, is_class in names.items() if is_class or kind is not UnresolvedKind.CLASS}
-        is_dotted = len(name.parts) > 1 or name.is_global  # so are imported names
+        is_dotted = len(name.parts) > 1 or name.is_global  # imported names are dotted, too
         is_library = not meaning.types and is_dotted and meaning.part[:1].isupper()
         least = _ALIKE if is_library else _RATHER_ALIKE
         near = nearest(meaning.part, sorted(candidates - {meaning.part}), least)
-        if near or not is_library or self.all_libraries:  # else a compiler tells whether there is a library
+        if near or not is_library or self.all_libraries:  # compilers report missing libraries
             yield Unresolved(kind, str(name), meaning.part, owner, name.line, near, candidates, is_library)

@@ -1,1 +1,1 @@
-"""Lines for people and values for programs that several commands share."""
+"""Output that several commands share: lines for people, values for programs."""

@@ -1,4 +1,4 @@
-"""The result of a build as a section, and how commands show it."""
+"""Turns the result of a build into a section, and shows it."""
 
 from __future__ import annotations
 
@@ -25,18 +25,18 @@ _BUILD = "run `urdfsync build`, and commit what it writes"
 _SETTLE = "run `urdfsync build` for both sides, and settle the conflicts with `urdfsync resolve`"
 _FIT = "correct the files that do not fit"
 _SILENT = {Reason.FORGET} | CONFLICTS
-"""Reasons of actions that no table has; conflicts are findings."""
+"""Reasons of actions that tables leave out; conflicts are findings."""
 _ALWAYS_LISTED = {Reason.MERGE, Reason.MOVE, Reason.UNDO} | ORPHANS
 EDITED = USERS | {Reason.MOVED_AWAY}
 """Actions on files that the user edited."""
-_ORPHANS = "of an orphan: `urdfsync resolve FILE --keep` makes it yours, --take deletes it"
+_ORPHANS = "for an orphan: `urdfsync resolve FILE --keep` makes it yours, --take deletes it"
 
 
 def build_section(result: Result, *, verbose: bool | None = None, named: Container[str] = ()) -> Section:
-    """Return what was done with one robot, or would be, with all files that do not stay as they are.
+    """Return what a build did, or would do, with the files that change.
 
-    If `verbose`, edited files that stay are listed, too, and numbers have all digits. If False, only the files are
-    listed that still have a text of the user's, and those that are `named` by their keys.
+    If `verbose`, edited files that stay are listed, too, and numbers have all digits. If not, only files with a text of
+    the user's are listed, and those `named` by their keys.
     """
     points, tables = change_parts(result.effective_changes, verbose=bool(verbose))
     silent = _SILENT if verbose or named else _SILENT | {Reason.KEEP}
@@ -59,7 +59,7 @@ def build_section(result: Result, *, verbose: bool | None = None, named: Contain
 
 
 def show_result(console: Console, result: Result, *, named: Container[str] = ()) -> None:
-    """Show what was done with one robot; `named` files are listed."""
+    """Show what a build did with one robot; `named` files are always listed."""
     show(console, result, partial(build_section, named=named), result, quiet=console.quiet)
     if not console.is_document and result.conflicts:
         console.print(conflict_lines(result, console))
@@ -73,9 +73,9 @@ def show(
     *,
     quiet: bool = False,
 ) -> None:
-    """Show what is `told` about one robot; with --quiet, people see only what they have to look after.
+    """Show the section `told` about one robot; with --quiet, only if the user has to act.
 
-    With `quiet`, the first line and what to do are enough of that. Without a `result`, no finding was told before.
+    With `quiet`, only its first line and what to do are shown. Without a `result`, all findings are new.
     """
     if console.is_document:
         console.add(told, to_section)
@@ -90,20 +90,20 @@ def show(
 
 
 def build_lines(result: Result) -> Iterator[StyledLine]:
-    """Yield what was done with one robot, without its findings."""
+    """Yield lines about what a build did with one robot, without findings."""
     yield from text(build_section(result, verbose=False))
     yield from conflict_lines(result, Console()) if result.conflicts else ()
 
 
 def mark_of(result: Result) -> Mark:
-    """Return the verdict on a package as a sign."""
+    """Return the mark of a package."""
     if result.failed or result.is_broken or result.checked is Checked.WRONG:
         return Mark.WRONG
     return Mark.FINE if result.in_step else Mark.OPEN
 
 
 def out_of_step(result: Result) -> Diagnostic | None:
-    """Return the finding that a package is out of step, at its first file; None if it is in step."""
+    """Return the finding that a package is out of step, at its `package.mo`; None if it is in step."""
     if result.in_step:
         return None
     hint = _SETTLE if result.conflicts else _BUILD if not result.are_files_in_step else _FIT
@@ -112,7 +112,7 @@ def out_of_step(result: Result) -> Diagnostic | None:
 
 
 def _conflicts(result: Result) -> Iterable[Diagnostic]:
-    """Yield each file that conflicts as a finding."""
+    """Yield a finding for each file in conflict."""
     for target in result.conflicts:
         message = f"{reason(target.action, result.changes, brief=True)}: {target.relation}"
         place, hint = (target.shown, _edited_line(target)), settle_hint([target])
@@ -120,7 +120,7 @@ def _conflicts(result: Result) -> Iterable[Diagnostic]:
 
 
 def _edited_line(target: DisputedFile) -> int:
-    """Return the first line that the user edited; 0 if that is not known."""
+    """Return the first line that the user edited; 0 if unknown."""
     if target.texts is None or target.texts.base is None:
         return 0
     base, mine = target.texts.base.splitlines(), target.texts.mine.splitlines()
@@ -130,7 +130,7 @@ def _edited_line(target: DisputedFile) -> int:
 def change_parts(
     changes: Changes | None, most: int = 12, *, verbose: bool = False
 ) -> tuple[list[StyledLine], list[Table]]:
-    """Return changes of a model: those of its structure as lines, all others as a table, of which so many are shown."""
+    """Return changes of a model: of its structure as lines, others as a table that shows `most` rows."""
     if changes is None:
         return [], []
     structure = tuple(each for each in changes.changes if each.change_class is ChangeClass.STRUCTURAL)
@@ -147,7 +147,7 @@ def change_parts(
 
 
 def file_table(result: Result, actions: Sequence[Action], **options: Any) -> Table:
-    """Return what happens to files, to those that the user edited first; `options` are those of the table."""
+    """Return a table of the actions, edited files first; `options` are those of `Table`."""
     actions = sorted(actions, key=lambda action: (action.reason not in EDITED, action.path.rpartition("/")))
     words = ["waiting" if action.is_waiting else str(action.reason) for action in actions]
     reasons = [reason(action, result.effective_changes, brief=True) for action in actions]

@@ -1,4 +1,4 @@
-"""Files that both sides changed: how the sides stand to each other, and lines with the commands that settle it."""
+"""Shows conflicts: what both sides changed, and the commands that settle them."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ from urdfsync.output.phrases import reason
 from urdfsync.spelling import counted
 
 FULL = 3
-"""So many conflicts of a robot are shown in full without --verbose."""
+"""The most conflicts of a robot that are shown in full without --verbose."""
 LINES = 16
-"""So many lines of a conflict are shown without --verbose."""
+"""The most lines of a conflict that are shown without --verbose."""
 _CONTEXT = 2
-"""So many lines are shown around those at issue."""
+"""Unchanged lines that are shown around a difference."""
 _WIDTH = 240
-"""Characters of a line that are shown."""
+"""The most characters of a line that are shown."""
 _ELEMENTS = 5
-"""So many changes of each side are listed."""
+"""The most changes of each side that are listed."""
 _SIGNS = {"+": "green", "-": "red", "@": "cyan"}
 """Styles of the lines of a difference, by how they begin."""
 
@@ -54,7 +54,7 @@ def conflict_lines(result: Result, console: Console) -> Iterator[StyledLine]:
 
 
 def _full_lines(target: DisputedFile, console: Console) -> Iterator[StyledLine]:
-    """Yield one conflict: what happened, the lines at issue, where the versions are saved, and what to do."""
+    """Yield lines about one conflict: the reason, the differences, the saved versions, and what to do."""
     result, action, name = target.result, target.action, target.shown
     yield line(("  conflict   ", "bold red"), (name, "bold"), (f"  {action.owner}", "dim"))
     clauses = [reason(action, result.changes, brief=True), target.relation]
@@ -82,7 +82,7 @@ def _full_lines(target: DisputedFile, console: Console) -> Iterator[StyledLine]:
 
 
 def settle_hint(conflicts: Sequence[DisputedFile]) -> str:
-    """Return what settles conflicts of a robot: the options that do so for each of them."""
+    """Return a hint with the options of `resolve` that settle each of these conflicts."""
     first, *others = map(_choices, conflicts)
     best, *more = [choice for choice in first if all(choice in choices for choices in others)]
     what, file = ("each conflict", "FILE") if others else ("the conflict", conflicts[0].shown)
@@ -91,7 +91,7 @@ def settle_hint(conflicts: Sequence[DisputedFile]) -> str:
 
 
 def _choices(target: DisputedFile) -> dict[str, str]:
-    """Return the options that settle a conflict, the best one first, and what they do."""
+    """Return the options that settle a conflict, best first, with their effects."""
     texts, is_on_disk = target.texts, target.action.is_on_disk
     choices = {}
     if target.merges:
@@ -112,7 +112,7 @@ def _choices(target: DisputedFile) -> dict[str, str]:
         return choices | {"--take": "the generated file"}
     edit = {"--edit": "both sides in your editor, between markers"} if texts and is_on_disk else {}
     keep = {"--keep": f"your file as it is{', under its new name' if target.action.origin else ''}"}
-    if texts and find_markers(texts.mine):  # they can't be kept
+    if texts and find_markers(texts.mine):  # a text with markers can't be kept
         keep = {}
     choices |= {**edit, **keep} if texts and texts.merge else {**keep, **edit}
     return choices | ({"--take": "the generated file"} if is_on_disk else {})
@@ -122,7 +122,7 @@ def _choices(target: DisputedFile) -> dict[str, str]:
 
 
 def _element_lines(texts: Conflict) -> list[StyledLine]:
-    """Return what each side changed, by element, if a merge takes both and both are classes."""
+    """Return the changes of each side by element, if they merge and both texts are classes."""
     from urdfsync.merge.edits import find_edits, in_words  # only a conflict needs it
 
     if texts.base is None or texts.merge is None or texts.merge.text is None:
@@ -140,15 +140,15 @@ def _element_lines(texts: Conflict) -> list[StyledLine]:
 
 
 def _text_lines(texts: Conflict) -> Iterator[StyledLine]:
-    """Yield the markers around contradictions, as `--edit` has them; without any, what a merge would change."""
+    """Yield contradictions between markers, as `--edit` has them; if there are none, the changes of the merge."""
     if texts.merge is None:
         return difference_lines(texts.mine, texts.generated, "mine", "generated")
-    old = (texts.merge.contradictions and texts.merge.with_mine) or texts.mine  # with all that fits together
+    old = (texts.merge.contradictions and texts.merge.with_mine) or texts.mine  # the merge of all other changes
     return difference_lines(old, texts.merge.proposal, "mine", "merge")
 
 
 def difference_lines(old: str, new: str, old_name: str, new_name: str) -> Iterator[StyledLine]:
-    """Yield how two texts of these names differ, as git shows it."""
+    """Yield the difference of two texts, in git's form."""
     import difflib  # 1 ms, as shlex below: few builds have conflicts
 
     texts = _split_lines(old), _split_lines(new)
@@ -157,7 +157,7 @@ def difference_lines(old: str, new: str, old_name: str, new_name: str) -> Iterat
 
 
 def _split_lines(text: str) -> list[str]:
-    """Return the lines of a text; nothing but a line feed ends one, as in git."""
+    """Return the lines of a text; as in git, only a line feed ends one."""
     return text.replace("\r\n", "\n").removesuffix("\n").split("\n")
 
 

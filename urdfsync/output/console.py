@@ -1,7 +1,7 @@
-"""Where one command writes: lines for people, or one document: JSON, Markdown or SARIF.
+"""The output of one command: lines for people, or one document in JSON, Markdown or SARIF.
 
-Findings, progress and errors go to the error stream, everything else to the output stream. Nothing that urdfsync
-quotes from files can command a terminal: `visible` escapes it.
+Findings, progress and errors go to the error stream, everything else to the output stream. Text quoted from files can't
+control a terminal: `visible` escapes it.
 """
 
 from __future__ import annotations
@@ -30,9 +30,9 @@ if TYPE_CHECKING:
 
 R = TypeVar("R", bound=msgspec.Struct)
 Format: TypeAlias = Literal["text", "json", "markdown", "sarif"]
-"""What a command writes on the output stream."""
+"""The format of the output stream."""
 FEW = 5
-"""So many warnings of one code are shown; of more, only the first ones and their number."""
+"""The most warnings of one code that are shown; the others are counted."""
 BAR_AFTER = 0.5
 """Seconds of work before a progress bar appears."""
 _SEVERITIES = {Severity.ERROR: "bold red", Severity.WARNING: "yellow", Severity.NOTE: "cyan"}
@@ -59,12 +59,12 @@ class StyledLine(msgspec.Struct, frozen=True):
 
 
 def line(*parts: tuple[str, str]) -> StyledLine:
-    """Return a line of pieces of text with their styles. It can neither move the cursor nor turn the writing round."""
+    """Return a line of pieces of text with their styles; control characters are escaped."""
     return StyledLine(tuple((visible(text), style) for text, style in parts))
 
 
 def first_lines(lines: Sequence[StyledLine], most: int, noun: str, *, verbose: bool) -> Sequence[StyledLine]:
-    """Return `most` lines, the last of which counts those that are left out; with `verbose` all."""
+    """Return the first lines and, as the last of `most`, the number of the others; with `verbose` all lines."""
     rest = len(lines) - most + 1
     if verbose or rest < 2:
         return lines
@@ -72,7 +72,7 @@ def first_lines(lines: Sequence[StyledLine], most: int, noun: str, *, verbose: b
 
 
 def findings(diagnostics: Sequence[Diagnostic], *, quiet: bool = False, verbose: bool = False) -> list[StyledLine]:
-    """Return diagnostics as lines: with `quiet` errors alone, without `verbose` the first warnings of each code."""
+    """Return diagnostics as lines: with `quiet` only errors, without `verbose` only the first warnings of a code."""
     if quiet:
         diagnostics = [diagnostic for diagnostic in diagnostics if diagnostic.severity is Severity.ERROR]
     total, seen, hidden = Counter(diagnostic.code for diagnostic in diagnostics), Counter[str](), Counter[str]()
@@ -91,7 +91,7 @@ def findings(diagnostics: Sequence[Diagnostic], *, quiet: bool = False, verbose:
 
 
 def is_terminal(stream: IO[str]) -> bool:
-    """Return whether people look at the stream, or want it to look as if."""
+    """Return whether the stream is a terminal, or the user forces colours."""
     return stream.isatty() or bool(os.environ.get("FORCE_COLOR"))
 
 
@@ -101,7 +101,7 @@ def has_marks(stream: IO[str]) -> bool:
 
 
 def rich_console(stream: IO[str]) -> rich.console.Console:
-    """Return a console of rich on this stream, with colours if they are understood and wanted."""
+    """Return a console of rich on this stream, with colours if the terminal and the user allow them."""
     from rich.console import Console
 
     is_plain = os.environ.get("NO_COLOR") or os.environ.get("TERM") in ("dumb", "unknown")
@@ -110,7 +110,7 @@ def rich_console(stream: IO[str]) -> rich.console.Console:
 
 
 def write_lines(lines: Iterable[StyledLine], stream: IO[str]) -> None:
-    """Write lines, none of which is broken."""
+    """Write lines without wrapping them."""
     if is_terminal(stream):
         screen = rich_console(stream)
         for text in lines:
@@ -132,7 +132,7 @@ def html(lines: Iterable[StyledLine]) -> str:
 
 
 class Console:
-    """The output of one command, as its options want it."""
+    """The output of one command."""
 
     def __init__(
         self,
@@ -143,7 +143,7 @@ class Console:
         verbose: bool = False,
         config: str = "",
     ) -> None:
-        """`config` is the configuration as the user named it, for commands that are proposed."""
+        """`config` is the path of --config as the user wrote it, for the commands in hints."""
         self._command, self.config = command, config
         self.format, self.quiet, self.verbose = format, quiet, verbose
         self._results: list[msgspec.Struct] = []
@@ -163,7 +163,7 @@ class Console:
         write_lines(lines, sys.stderr if error else sys.stdout)
 
     def tell(self, lines: Iterable[StyledLine]) -> None:
-        """Write lines on the output stream, unless the user wants JSON or errors alone."""
+        """Write lines on the output stream, unless it gets a document or --quiet is given."""
         if not (self.is_document or self.quiet):
             self.print(lines)
 
@@ -173,12 +173,12 @@ class Console:
             self.print(findings(diagnostics, quiet=self.quiet, verbose=self.verbose), error=True)
 
     def warnings(self, diagnostics: Sequence[Diagnostic]) -> None:
-        """Show diagnostics that belong to no robot and do not stop the command."""
+        """Show diagnostics that belong to no robot and that do not end the command."""
         self._warnings = diagnostics
         self.findings(diagnostics)
 
     def add(self, result: R, to_section: Callable[[R], Any] | None = None) -> None:
-        """Add a result to the document; those of a command that fails later are in its document, too."""
+        """Add a result to the document, which has it even if the command fails later."""
         self.stop_progress()
         if self.format == "json":
             self._results.append(result)
@@ -186,7 +186,7 @@ class Console:
             self._sections.append(to_section(result))
 
     def end(self, code: int, diagnostics: Sequence[Diagnostic] = ()) -> int:
-        """End a command: show what stopped it, or write its document. Returns the exit code."""
+        """End a command: show its errors, or write its document. Returns the exit code."""
         self.stop_progress()
         if not self.is_document:
             self.findings(diagnostics)
@@ -195,8 +195,8 @@ class Console:
         return code
 
     def _document(self, code: int, diagnostics: Sequence[Diagnostic]) -> str:
-        """Return the document that takes the place of lines; `diagnostics` belong to no robot."""
-        if self.format != "json":  # each other format is a module, which most commands do without
+        """Return the document; `diagnostics` belong to no robot."""
+        if self.format != "json":  # each other format is a module, which most commands do not need
             document: str = importlib.import_module(f"urdfsync.output.{self.format}").document(
                 self._sections, diagnostics, code
             )
@@ -206,7 +206,7 @@ class Console:
         return json.dumps(plain(values), indent=indent) + "\n"
 
     def progress(self, what: str, done: int, total: int) -> None:
-        """Show a step of the work, once the work takes long enough for anybody to wonder."""
+        """Show a step of the work once it takes more than a moment."""
         is_wanted = not self.is_document and not self.quiet and sys.stderr.isatty()
         if not is_wanted or time.monotonic() - self._begin < BAR_AFTER:
             return
@@ -215,7 +215,7 @@ class Console:
 
             stream: Any = sys.stderr
             if isinstance(stream, streams.Stream):
-                stream = stream.without_transcript()  # the bar is gone at the end: no saved answer has it
+                stream = stream.without_transcript()  # no saved answer has the bar
             screen = rich_console(stream)
             bar = Progress(console=screen, transient=True, redirect_stdout=False, redirect_stderr=False)
             self._bar = bar, bar.add_task(what, total=total)
@@ -224,7 +224,7 @@ class Console:
         bar.update(task, description=what, completed=done, total=total)
 
     def stop_progress(self) -> None:
-        """Take the progress bar away."""
+        """Remove the progress bar."""
         if self._bar is not None:
             self._bar[0].stop()
             self._bar = None

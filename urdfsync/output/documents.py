@@ -1,7 +1,7 @@
 """JSON documents (docs/json.md): results as plain data, under the names of their fields and properties.
 
-A class of results may have `KEYS`: the names of those of its fields and properties that documents have. Of any other
-struct they have all fields. `urdfsync schema` prints their schemas, of the same types.
+A class of results may list the fields and properties for documents in `KEYS`. Other structs are written with all
+fields. `urdfsync schema` prints schemas of the same types.
 """
 
 from __future__ import annotations
@@ -19,24 +19,24 @@ from urdfsync.diagnostics import Diagnostic
 
 Item = TypeVar("Item")
 JSON_VERSION: Literal[3] = 3
-"""Version of the JSON documents and events; raised when a key changes its meaning or goes away."""
+"""Version of the JSON documents and events; it grows if a key is removed or changes its meaning."""
 
 
 class Document(msgspec.Struct, Generic[Item], kw_only=True):
-    """What every command writes with `--format json`; of None for one without results."""
+    """The document that each command writes with `--format json`; of None for a command without results."""
 
     version: Literal[3] = JSON_VERSION
     command: str
     """Empty if the arguments name none."""
     exit: int
     results: Sequence[Item]
-    """One for each robot, as far as the command came."""
+    """One result for each finished robot."""
     diagnostics: Sequence[Diagnostic]
-    """Those about no robot."""
+    """Diagnostics about no robot."""
 
 
 def plain(value: Any) -> Any:
-    """Return a value as plain data; an infinite number, or one that is none, as None."""
+    """Return a value as plain data; infinity and NaN become None."""
     match value:
         case msgspec.Struct():
             return {name: plain(getattr(value, name)) for name in _keys(type(value))}
@@ -53,7 +53,7 @@ def plain(value: Any) -> Any:
 
 @functools.cache
 def document_type(kind: Any) -> Any:
-    """Return the type that values of a type have in documents, which msgspec makes schemas of."""
+    """Return the type of a value in documents, for the schemas of msgspec."""
     if kind is float:
         return float | None
     if not isinstance(kind, type):  # such as `Sequence[Action]`

@@ -1,4 +1,4 @@
-"""What the user edited in generated files, by the elements of their classes: as a section."""
+"""Turns the user's edits into a section, by the elements of classes."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from urdfsync.spelling import counted
 
 
 def to_section(edited: RobotEdits, *, verbose: bool | None = None, most: int = 20) -> Section:
-    """Return the edits of a robot, file by file: `most` of each on a terminal; if `verbose`, their lines as well."""
+    """Return the edits of a robot by file; a terminal shows `most` of each. If `verbose`, also the edited lines."""
     if edited.failed:
         return Section(edited.robot, "can't be read", Mark.WRONG, findings=edited.diagnostics)
     tables = list[Table]()
@@ -37,7 +37,7 @@ def _edit_line(_place: str, element: str, what: str) -> StyledLine:
 
 
 def _told(file: EditedFile) -> list[tuple[str, str]]:
-    """Return the elements that are edited, and what of each; the element is empty for the file as a whole."""
+    """Return the edited elements, each with its edit; the element is empty for the whole file."""
     if file.base is None:
         return [("", "its base, the text that urdfsync wrote last, is lost: nothing to compare with")]
     if (edits := file.edits) is None:

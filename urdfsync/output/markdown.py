@@ -1,6 +1,6 @@
-"""Markdown for a comment on a merge request: structure first, then tables, folded if they are long.
+"""Writes Markdown for a comment on a merge request: structure first, then tables, folded if they are long.
 
-It is HTML, which GitHub and GitLab take: quoted text makes no markup there, and its tables may have what they want.
+It is HTML, which GitHub and GitLab accept: quoted text can't become markup there, and cells may have any text.
 """
 
 from __future__ import annotations
@@ -18,17 +18,17 @@ from urdfsync.output.sections import Mark, Section, findings_table
 from urdfsync.spelling import visible
 
 FOLDED = 30
-"""Longer tables, and lists, are folded."""
+"""Tables and lists with more rows are folded."""
 MOST_ROWS = 100
-"""So many rows of a table are written; those that are left out are counted."""
+"""The most rows of a table that are written; the others are counted."""
 LONGEST = 50_000
-"""Characters of what a comment says of robots in detail; GitHub takes 65,536 in all."""
+"""The most characters of details about robots; GitHub allows 65,536 for a comment."""
 _TOO_LONG = " (the rest is too long for a comment: the command without `--format` shows it)"
 _CODE = re.compile("`([^`]+)`")
 
 
 def document(sections: Iterable[Section], findings: Sequence[Diagnostic] = (), _code: int = 0) -> str:
-    """Return robots, those that need attention first, and findings that belong to none, as one comment."""
+    """Return one comment: robots, those that need attention first, and findings about none."""
     environment = html_environment(Path(__file__).parent)
     environment.filters |= {"quoted": _quoted, "findings": findings_table}
     environment.globals |= {"most_open": FOLDED, "most_rows": MOST_ROWS}
@@ -45,7 +45,7 @@ def document(sections: Iterable[Section], findings: Sequence[Diagnostic] = (), _
 
 
 def html_environment(folder: Path) -> jinja2.Environment:
-    """Return an environment for templates of HTML, which escapes all texts."""
+    """Return an environment for templates of HTML that escapes all texts."""
     return jinja2.Environment(
         loader=jinja2.FileSystemLoader(folder),
         undefined=jinja2.StrictUndefined,
@@ -56,7 +56,7 @@ def html_environment(folder: Path) -> jinja2.Environment:
 
 
 def words(text: str) -> markupsafe.Markup:
-    """Return text with what stands between ` as code."""
+    """Return text, with the parts between ` as code."""
     return markupsafe.Markup("").join(
         markupsafe.Markup("<code>{}</code>").format(piece) if number % 2 else piece
         for number, piece in enumerate(_CODE.split(text))
@@ -64,5 +64,5 @@ def words(text: str) -> markupsafe.Markup:
 
 
 def _quoted(text: str) -> markupsafe.Markup:
-    """Return text on one line that calls nobody: readers of the finished page look for names and numbers."""
+    """Return text on one line, in which hosts find no names of users and no numbers of issues."""
     return words(re.sub("([@#])", "\\1\u2060", visible(text)))

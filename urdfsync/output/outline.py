@@ -1,7 +1,6 @@
 """Changes of a model in words: the rows of each element.
 
-What belongs together is one row: the components of a vector, all rounding, all that is not modelled. Elements with the
-same rows share them.
+One row has the components of a vector, all rounding, or all unmodelled parts. Elements with the same rows share them.
 """
 
 from __future__ import annotations
@@ -19,14 +18,14 @@ from urdfsync.domain import ChangeClass, ChangeKind
 from urdfsync.spelling import same_count
 
 _NAMES = 140
-"""Characters of the names of elements in a title; there is always one name."""
+"""The most characters of the names in a title, which has one name at least."""
 _SAME = 1e-9
-"""Relative change of a sum that comes from its rounding; lengths and angles that nobody can measure, in m and rad."""
+"""The greatest relative change of a sum by rounding, and lengths and angles too small to measure, in m and rad."""
 _COMPONENT = r"(.*)\[(\d+)\]"
 _MOVED = 3
-"""So many elements of a kind are named that exchanged their names."""
+"""The most elements of a kind with exchanged names that are named."""
 _WIDTH = 40
-"""Characters of a text that are shown."""
+"""The most characters of a text that are shown."""
 _CONTEXT = 12
 """Characters of a long text before the place where it differs."""
 _HASH = "[0-9a-f]{64}"
@@ -61,7 +60,7 @@ def outline(changes: Changes, *, everything: bool = False) -> list[tuple[str, tu
 
 
 def _moved_names(changes: Changes) -> dict[str, str]:
-    """Return a row for the elements whose names went round; of more than three of a kind, the first one tells all."""
+    """Return a row for the elements that exchanged names; for more than three of a kind, one row for all."""
     renamed = [change for change in changes.changes if change.kind is ChangeKind.RENAMED]
     kinds: dict[str, dict[str, str]] = defaultdict(dict)
     for change in renamed:
@@ -79,7 +78,7 @@ def _moved_names(changes: Changes) -> dict[str, str]:
 
 
 def _step(old: str, new: str) -> int:
-    """Return how far a name's number went; 0 if more than its number is another one."""
+    """Return the change of the number in a name; 0 if anything else changed."""
     parts = [re.fullmatch(r"(.*?)(\d+)", name) for name in (old, new)]
     if not (parts[0] and parts[1]) or parts[0][1] != parts[1][1]:
         return 0
@@ -87,7 +86,7 @@ def _step(old: str, new: str) -> int:
 
 
 def _title(elements: Sequence[str]) -> str:
-    """Return elements in words; what they all begin with is said once."""
+    """Return elements in words; their common kind is written once."""
     first, space, _ = elements[0].partition(" ")
     begin = f"{first} " if space and all(element.startswith(f"{first} ") for element in elements) else ""
     names = [element.removeprefix(begin) for element in elements]
@@ -97,7 +96,7 @@ def _title(elements: Sequence[str]) -> str:
 
 
 def _element_rows(changes: Sequence[Change]) -> list[Row]:
-    """Return a row for each change or vector, and one that counts what is not modelled, and one for all rounding."""
+    """Return a row for each change or vector, one for the number of unmodelled changes, and one for all rounding."""
     counts = {"not modelled": 0, "rounding": 0}
     vectors: dict[object, list[Change]] = defaultdict(list)
     for change in changes:
@@ -170,9 +169,9 @@ def effect_rows(effects: Sequence[Effect]) -> list[Row]:
 
 
 def _pair(old: Any, new: Any, *, mark: str = "", exact: bool = False) -> str:
-    """Return two values, numbers with `mark` behind them; with all their digits if they look the same otherwise.
+    """Return two values; numbers are followed by `mark`, and have all digits if they would look equal otherwise.
 
-    Of long texts only a part is left, unless `exact`.
+    Long texts are cut, unless `exact`.
     """
     if isinstance(old, str) and isinstance(new, str):
         shown = old or '""', new or '""'
@@ -199,7 +198,7 @@ def _value(value: Any, *, mark: str = "", exact: bool = False) -> str:
 
 
 def _details(value: Any) -> str:
-    """Return what tells a thing that comes or goes from others: its number or text, the numbers and texts in it."""
+    """Return the numbers and texts of an added or removed value."""
     if isinstance(value, str) and value.startswith("<"):
         return ""
     if isinstance(value, str) or is_number(value) or _is_vector(value):
@@ -211,7 +210,7 @@ def _details(value: Any) -> str:
 
 
 def _percent(old: Any, new: Any) -> str:
-    """Return a number relative to an older one; empty where that says nothing, as with another sign."""
+    """Return a number relative to an older one; empty if the ratio means nothing, as after a change of sign."""
     if not (is_number(old) and is_number(new)) or old == 0 or new / old < 0:
         return ""
     percent = 100 * (new - old) / abs(old)

@@ -15,7 +15,7 @@ _NAMED = {
     Reason.MERGE: "{}; merged with your edits",
     Reason.CONFLICT: "you edited it, and its generated text changed too: {}",
 }
-"""Reasons of actions that follow from a change of the model, which takes the place of `{}`."""
+"""Reasons of actions; `{}` stands for the change of the model."""
 
 _CHOSEN = {
     Choice.KEEP: "your file as it is",
@@ -27,14 +27,14 @@ _CHOSEN = {
     Choice.MOVED: "your edit is with the part that you named",
     Choice.UNDO: "as you had it before",
 }
-"""The text that a choice of the user's gives a file."""
+"""The content of a file after a choice, in words."""
 
 
 def reason(action: Action, changes: Changes | None, *, brief: bool = False) -> str:
-    """Return why an action happens, as the end of a sentence that begins with the path, and what it waits for.
+    """Return the reason of an action, as the end of a sentence that begins with the path, and what it waits for.
 
-    Where the changes of the model tell, they are named: `link forearm: mass 1.2 → 1.4 kg (+16.7 %)`. If `brief`, their
-    elements are, `link forearm`: the changes are listed beside it.
+    The reason names changes of the model, if any: `link forearm: mass 1.2 → 1.4 kg (+16.7 %)`. If `brief`, it names
+    only their elements, since the changes are listed beside it.
     """
     return "; ".join(filter(None, [_cause(action, changes, brief=brief), action.replaces, action.waits_for]))
 
@@ -46,7 +46,7 @@ def _cause(action: Action, changes: Changes | None, *, brief: bool) -> str:
         return kept if is_orphan else _CHOSEN[action.choice]
     if action.reason not in _NAMED or changes is None:
         return action.reason.text
-    # records follow from the changes of their element, models and packages from structural ones
+    # changes of an element update its records, structural changes update models and packages
     causes = [change for change in changes.changes if change.element == action.owner]
     if action.role in (Role.MODEL, Role.PACKAGE, Role.ORDER):
         structural = [change for change in changes.changes if change.change_class is ChangeClass.STRUCTURAL]
@@ -65,7 +65,7 @@ def _cause(action: Action, changes: Changes | None, *, brief: bool) -> str:
 
 
 def generator_change(changes: Changes) -> str:
-    """Return what changed beside the model: options by their names, if nothing but options did."""
+    """Return the changes beside the model; if only options changed, their names."""
     if not changes.options:
         return "a template, an option or urdfsync itself changed"
     names = " and ".join(f"`{name}`" for name in changes.options)
@@ -73,7 +73,7 @@ def generator_change(changes: Changes) -> str:
 
 
 def change_counts(changes: Changes) -> str:
-    """Return how many elements come, go and change: `+2 −1 ~42 (4 structural and 51 parameter changes)`."""
+    """Return the numbers of added, removed and changed elements: `+2 −1 ~42 (4 structural changes)`."""
     marks = {change.element: "~" for change in changes.changes}
     marks |= {one.element: _SIGNS.get(one.kind, "~") for one in changes.changes if len(one.path) == 1}
     elements = Counter(marks.values())

@@ -1,6 +1,6 @@
-"""Findings that the last build of a robot told already: told again in full only with --verbose, else counted.
+"""Counts the findings that the last build of a robot has shown already; --verbose shows them in full.
 
-This machine notes what was told. If the notes are lost, all is told again.
+This machine notes the shown findings. If the notes are lost, all are shown again.
 """
 
 from __future__ import annotations
@@ -20,12 +20,12 @@ from urdfsync.state import notes
 
 
 def show_findings(console: Console, result: Result, diagnostics: Sequence[Diagnostic]) -> None:
-    """Show findings of a robot; those that its last build said already are counted.
+    """Show findings of a robot; those that its last build has shown are counted.
 
-    Errors, and what is wrong with Modelica files, are said as long as they are true.
+    Errors and findings about Modelica files are shown by each build.
     """
     folder = result.root / STATE_FOLDER
-    depend_on(notes.place(folder, result.robot))  # a saved answer repeats no finding that was told since
+    depend_on(notes.place(folder, result.robot))  # if the notes change, no saved answer is used
     known = notes.load(folder, result.robot)
     before, keys = known.said, list(map(_key, diagnostics))
     new = [

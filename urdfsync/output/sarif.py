@@ -1,4 +1,4 @@
-"""Findings as SARIF 2.1.0, which code hosts and editors show at their lines.
+"""Writes findings as SARIF 2.1.0, which code hosts and editors show at their lines.
 
 Source: OASIS, Static Analysis Results Interchange Format 2.1.0 with errata 01; GitHub shows no result without a rule's
 texts, a file and a line.
@@ -25,9 +25,9 @@ _ESCAPES = str.maketrans({**{char: f"\\{char}" for char in "[]\\"}, "{": "{{", "
 
 
 def document(sections: Iterable[Section], findings: Sequence[Diagnostic], code: int) -> str:
-    """Return a log of one run with the findings of robots and those of none; `code` is the exit code.
+    """Return a log of one run with all findings; `code` is the exit code.
 
-    What names no file is a notification about the run.
+    A finding without a file is a notification about the run.
     """
     of_robots = ((*section.findings, *filter(None, [section.verdict])) for section in sections)
     told = dict.fromkeys([*findings, *(finding for group in of_robots for finding in group)])
@@ -60,15 +60,12 @@ def document(sections: Iterable[Section], findings: Sequence[Diagnostic], code: 
 
 
 def read_meanings() -> dict[str, str]:
-    """Return the meaning of each code that docs/findings.md explains, and what is done then."""
-    return {
-        code: f"{meaning} ({''.join(consequence)})" if any(consequence) else meaning
-        for code, (meaning, *consequence) in config.explained("findings.md")
-    }
+    """Return the meaning of each code from docs/findings.md."""
+    return {code: meaning for code, (meaning,) in config.explained("findings.md")}
 
 
 def _location(finding: Diagnostic, top: Path) -> dict[str, Any]:
-    """Return a place; a finding about a whole file stands at its first line."""
+    """Return the place of a finding; line 1 for a whole file."""
     region = {"startLine": finding.line or 1} | ({"startColumn": finding.column} if finding.column else {})
     file = Path(os.path.normpath(config.working_folder() / finding.file))
     if not file.is_relative_to(top):

@@ -1,4 +1,4 @@
-"""What a command found out about one robot, as values: `terminal`, `markdown`, `sarif` and `pages` show them."""
+"""The results of a command about one robot, as values that `terminal`, `markdown`, `sarif` and `pages` show."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from urdfsync.output.console import StyledLine
 
 
 class Mark(enum.StrEnum):
-    """The verdict on a robot, as a sign before its name; the worst first."""
+    """The sign before a robot's name; the worst first."""
 
     WRONG = "❌ "
     OPEN = "⚠️ "
@@ -26,23 +26,23 @@ _SEVERITIES = {Severity.ERROR: Mark.WRONG, Severity.WARNING: Mark.OPEN, Severity
 
 
 class Table(msgspec.Struct, frozen=True):
-    """Rows of texts, which are escaped when they are written."""
+    """Rows of texts; each format escapes them."""
 
     title: str
     columns: tuple[str, ...]
-    """Heads; of a column whose cells are all empty, nothing is written."""
+    """Heads; a column of empty cells is left out."""
     rows: Sequence[Sequence[Any]]
     line: Callable[..., StyledLine] | None = None
-    """The line of a terminal for the cells of a row; None if a terminal does not show them."""
+    """Makes a terminal's line of the cells of a row; None if a terminal does not show the table."""
     most: int = 12
-    """So many rows are lines of a terminal without --verbose."""
+    """The most rows that a terminal shows without --verbose."""
     noun: str = "line"
     heading: Sequence[StyledLine] = ()
-    """Lines above these on a terminal."""
+    """Lines of a terminal above the rows."""
 
 
 class Section(msgspec.Struct, frozen=True):
-    """All that a command says of one robot."""
+    """All results of a command about one robot."""
 
     robot: str
     summary: str
@@ -52,15 +52,15 @@ class Section(msgspec.Struct, frozen=True):
     tables: Sequence[Table] = ()
     findings: Sequence[Diagnostic] = ()
     verdict: Diagnostic | None = None
-    """The finding that the package as a whole is not as it should be; its `hint` says what to do."""
+    """The finding about the package as a whole; its `hint` says what to do."""
     hints: Sequence[str] = ()
     """Lines of a terminal about what to do next."""
     most: int = 12
-    """So many points are lines of a terminal without --verbose."""
+    """The most points that a terminal shows without --verbose."""
 
     @property
     def has_details(self) -> bool:
-        """Whether there is more to say than one line."""
+        """Whether there is more to show than one line."""
         return bool(self.points or any(table.rows for table in self.tables) or self.findings or self.verdict)
 
 

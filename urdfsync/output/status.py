@@ -1,4 +1,4 @@
-"""How the files of a package stand, as a section."""
+"""Turns the plan of a build into a section about the files of a package."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ _COLUMNS = ("File", "", "Why")
 
 
 def status_section(result: Result, *, verbose: bool | None = False) -> Section:
-    """Return all that there is to say about one robot: if `verbose` all files, else those that are not in step.
+    """Return the files of one robot that are not in step; if `verbose`, all files.
 
-    Stale files come last. New files of a robot that was never built are not named.
+    Stale files come last. New files of a robot that was never built are only counted.
     """
     changes = result.effective_changes
     source = changes and (generator_change(changes) if changes.generator else f"{change_counts(changes)} in the source")
@@ -43,14 +43,14 @@ def status_section(result: Result, *, verbose: bool | None = False) -> Section:
 
 
 def _path(action: Action) -> str:
-    """Return where the user's file is: that of a conflict may wait for its new name."""
-    if action.reason is Reason.KEEP and not action.is_on_disk:  # he made a folder of the class
+    """Return the path of the user's file; a file in conflict may still have its old name."""
+    if action.reason is Reason.KEEP and not action.is_on_disk:  # the user made a folder of the class
         return f"{action.path.removesuffix('.mo')}/package.mo"
     return action.origin or action.path if action.is_conflict else action.path
 
 
 def summary(result: Result) -> str:
-    """Return what a build would do, as the rest of a line that names the robot."""
+    """Return what a build would do, as the end of a line that names the robot."""
     if result.stale and not result.actions:
         return "not expanded, so its files were not compared"
     words = result.summary

@@ -16,19 +16,19 @@ _FILES = {
     "cyan": "included keep edited",
     "yellow": "orphan needed waiting unknown",
 }
-"""Styles of the words about files: what happens to them, and how they stand."""
+"""Styles of the words for actions on files and for their states."""
 _CHANGES = {"added": "green", "removed": "red", "renamed": "cyan", "rounding": "dim", "not modelled": "dim"}
 
 
 def text(section: Section, *, verbose: bool = False, quiet: bool = False) -> Iterator[StyledLine]:
-    """Yield all lines about a robot but its findings; with `quiet`, what it is about and what to do."""
+    """Yield all lines about a robot but its findings; with `quiet`, the first line and what to do."""
     marks = [_MARKS[section.mark]] if has_marks(sys.stdout) else []
     yield line(*marks, (section.robot, "bold"), (f": {section.summary}", ""))
     yield from details(section, verbose=verbose) if not quiet else _hints(section)
 
 
 def details(section: Section, *, verbose: bool = False) -> Iterator[StyledLine]:
-    """Yield the lines below the first one, of many only some without `verbose`."""
+    """Yield the lines below the first one; without `verbose`, not all of many."""
     yield from first_lines(section.points, section.most, "line", verbose=verbose)
     for table in section.tables:
         if table.line and table.rows:

@@ -73,7 +73,7 @@ def gather(
     changes, result = compared.result.changes or Changes(), compared.result
     draw: Drawing | None = generation.inputs.domain.drawing
     model = generation.now.snapshot, generation.imported.imports, robot.target, robot.options
-    actions = result.actions if against is None else None  # others are those of a comparison
+    actions = result.actions if against is None else None  # a comparison has other actions
     return Content(
         robot=robot,
         version=(generation.now, generation.imported.contents),
@@ -142,6 +142,6 @@ def _change_words(changes: Changes) -> dict[str, list[str]]:
 def _files(generation: Generation) -> dict[str, list[str]]:
     folder, files = generation.inputs.robot.folder, dict[str, list[str]]()
     for path, artifact in generation.package.artifacts.items():
-        name = shown(folder / path).encode("utf-8", "replace").decode()  # a folder may have any bytes for a name
+        name = shown(folder / path).encode("utf-8", "replace").decode()  # names of folders may have any bytes
         files.setdefault(artifact.owner, []).append(name)
     return files

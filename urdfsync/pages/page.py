@@ -108,7 +108,7 @@ def check_page(file: Path, inputs: Mapping[str, Path]) -> None:
 
 def is_page(file: Path) -> bool:
     """Return whether a file is a page that urdfsync wrote."""
-    if not file.is_file():  # nothing waits for a pipe
+    if not file.is_file():  # reading a pipe would wait
         return False
     with file.open("rb") as opened:
         return _GENERATOR in opened.read(_BEGINNING)

@@ -50,7 +50,7 @@ def picture(generation: Generation, older: Contents | None) -> Picture:
     robot, refused = generation.inputs.robot, generation.imported.refused
     imports, files = _by_hash((generation.now, generation.imported.contents))
     for dependency, file in refused[:_MOST_REFUSED]:
-        if dependency.key not in imports:  # else the copy of an earlier build is there
+        if dependency.key not in imports:  # else an earlier build's copy is used
             with contextlib.suppress(OSError):
                 content = read_file(file)
                 name = f"{digest(content)} {dependency.key}"
@@ -63,7 +63,7 @@ def picture(generation: Generation, older: Contents | None) -> Picture:
     now, before = pictures.scene(generation.now.snapshot, imports, robot.target, robot.options), None
     if older:
         version, (imports, files_before) = older[0], _by_hash(older)
-        with contextlib.suppress(*NO_MODEL):  # what is recorded may be no model
+        with contextlib.suppress(*NO_MODEL):  # the recorded model may be invalid
             before = pictures.scene(version.snapshot, imports, robot.target, version.options or robot.options)
         files |= files_before
     used = {shape.mesh for scene in (now, before) if scene for body in scene.bodies for shape in body.shapes}
@@ -94,7 +94,7 @@ def _read(
     if known := cache.load(key, Triangles):
         return known
     mesh = pictures.triangles(*file, most)
-    if isinstance(mesh, Triangles) and mesh.is_simplified:  # which takes up to 16 s
+    if isinstance(mesh, Triangles) and mesh.is_simplified:  # simplifying takes up to 16 s
         cache.save(key, mesh)
     return mesh
 
@@ -103,6 +103,6 @@ def _note(mesh: Triangles | str) -> str:
     """Return the note about a missing or simplified mesh."""
     if isinstance(mesh, str):
         return f"can't be shown: {mesh}"
-    # triangles without area are left out of every mesh
+    # triangles without area are never drawn
     told = f"is simplified for this page: {mesh.faces:,} of its {mesh.total:,} triangles are left"
     return told if mesh.is_simplified else ""

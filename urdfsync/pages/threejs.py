@@ -34,7 +34,7 @@ class Library(NamedTuple):
 
 def load() -> Library:
     """Return three.js. Raises UrdfsyncError if the installed trimesh lacks it."""
-    spec = importlib.util.find_spec("trimesh")  # which does not import it: that takes half a second
+    spec = importlib.util.find_spec("trimesh")  # does not import it, which would take half a second
     for folder in (spec.submodule_search_locations or ()) if spec else ():
         try:
             with zipfile.ZipFile(Path(folder, _ARCHIVE)) as archive:

@@ -46,7 +46,7 @@ def end_with_parent(read: Callable[[], object]) -> None:
         import psutil  # 15 ms, and only a check needs it
 
         for child in psutil.Process().children(recursive=True):
-            child.kill()  # a compiler at work may not let its own thread look at stdin
+            child.kill()  # a busy compiler may not notice the end of stdin
         os._exit(1)  # the main thread may be in native code
 
     threading.Thread(target=wait, name="end-with-parent", daemon=True).start()
@@ -72,12 +72,12 @@ def limits(seconds: float, memory: int) -> Iterator[None]:
         yield
         return
     kinds = {resource.RLIMIT_FSIZE: 0, resource.RLIMIT_CORE: 0}
-    if sys.platform == "linux":  # macOS knows this limit, and does not keep it
+    if sys.platform == "linux":  # macOS accepts this limit but does not enforce it
         kinds[resource.RLIMIT_DATA] = memory
     before = {kind: resource.getrlimit(kind) for kind in kinds}
     for kind, limit in kinds.items():
         resource.setrlimit(kind, (limit, before[kind][1]))
-    # RLIMIT_CPU counts whole seconds, and all that the process has done before
+    # RLIMIT_CPU has whole seconds and counts all earlier work
     signal.setitimer(signal.ITIMER_PROF, seconds)
     try:
         yield

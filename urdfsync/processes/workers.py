@@ -61,7 +61,7 @@ def workers(count: int, address: str = "") -> Iterator[Workers]:
             try:
                 yield Workers(executor, None)
             except BaseException:
-                executor.shutdown(wait=False)  # cancels what no worker has begun
+                executor.shutdown(wait=False)  # cancels jobs that no worker has begun
                 raise
             executor.shutdown()
         return
@@ -94,7 +94,7 @@ def _connect(address: str) -> Any:
     Its answers are unpickled, so whoever answers at the address is trusted.
     """
     try:
-        from distributed import Client  # an extra, and a second to import
+        from distributed import Client  # an extra; takes a second to import
     except ImportError:
         message, hint = "`--executor` needs Dask, which is not installed", install_command("cluster")
         raise ConfigError.of("no-cluster", message, hint=hint) from None
@@ -130,7 +130,7 @@ def _begin(end: Connection, steps: SimpleQueue[str]) -> None:
     """Prepare a process: it ends when the command closes its end of a pipe, or ends; Ctrl-C does not end it."""
     global _steps
     _steps = steps
-    signal(SIGINT, SIG_IGN)  # the command gets it, too, and ends the workers
+    signal(SIGINT, SIG_IGN)  # the command gets the signal, too, and ends the workers
     end_with_parent(end.recv_bytes)
 
 

@@ -38,7 +38,7 @@ def complete(words: list[str]) -> list[tuple[str, str]]:
     """Return the completions of the last word, each with its meaning."""
     *before, current = words or [""]
     table = [line.split("\t") for line in read_unrecorded(f"{_SHELLS}/options.tsv").decode().splitlines()]
-    rows = [row for row in table if row[0] == (before[0] if before else "")]  # those of a command, or all commands
+    rows = [row for row in table if row[0] == (before[0] if before else "")]  # options of a command, or all commands
     values = {name: values for _, name, values, _ in rows if name}
     option, begin = before[-1] if before else "", ""
     if current.startswith("--") and "=" in current:
@@ -51,7 +51,7 @@ def complete(words: list[str]) -> list[tuple[str, str]]:
         kinds = kinds or "|".join(values for _, name, values, _ in rows if not name).split("|")
         names = {name: "" for kind in kinds for name in _names(kind, words) if name not in before[1:]}
     fitting = [(begin + name, meaning) for name, meaning in names.items() if name.startswith(current)]
-    return fitting or ([(":files", "")] if "FILE" in kinds else [])  # which leaves it to the shell to complete a file
+    return fitting or ([(":files", "")] if "FILE" in kinds else [])  # lets the shell complete a file
 
 
 def _names(kind: str, words: list[str]) -> list[str]:
@@ -65,7 +65,7 @@ def _names(kind: str, words: list[str]) -> list[str]:
 
 def _robots(words: list[str]) -> list[str]:
     """Return the robots of the configuration that a line is about."""
-    import tomllib  # 10 ms, which options do without
+    import tomllib  # 10 ms that completing an option saves
 
     try:
         content = read_unrecorded(uptodate.find_config(words) or "")

@@ -81,14 +81,14 @@ def export(
     model = prepared.model
     inputs = tuple(model.inputs()) if for_trial else ()
     if for_trial and options.motion:
-        read_motion(options.motion, inputs)  # what is wrong with it is said before the export, which takes minutes
+        read_motion(options.motion, inputs)  # report its faults before the export, which takes minutes
     stop = options.stop or model.settings.get("StopTime", STOP)
     step, tolerance = model.step(stop, options.step), options.tolerance or TOLERANCE
     name = re.sub(r"\W", "_", model.name)
-    name = f"{name}_FMU" if name == model.name else name  # a model can't extend one of its name
+    name = f"{name}_FMU" if name == model.name else name  # a model can't extend a model of the same name
 
     def text(changes: Sequence[str]) -> str:
-        # a model of its own, since the tolerance inside of an FMU is that of the annotation
+        # a separate model: an FMU takes its tolerance from the annotation
         times = f"StopTime = {stop!r}, Interval = {step!r}, Tolerance = {tolerance!r}"
         description = f"{model.name}, {_BY_URDFSYNC} {__version__}"
         return extension(name, model.name, changes, [f"  annotation (experiment({times}));"], description)
@@ -101,7 +101,7 @@ def export(
         text(modifiers(prepared.values)),
         parameters=tuple(prepared.values),
         title=model.name,
-        # of co-simulation alone OpenModelica 1.27 reduces the index in another way, and fails with floating bases
+        # for co-simulation alone, OpenModelica 1.27 reduces the index differently and fails with floating bases
         export=msgspec.structs.replace(kind, kind="me_cs") if kind.kind == "cs" else kind,
     )
     result = run_task(prepared, options, "export", task, text([]), tell)
@@ -142,7 +142,7 @@ def is_exported(file: Path) -> bool:
             return False
         with zipfile.ZipFile(file) as fmu:
             if fmu.getinfo(_DESCRIPTION).compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
-                return False  # as others unpack whole blocks
+                return False  # other readers unpack whole blocks
             with fmu.open(_DESCRIPTION) as description:
                 return _BY_URDFSYNC.encode() in description.read(_BEGINNING)
     except (OSError, KeyError, ValueError, EOFError, RuntimeError, zipfile.BadZipFile, zlib.error):

@@ -184,7 +184,7 @@ def _examine(request: _Request) -> Iterator[_Examined]:
         signals = np.array(list(zip(request.times, *request.inputs.values(), strict=True)), dtype=columns)
     series, problems = {}, {}
     for kind in request.kinds:
-        # of model exchange FMPy gives up where contacts are stiff for its solver: with a greater tolerance it goes on
+        # in model exchange, stiff contacts stop FMPy's solver: try again with a greater tolerance
         for tolerance in _TOLERANCES if kind == "me" else (request.tolerance,):
             try:
                 result: Any = simulate_fmu(
@@ -198,7 +198,7 @@ def _examine(request: _Request) -> Iterator[_Examined]:
                     output=names,
                     fmi_type=KINDS[kind],
                 )
-            except Exception as error:  # noqa: BLE001 - FMPy raises Exception itself
+            except Exception as error:  # noqa: BLE001 - FMPy raises plain Exception
                 problems[kind] = one_line(str(error))[:_LONGEST_MESSAGE]
             else:
                 series[kind] = {name: result[name].tolist() for name in ("time", *names)}

@@ -93,7 +93,7 @@ def _values(signal: Signal, place: str, series: Series, parameters: Mapping[str,
     name, *added = (_below(place, name) for name in (signal.variable, *(signal.added or ())))
     if name not in series:
         return None
-    import numpy as np  # 100 ms, which go by while the compiler is at work if there is a plot
+    import numpy as np  # 100 ms; with a plot, while the compiler is busy
 
     values = np.array(series[name])
     if added and added[0] in parameters and added[1] in series:

@@ -51,7 +51,7 @@ class Model:
     def __init__(self, scopes: Scopes, node: Node, content: Callable[[str], bytes]) -> None:
         """`content` reads a file of Modelica."""
         self.node, self.name = node, str(node)
-        # as the parser had it, since components say where they begin
+        # the parser's text, since components have positions in it
         self._text = functools.cache(lambda file: text_of(content(file)))
         self._nodes = [base for base in _with_bases(scopes, node) if base.file]
 

@@ -68,7 +68,7 @@ def read_motion(file: Path, inputs: Sequence[Input]) -> Motion:
 def _read_rows(file: Path) -> list[tuple[int, list[str]]]:
     """Return the rows that are not empty, with their lines: a header, and at least two more."""
     try:
-        text = read_unrecorded(file).decode("utf-8-sig")  # waits for no pipe, and reads no device, which may not end
+        text = read_unrecorded(file).decode("utf-8-sig")  # does not wait for a pipe, or read an endless device
     except OSError as error:
         _refuse(file, f"the file can't be read: {error.strerror}", hint="name a CSV file")
     except UnicodeDecodeError as error:
@@ -239,6 +239,6 @@ def second_derivatives(times: Sequence[float], values: Sequence[float]) -> list[
     It has no seam at the second and the last but one. It is exact for a cubic. Through three points it is a parabola,
     through two a straight line.
     """
-    from scipy.interpolate import CubicSpline  # half a second, which no other simulation needs
+    from scipy.interpolate import CubicSpline  # half a second that other simulations save
 
     return [float(number) for number in CubicSpline(times, values)(times, 2)]

@@ -99,7 +99,7 @@ def _find_model(
         own = [package.users_files[file]] if file in package.users_files else []
         others = libraries.needed_libraries([*texts.values(), *package.around.values(), *own], top, places, [library])
         if library not in others and find_own_library(library, target) is None:
-            others[library] = file  # a file of another name than its class
+            others[library] = file  # the file has another name than its class
         needed = msgspec.structs.replace(needed, others={**needed.others, **others})
     return model, needed
 
@@ -130,7 +130,7 @@ def run_task(
     with tempfile.TemporaryDirectory(prefix="urdfsync-", ignore_cleanup_errors=True) as folder:
         jobs = Jobs(package.robot, options.tool, prepared.needed, package.around, limits, Path(folder), progress)
         (result,) = jobs.run(kind, package.files.texts, [task], changed)
-        if result.problem and task.parameters:  # perhaps since there is no such parameter
+        if result.problem and task.parameters:  # perhaps there is no such parameter
             names = msgspec.structs.replace(task, source=plain, runs=(), export=None)
             (answer,) = jobs.run("plain", package.files.texts, [names], changed)
             result = answer if answer.parameters else result
@@ -141,7 +141,7 @@ def run_task(
             Diagnostic(Severity.ERROR, "set", message, hint="change the parameters that its value depends on")
         )
     if result.problem:
-        # of files that it can't read a compiler says little; to look at them first takes 0.2 s of each simulation
+        # compilers say little about unreadable files; checking them first would take 0.2 s of each simulation
         unread = [*check_layout(package.files), *check_around(package.robot.output, package.around)]
         if errors := [finding for finding in unread if finding.severity is Severity.ERROR]:
             raise UrdfsyncError(*errors)

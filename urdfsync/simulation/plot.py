@@ -22,7 +22,7 @@ _COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
 
 def draw(result: SimulateResult, kind: str) -> bytes:
     """Return a picture, `png` or `svg`; the same result gives the same bytes."""
-    # names without dates: of elements in SVG, and none in the metadata; names of joints are no formulas, `$` or not
+    # no dates in SVG; `$` in the name of a joint begins no formula
     plain = {"svg.hashsalt": "urdfsync", "text.parse_math": False, "text.usetex": False}
     with rc_context({**plain, "font.size": 9, "axes.grid": True, "grid.alpha": 0.3}):
         columns = list(_columns(result.joints)) or [()]
@@ -34,7 +34,7 @@ def draw(result: SimulateResult, kind: str) -> bytes:
             last = panels[0][column]
             for row, name in enumerate(_ROWS):
                 if joints and not any(getattr(joint, name) for joint in joints):
-                    panels[row][column].set_visible(False)  # joints that follow another one have no effort
+                    panels[row][column].set_visible(False)  # following joints have no effort
                     continue
                 last = panels[row][column]
                 _draw_panel(last, name, joints, result)

@@ -78,7 +78,7 @@ def _run(options: SimulateOptions, prepared: Prepared, progress: Progress) -> tu
     key = result_key(package.robot, [options.tool], prepared.needed, *facts)
     if key and (earlier := cache.load(key, SimulationResult)):
         return earlier, run, True
-    later = threading.Timer(_LATER, cache.trim)  # 200 ms, which go by while the compiler is at work
+    later = threading.Timer(_LATER, cache.trim)  # 200 ms, while the compiler is busy
     later.daemon = True
     later.start()
 
@@ -86,13 +86,13 @@ def _run(options: SimulateOptions, prepared: Prepared, progress: Progress) -> tu
         progress(f"{package.robot.name}: compiling and integrating, {time.monotonic() - begin:.0f} s", 0, 1)
 
     (simulation,) = run_task(prepared, options, "simulation", task, plain, tell, changed).runs
-    if shorter := _until(run, simulation):  # a compiler hands back nothing of a run that stops
+    if shorter := _until(run, simulation):  # compilers return no result of a run that stops
         part_task = msgspec.structs.replace(task, runs=(shorter,))
         (part,) = run_task(prepared, options, "simulation", part_task, plain, tell, changed).runs
         simulation = msgspec.structs.replace(part, problem=simulation.problem)
     if not simulation.values:
         raise UrdfsyncError(*_end(model, options, simulation))
-    is_same = key == result_key(package.robot, [options.tool], prepared.needed, *facts)  # else somebody has saved
+    is_same = key == result_key(package.robot, [options.tool], prepared.needed, *facts)  # else a file was saved
     if key and is_same:
         cache.save(key, None if simulation.problem else simulation)
     return simulation, run, False
@@ -171,7 +171,7 @@ def _end(model: Model, options: SimulateOptions, run: SimulationResult) -> Itera
         if "initial" in words or (moment and float(moment[1]) == 0):
             what = "does not initialise"
         part = f"; results until {run.values['time'][-1]:g} s are kept" if run.values else ""
-        # an FMU is compared with the reference by a command that chooses no method
+        # `fmu --check` has no option for the method
         hint = "" if options.as_exported else "try another `--method` or `--tolerance`"
         message = f"the simulation of `{model.name}` {what}: {words}{part}"
         yield Diagnostic(Severity.ERROR, "no-simulation", message, file, hint=hint)

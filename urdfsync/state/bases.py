@@ -34,7 +34,7 @@ def loads(content: bytes) -> Mapping[str, str]:
         sha256, _, encoded = line.partition(b" ")
         try:
             text = _DECODER.decode(encoded)
-        except ValueError:  # no JSON, or no UTF-8
+        except ValueError:  # not JSON or not UTF-8
             continue
         if digest(text.encode()).encode() == sha256:
             texts[sha256.decode()] = text

@@ -41,7 +41,7 @@ def make_folder(path: Path) -> None:
 
 def remove_folder(path: Path) -> None:
     """Remove a folder if it is empty."""
-    with contextlib.suppress(OSError):  # the folder is not empty, gone already, or not ours to remove: all fine
+    with contextlib.suppress(OSError):  # the folder may be in use, deleted, or another user's: it stays
         path.rmdir()
 
 
@@ -82,8 +82,8 @@ def write_bound(path: Path, content: Bound) -> None:
         status = os.fstat(file.fileno())
         bound = msgspec.structs.replace(content, inode=status.st_ino, written_at=status.st_mtime_ns)
         file.write(msgspec.json.encode(bound, order="sorted"))
-    follows = os.utime not in os.supports_follow_symlinks  # only where there is no other way
-    os.utime(path, ns=(status.st_mtime_ns, status.st_mtime_ns), follow_symlinks=follows)  # writing has changed it
+    follows = os.utime not in os.supports_follow_symlinks  # follow links only if the system can't do otherwise
+    os.utime(path, ns=(status.st_mtime_ns, status.st_mtime_ns), follow_symlinks=follows)  # writing has changed the time
 
 
 def is_bound(path: Path, content: Bound) -> bool:
@@ -123,7 +123,7 @@ def place(path: Path, target: Path) -> None:
     if rename(path, target, _NOREPLACE):
         return
     try:
-        os.link(path, target)  # unlike a rename, it fails if the name is taken
+        os.link(path, target)  # unlike a rename, it fails if the name exists
     except OSError as error:
         if error.errno not in _NO_LINKS:
             raise
@@ -147,7 +147,7 @@ def sync(paths: Sequence[Path]) -> None:
         return
     for path in paths:
         if os.name == "nt" and path.is_dir():
-            continue  # Windows can't open a folder, and keeps its entries without being asked
+            continue  # Windows can't open a folder, and saves its entries by itself
         descriptor = os.open(path, os.O_RDWR if os.name == "nt" else os.O_RDONLY)
         try:
             os.fsync(descriptor)
@@ -168,9 +168,9 @@ def _renameat2() -> Callable[[bytes, bytes, int], int]:
     """A function that renames with a flag and returns the number of the error, 0 for none."""
     if sys.platform != "linux":
         return lambda *_: errno.ENOSYS
-    import ctypes  # 2 ms, for builds that write only
+    import ctypes  # 2 ms, only for builds that write
 
     rename = getattr(ctypes.CDLL(None, use_errno=True), "renameat2", None)
-    if rename is None:  # a C library of before 2018
+    if rename is None:  # a C library from before 2018
         return lambda *_: errno.ENOSYS
     return lambda path, target, flag: ctypes.get_errno() if rename(_HERE, path, _HERE, target, flag) else 0

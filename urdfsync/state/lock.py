@@ -104,13 +104,13 @@ def _lock(file: Path) -> int | None:
     descriptor = os.open(file, os.O_RDWR | os.O_CREAT | _FLAGS, 0o666)
     with contextlib.ExitStack() as stack:
         stack.callback(os.close, descriptor)
-        # on Windows, a lock that is held is a lack of permission
+        # on Windows, opening a held lock raises PermissionError
         with contextlib.suppress(BlockingIOError, PermissionError, FileNotFoundError):
             if sys.platform == "win32":
                 msvcrt.locking(descriptor, msvcrt.LK_NBLCK, 1)
             else:
                 fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            if os.path.samestat(os.fstat(descriptor), os.lstat(file)):  # else it was deleted meanwhile
+            if os.path.samestat(os.fstat(descriptor), os.lstat(file)):  # else the file was replaced meanwhile
                 stack.pop_all()
                 return descriptor
     return None

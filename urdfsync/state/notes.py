@@ -58,7 +58,7 @@ class Notes(file_operations.Bound, frozen=True, kw_only=True, omit_defaults=True
 def load(state_folder: Path, robot: str) -> Notes:
     """Return this machine's notes on a robot; empty ones if there are none."""
     file = place(state_folder, robot)
-    flags = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOFOLLOW", 0)  # a pipe must not hold it up
+    flags = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOFOLLOW", 0)  # a pipe must not block it
     try:
         with os.fdopen(os.open(file, flags), "rb") as opened:
             status = os.fstat(opened.fileno())
@@ -79,9 +79,9 @@ def save(state_folder: Path, robot: str, notes: Notes) -> None:
     temporary = file.with_name(f".{file.name}{TEMPORARY}")
     with contextlib.suppress(OSError):
         if not state_folder.is_dir() or state_folder.is_symlink() or file.parent.is_symlink():
-            return  # a repository may have committed a link that leads elsewhere
+            return  # a repository may have committed a link to another folder
         file_operations.make_folder(file.parent)
-        file_operations.remove(temporary)  # left by a process that was killed
+        file_operations.remove(temporary)  # a killed process left it
         file_operations.write_bound(temporary, notes)
         file_operations.replace(temporary, file)
 

@@ -154,7 +154,7 @@ def _record(values: Mapping[str, list[Any]], *, is_whole: bool) -> Record:
     package, class_, folder, domain, _, templates = (values[word][-1] for word in _HEADINGS)
     is_placed = all(len(values[word]) == 1 for word in _PLACE)
     hashes: dict[str, list[str]] = {}
-    for path, sha256 in values["file"] if is_placed else ():  # else nobody knows where these files are
+    for path, sha256 in values["file"] if is_placed else ():  # else the places of these files are unknown
         hashes.setdefault(f"{folder}/{path}", []).append(sha256)
     imports: dict[str, tuple[Import, ...]] = {}
     for key, entry in values["import"]:

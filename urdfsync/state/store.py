@@ -70,7 +70,7 @@ class Store:
         """The robots that have a record, by their names."""
         try:
             files = list_folder(self.folder / "robots")
-        except OSError:  # there is none; that it can't be read is what `load` says
+        except OSError:  # a missing file; `load` reports an unreadable one
             return []
         return sorted(filter(is_robot_name, (name.removesuffix(SUFFIX) for name in files if name.endswith(SUFFIX))))
 
@@ -116,7 +116,7 @@ class Store:
         """Return the texts that were put aside, by path below the package; nothing if the list can't be read."""
         try:
             index = msgspec.json.decode(self._bytes(self.aside_file(robot)) or b"{}", type=dict[str, Aside])
-        except (ValueError, RecursionError):  # it may be a stranger's
+        except (ValueError, RecursionError):  # it may come from a stranger
             return {}
         return {
             path: one for path, one in index.items() if all(map(statefile.is_inside, (path, one.file, *one.beside)))
@@ -177,7 +177,7 @@ class Store:
     def conflict_files(self, robot: str) -> dict[str, bytes]:
         """Return the versions of conflicts on disk, by path below the robot's folder."""
         folder = self.conflicts(robot)
-        # raises OutputError for a link to the folder, which may lead to all of the disk
+        # raises OutputError for a link: it may lead to the whole disk
         existing = map(Path, walk_files(folder)) if self._tree.check_folder(folder) else ()
         return {path.relative_to(folder).as_posix(): self._bytes(path) or b"" for path in existing}
 
@@ -225,7 +225,7 @@ class Store:
 
     def is_unchanged(self, hashes: StateHashes) -> bool:
         """Whether all files are unchanged since then."""
-        tree = Tree(self._tree.root)  # which finds folders that have come since
+        tree = Tree(self._tree.root)  # a new Tree finds new folders
         contents = ((tree.read(path), before) for path, before in hashes.items())
         return all((None if content is None else digest(content)) == before for content, before in contents)
 

@@ -117,7 +117,7 @@ class Transactions:
                 elif isinstance(error, OSError):
                     raise
                 else:
-                    self._finish(build, targets)  # Ctrl-C: it takes some milliseconds
+                    self._finish(build, targets)  # also after Ctrl-C: it takes milliseconds
             except OSError as problem:
                 told = error.diagnostics if isinstance(error, OutputError) else ()
                 raise UnfinishedError(*told, self._unfinished(problem)) from error
@@ -175,7 +175,7 @@ class Transactions:
             file_operations.make_folder(self._state_folder)
             place = self._planned
             file_operations.remove(self._draft)
-            file_operations.write_bound(self._draft, build)  # before the first temporary file, which it names
+            file_operations.write_bound(self._draft, build)  # before the first temporary file, whose name it has
             file_operations.sync([self._draft])
             for place in made:
                 file_operations.make_folder(place)
@@ -205,10 +205,10 @@ class Transactions:
         state = [target for target in targets if target.folder == state_folder]
         others = [target for target in targets if target.folder != state_folder]
         bases = f"{self._state_folder / 'bases'}{os.sep}"
-        # a base is there before the file that was generated with it, and goes after it
+        # bases are written before their files and deleted after them
         others.sort(key=lambda target: (target.new is None, target.folder.startswith(bases) == (target.new is None)))
         changed = [(target, target.change()) for target in others]
-        # again, since somebody may have written to an old file through a handle that was opened before
+        # again: a process may have written to an old file through an open handle
         not_done = [target.path for target, done in changed if not (done if target.old is None else target.change())]
         for target in state:
             if not_done or not target.change():
@@ -281,7 +281,7 @@ class _Target(msgspec.Struct, frozen=True):
                 return self._create()
             return self._delete() if self.new is None else self._replace()
         except (FileNotFoundError, FileExistsError, NotADirectoryError):
-            return False  # somebody deleted the file or its folder, or saved a file whose name was free
+            return False  # the file or its folder was deleted, or a new file was saved
 
     def clear(self, temporary_files: Collection[str]) -> Iterator[Path]:
         """Remove files under temporary names.
@@ -325,7 +325,7 @@ class _Target(msgspec.Struct, frozen=True):
 
     def _replace(self) -> bool:
         if os.path.lexists(file_operations.spare(self.temporary)):
-            file_operations.exchange(self.temporary, self.path)  # the rest of one that was cut short
+            file_operations.exchange(self.temporary, self.path)  # finish an interrupted exchange
         aside, current = hash_of(self.temporary), hash_of(self.path)
         if aside == self.new and current == self.old:
             file_operations.exchange(self.temporary, self.path)
@@ -334,9 +334,9 @@ class _Target(msgspec.Struct, frozen=True):
             return current == self.new
         if aside == self.old:
             return True
-        if current == self.new:  # what was replaced is somebody's save: it takes its place again
+        if current == self.new:  # the replaced content was saved meanwhile: put it back
             file_operations.exchange(self.temporary, self.path)
-            if hash_of(self.temporary) != self.new:  # and was saved once more: the later save counts
+            if hash_of(self.temporary) != self.new:  # it was saved again: the later save counts
                 file_operations.exchange(self.temporary, self.path)
         return False
 
@@ -361,7 +361,7 @@ def save(file: Path, old: bytes, new: bytes) -> None:
         file_operations.remove(temporary)
         raise
     try:
-        # twice, since somebody may have written to the old file through a handle that was opened before
+        # twice: a process may have written to the old file through an open handle
         is_done = target.change() and target.change()
     finally:
         kept = [*target.clear(_temporary_files([target.folder]))]

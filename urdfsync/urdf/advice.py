@@ -56,7 +56,7 @@ def guess_base(robot: Robot) -> Proposal:
     if _FOOTPRINT.search(root):
         return Proposal("base", "floating", f'its root link is named "{root}"')
     turning = [joint for joint in robot.joints if joint.type in ("continuous", "revolute")]
-    # arms have motors, too, but these turn the next link
+    # a rotor carries no joint, unlike the motors of arms
     carrying = {joint.parent for joint in robot.joints}
     spinning = [joint for joint in turning if joint.type == "continuous" and joint.child not in carrying]
     for limbs, pattern, joints in (*((*limbs, turning) for limbs in _LIMBS), ("rotors", _ROTORS, spinning)):

@@ -67,7 +67,7 @@ def artifacts(robot: Robot, imports: Mapping[str, Import], target: Target, optio
         files += parameters
         root, *others = tree.links
         if not any(link.inertial for link in tree.links):
-            # Modelica's frames need a root, which is a body: a robot without any keeps one, without mass
+            # Modelica's frames need a root body: a robot without masses gets one without mass
             root = msgspec.structs.replace(root, inertial=Inertial())
         folders["Links"] = [file for link in (root, *others) for file in _link(tree, link, imports, package, options)]
         joints = [

@@ -74,7 +74,7 @@ def connector_names(tree: KinematicTree, options: Options) -> Connectors:
     Names in the option `frames` that are no link are skipped: `check_options` reports them.
     """
     taken = taken_names(tree)
-    if options.frames == "all":  # with the root, although it has frame_a: a link that becomes the root keeps its frame
+    if options.frames == "all":  # also for the root, so that a link that becomes the root keeps its frame
         framed = {link.name for link in tree.links}
     else:
         framed = {leaf.name for leaf in tree.leaves()}.union(() if options.frames == "leaves" else options.frames)
@@ -100,7 +100,7 @@ def connector_names(tree: KinematicTree, options: Options) -> Connectors:
     couplings = {joint.name: free_name(tree.joint(joint.name), "Mimic", taken) for joint, _ in tree.followers()}
     flanges = (flange for drive in drives.values() for flange in (drive.axis, drive.support, drive.motor))
     used = {name.lower() for name in (*frames.values(), *couplings.values(), *filter(None, flanges))}
-    # Sensors give way to all else, and their frames to them: so a new sensor renames nothing but sensors.
+    # Sensors are named last, and their frames after them: a new sensor renames only sensors.
     sensors = identify([("sensor", sensor.name) for sensor in tree.sensors], used | taken)
     used |= {identifier.component.lower() for identifier in sensors.values()}
     return Connectors(

@@ -30,7 +30,7 @@ def assembly(tree: KinematicTree, options: Options) -> Assembly:
     actuated = {joint.name for joint in tree.joints if joint.actuated}
     named = actuated.union(options.commands) if options.driven is None else options.driven
     with machine.single_thread():
-        from urdfsync.urdf.kinematics.assemble import assemble  # 60 ms for numpy, which few robots need
+        from urdfsync.urdf.kinematics.assemble import assemble  # 60 ms for numpy, needed by few robots
 
     return assemble(tree, wanted, frozenset(named))
 

@@ -91,7 +91,7 @@ def _check_masses(tree: KinematicTree, masses: Mapping[str, float], length: floa
         return
     radii = [radius for link in tree.links if math.isfinite(radius := _radius(link))]
     size = 2 * max([length / 2, *radii, *(_gyration(link.inertial) for link in tree.links if link.inertial)])
-    if total > _DENSEST * size * size * size:  # a power of a large number is an error
+    if total > _DENSEST * size * size * size:  # `**` of a large number would raise an error
         message = f"the masses add up to {total:.6g} kg in a robot of {size:.3g} m: they may be in grams"
         yield Finding("mass-unit", "robot", message)
 

@@ -33,10 +33,10 @@ from urdfsync.urdf.robot import (
 )
 
 _EXACT = 1e-12
-# By how much the length of an axis differs from 1 if its components have five digits or more.
+# The greatest error of an axis's length if its components have five digits or more.
 _ROUNDING = 1e-5
 _INERTIA_TOLERANCE = 1e-6
-# Radius of gyration, in m, below which a body is a point: its inertia is rounding then.
+# Bodies with a smaller radius of gyration, in m, are points: their inertia is a rounding error.
 _POINT = 1e-6
 _COMPARED = 500
 _MAGNITUDES = (
@@ -151,7 +151,7 @@ _WARNINGS = {
     "loop-contradiction": "correct one of them",
     "loop-one-end": "correct the name of the other link, or state the loop as `loops` in the configuration",
     "loop-excess": "take them out of `driven`, or model their drives as efforts by hand",
-    # legal, but hardly meant
+    # valid, but probably a mistake
     "no-inertia": "give the links an <inertial>",
     "mass-unit": "write masses in kg",
     "inertia-size": "export inertias in kg·m², about the centre of mass",
@@ -159,7 +159,7 @@ _WARNINGS = {
     "angle-unit": "write angles in rad",
     "zero-limits": "correct the limits, or make the joint fixed",
     "shape-far": "correct its origin; write it in m",
-    # what no simulation can move
+    # robots that no simulation can move
     "passive-moves-no-mass": "give a link behind it an <inertial>, drive it (`driven`), or make it a fixed joint",
     "moves-no-mass": "give the link right behind it an <inertial>, or make it a fixed joint",
     "loops-not-in-record": "generate a package for it",
@@ -433,7 +433,7 @@ def _check_mimics(numbered: Sequence[tuple[str, Joint]]) -> Iterator[Finding]:
     for _, joint in numbered:
         joints.setdefault(joint.name, joint)
     for path, joint in numbered:
-        if joint.mimic is None or not joint.mimic.joint:  # the reader has told that it has no name
+        if joint.mimic is None or not joint.mimic.joint:  # the reader has reported the missing name
             continue
         target, place = joint.mimic.joint, f"{path} / mimic"
         leaders.setdefault(joint.name, target)

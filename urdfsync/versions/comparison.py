@@ -178,7 +178,7 @@ def _with_last_build(robot: RobotConfig, config: Config, options: BuildOptions) 
     effects: tuple[Effect, ...] = ()
     if last is not None and differences is not None and (differences.changes or differences.generator):
         snapshot, _ = source_files.read(inputs.domain, robot.options, inputs.source.content, shown(robot.source))
-        with contextlib.suppress(*NO_MODEL):  # what is recorded may be no model of the domain
+        with contextlib.suppress(*NO_MODEL):  # the recorded model may be invalid
             effects = _effects(inputs.domain, last, Version(snapshot), differences, robot)
     return Comparison(result, shown(robot.source), None, missing, effects)
 
@@ -227,7 +227,7 @@ def _with_version(
             revision = Revision(source.parent, against)
             text = _in_revision(revision, robot, config)
             other = _VersionedSource(text, (source,), revision, Path(scratch))
-        if config and not robot.command:  # it may be expanded already
+        if config and not robot.command:  # the file may be expanded already
             text = source_files.read_source(config, robot, Store(config.root), options)
         else:
             text = source_files.read_file_source(domain, source, arguments, folders)
@@ -264,7 +264,7 @@ def _with_version(
 def _in_revision(revision: Revision, robot: RobotConfig, config: Config | None) -> Source:
     """Return a source in a revision; xacro with its expansion at that time. Raises SourceError."""
     label = revision.label(robot.source)
-    # the source may have had another name then, its expansion has that of the robot
+    # the source may have been renamed; its expansion has the robot's name
     if config is None or not (robot.arguments is not None or source_files.is_xacro(robot.source, b"")):
         content = revision.read(robot.source)
         if config is None or not source_files.is_xacro(robot.source, content):
@@ -316,7 +316,7 @@ def _read(
         lookup = Lookup(place, robot.package_paths + options.package_paths)
         found_files.append(imports.find_dependencies(domain, snapshot, lookup, robot.options, reading.lines))
     joined = []
-    for same in zip(*found_files, strict=True):  # one file, looked for from several places
+    for same in zip(*found_files, strict=True):  # one file, found from several places
         candidates = dict.fromkeys(path for dependency in same for path in dependency.candidates)
         joined.append(msgspec.structs.replace(same[0], candidates=tuple(candidates)))
     dependencies = version.revision.locate(joined, version.scratch) if version.revision else joined

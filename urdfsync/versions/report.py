@@ -46,7 +46,7 @@ def to_section(compared: Comparison, *, verbose: bool | None = None) -> Section:
         section.mark if is_judged else Mark.NONE,
         [point for point in points if str(point).strip() not in compared.summary],
         tables,
-        [finding for finding in section.findings if finding.code != CONNECTORS],  # effects tell them
+        [finding for finding in section.findings if finding.code != CONNECTORS],  # effects show them
         section.verdict if is_judged else None,
         [*_doubts(compared), *([settle_hint(result.conflicts)] if result.conflicts else ())],
         _CHANGES,

@@ -1,4 +1,4 @@
-"""Checks of packages while the daemon goes on: one at a time, in a thread of its own."""
+"""Checks packages while the daemon runs: one at a time, in a thread of its own."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from urdfsync.engine.result import Checked
 from urdfsync.watch import events
 
 _PATIENCE = 10.0
-"""Seconds that a check has at the daemon's end; a remaining compiler ends with the process."""
+"""Seconds for a running check when the daemon ends; a remaining compiler ends with the process."""
 
 
 class CheckJob(msgspec.Struct, frozen=True, eq=False):
@@ -40,7 +40,7 @@ class CancelledError(Exception):
 
 
 class CheckQueue:
-    """The newest check of each robot, in their order; cancelled at the end of its context. Methods return events.
+    """The newest check of each robot, in order; its context cancels them at the end. Methods return events.
 
     Only the check itself runs in a thread; its end comes through the daemon's queue, as `CheckEnded`.
     """
@@ -70,18 +70,18 @@ class CheckQueue:
         self._last.clear()
 
     def check(self, robot: RobotConfig) -> Sequence[events.Event]:
-        """Check the present package of a robot, unless such a check runs, or found it right."""
+        """Check the present package of a robot, unless a check of it runs or has found it right."""
         if robot.on_build != "check":
             return ()
         key, job = self._checker.key(robot), self._jobs.get(robot.name)
         if job is not None and key is not None and job.key == key:
             return ()
-        self._jobs.pop(robot.name, None)  # the files of an older check are not on disk any more
+        self._jobs.pop(robot.name, None)  # the files of an older check have changed
         earlier = self._checker.find_earlier(key)
         if earlier is None:
             self._jobs[robot.name] = CheckJob(robot, key)
             return self._start_next()
-        # right as before, perhaps for an earlier daemon: there is nothing new to say
+        # right as before: nothing new to report
         was_right = job is None and self._last.get(robot.name, Checked.RIGHT) is Checked.RIGHT
         event = self._note(robot, earlier)
         return () if was_right and earlier.checked is Checked.RIGHT else (event,)

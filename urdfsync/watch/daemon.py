@@ -5,8 +5,8 @@
 2. The robots with a change have to settle: no event for some time, and two equal looks.
 3. All that have settled are built together. An exporter may still be writing an invalid source: it is an error only if
    it stays as it is.
-4. A build that wrote something, or during which a file was saved, is followed by another one once the files have
-   settled: a robot rests after a build that left all files alone.
+4. If a build wrote a file, or a file was saved meanwhile, another build follows once the files have settled. A robot
+   rests after a build that wrote nothing.
 """
 
 from __future__ import annotations
@@ -81,7 +81,7 @@ class Daemon:
         self._unwatched: tuple[Diagnostic, ...] = ()
         self._stop_signal = ""
         self._building: Sequence[str] = ()
-        """Robots in the present build, until the user knows for whom they wait."""
+        """Robots in the present build; empty once a wait for another process is shown."""
         self._is_working = True
         self._is_paused = False
         self._next_rescan = 0.0
@@ -92,7 +92,7 @@ class Daemon:
         self._has_new_places = False
 
     def stop(self, signal: str) -> None:
-        """End after the present build, which is given up if it has not begun to write.
+        """End after the present build, or before it begins to write.
 
         For signal handlers. The second call raises KeyboardInterrupt during work, but not during the clean-up of a
         check.
@@ -136,7 +136,7 @@ class Daemon:
                 self._rescan()
             settled = self._find_settled(has_looked=has_looked)
             if settled and self._reload_config():
-                continue  # which has all robots settle again
+                continue  # it lets all robots settle again
             changed = [watched for watched in settled if self._has_to_be_built(watched)]
             if changed or self._is_paused:
                 self._update_pause()
@@ -161,7 +161,7 @@ class Daemon:
             self._listener(events.Noted(diagnostics))
 
     def _progress(self, what: str, _done: int, _total: int) -> None:
-        """Give up the present build at this place, if the daemon stops; or report for whom it waits."""
+        """Give up the present build if the daemon stops; report a wait for another process."""
         if self._stop_signal:
             raise KeyboardInterrupt
         if what.startswith(WAITING):
@@ -177,7 +177,7 @@ class Daemon:
         self._checks.use(loaded)
         before, self._robots = self._robots, {}
         due = time.monotonic() + self._options.settle
-        for robot in robots:  # of those that were watched before, the last results are still known
+        for robot in robots:  # keep the last results of robots that were watched before
             watched = before.get(robot.name) or WatchedRobot(robot)
             watched.robot, watched.is_confirmed = robot, False
             watched.settle(due, is_told=True)
@@ -202,7 +202,7 @@ class Daemon:
 
     def _receive(self) -> None:
         """Wait for a message, or until a look is due."""
-        with contextlib.suppress(Empty):  # the first `get` waits; the others take what has come meanwhile
+        with contextlib.suppress(Empty):  # the first `get` waits; the others empty the queue
             message = self._queue.get(timeout=self._seconds_until_due())
             while True:
                 match message:
@@ -234,7 +234,7 @@ class Daemon:
     def _touch(self, robots: Sequence[WatchedRobot]) -> None:
         """Let changed robots settle, all from the same moment, so that they are built together.
 
-        If only names in folders have changed, the user is not told: they hardly ever matter.
+        Changes of names in folders alone are not reported: they rarely matter.
         """
         due = time.monotonic() + self._options.settle
         for watched in robots:
@@ -262,7 +262,7 @@ class Daemon:
         self._look()
 
     def _find_settled(self, *, has_looked: bool) -> list[WatchedRobot]:
-        """Look at the due robots, unless that was just done; return those that did not change since the look before."""
+        """Look at the due robots, unless `has_looked`; return those that have not changed since the look before."""
         now, settled = time.monotonic(), []
         for watched in self._robots.values():
             if watched.due > now:
@@ -282,7 +282,7 @@ class Daemon:
 
     def _has_to_be_built(self, watched: WatchedRobot) -> bool:
         """Whether anything changed since the last build; if not, the robot rests."""
-        # a build that failed may work now, whatever it failed of
+        # retry a failed build: the cause may lie elsewhere
         if watched.failure is not None or not watched.is_confirmed or watched.has_changed:
             return True
         if watched.is_told:
@@ -313,25 +313,25 @@ class Daemon:
                 self._take_result(watched, result)
                 continue
             watched.look()
-            if not watched.has_changed:  # else it is built again
+            if not watched.has_changed:  # a changed robot is built again anyway
                 self._take_failure(watched, result)
         if has_other_entries:
             self._watch_folders()
         for watched in robots:
             watched.look()
             if watched.changed_file:
-                # somebody saved meanwhile: the user is told, unless he knows that the robot waits for that
+                # a file was saved meanwhile: report it, unless the robot was waiting for that
                 watched.is_told = watched.invalid_until > 0
                 self._touch([watched])
             elif watched.invalid_until:
                 watched.sample, watched.due = watched.seen, watched.invalid_until
             elif watched.is_confirmed and not watched.has_changed:
                 self._rest(watched)
-            else:  # most likely its own writes: confirmed without a word
+            else:  # most likely the build's own writes: do not report them
                 watched.settle(time.monotonic() + self._options.settle, is_told=False)
 
     def _rest(self, watched: WatchedRobot) -> None:
-        """Leave a robot alone until a change, or for a while if it failed; otherwise check its package."""
+        """Let a robot rest until a change, or for a while if it failed; else check its package."""
         if watched.failure is None:
             watched.settle(math.inf, is_told=False)
             self._show_all(self._checks.check(watched.robot))

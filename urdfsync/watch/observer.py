@@ -19,7 +19,7 @@ from urdfsync.watch.paths import WatchedFolders
 if TYPE_CHECKING:
     from watchdog.observers.api import BaseObserver, ObservedWatch
 
-# neither opening nor reading: what the daemon does itself must not wake it
+# not opening or reading: the daemon must not wake itself
 _EVENTS: list[type[events.FileSystemEvent]] = [
     events.FileAttribEvent,
     events.FileClosedEvent,
@@ -38,7 +38,7 @@ _HINTS = {
 }
 
 
-# what it warns of is lost events, which the next rescan makes good
+# it warns of lost events, which the next rescan replaces
 logging.getLogger("watchdog").addHandler(logging.NullHandler())
 
 
@@ -88,12 +88,12 @@ class Observer(events.FileSystemEventHandler):
         for key in wanted - self._watches.keys():
             folder, deep, *_ = key
             try:
-                if not os.access(folder, os.R_OK):  # watchdog says nothing then
+                if not os.access(folder, os.R_OK):  # watchdog does not report it
                     raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
                 self._watches[key] = self._backend.schedule(self, folder, recursive=deep, event_filter=_EVENTS)
             except (OSError, RuntimeError) as error:
                 number = getattr(error, "errno", None)
-                if number not in (errno.ENOENT, errno.ENOTDIR):  # gone again: its parent is watched
+                if number not in (errno.ENOENT, errno.ENOTDIR):  # deleted meanwhile: its parent is watched
                     problems.setdefault(number, _not_watched(error, shown(Path(folder))))
         return tuple(problems.values())
 

@@ -15,7 +15,7 @@ from urdfsync.config import Config
 _MAX_STEPS = 1000
 """The most folders and links on the way to a file: links may lead in a circle."""
 _FEW = 16
-"""The most folders that are watched one by one, since each takes threads; more are watched by a folder around them."""
+"""The most folders that are watched one by one, since each takes threads; more are watched through their parents."""
 
 
 class WatchedFolders(msgspec.Struct, frozen=True):
@@ -32,7 +32,7 @@ def find_watched_folders(
 ) -> WatchedFolders:
     """Return the folders to watch for changes of entries, and of each folder and link on the way to one.
 
-    Folders above the configuration's are not watched, but for the one nearest to a file that is found outside.
+    Of folders above the configuration's, only those that hold a file are watched.
     """
     ways, places, listed = dict[str, list[str]](), set[str](), set[str]()
     for check, path in entries:
@@ -63,7 +63,7 @@ def find_watched_folders(
 
 
 def _shows(place: str, above: set[str]) -> bool:
-    """Return whether to watch the folder of a place: not the root, and not above a missing folder."""
+    """Return whether to watch a place's folder: not the root of the disk, and not above a missing folder."""
     folder = os.path.dirname(place)  # noqa: PTH120
     return os.path.dirname(folder) != folder and (folder not in above or os.path.exists(place))  # noqa: PTH110, PTH120
 
@@ -83,7 +83,7 @@ def _way_to(path: str) -> list[str]:
     while parts and len(way) < _MAX_STEPS:
         folder, place = place, os.path.join(place, parts.pop())  # noqa: PTH118
         way.append(place)
-        with contextlib.suppress(OSError):  # no link, or nothing at all
+        with contextlib.suppress(OSError):  # no link, or missing
             target = os.path.normpath(os.path.join(folder, os.readlink(place)))  # noqa: PTH115, PTH118
             *more, place = reversed(Path(target).parts)
             parts += more

@@ -1,4 +1,4 @@
-"""Finds out whether pre-commit has stashed unstaged changes: then files lack the user's changes.
+"""Finds out whether pre-commit has stashed unstaged changes: then the files lack these.
 
 While its hooks run, pre-commit keeps these changes in a file of its store named `patch<time>-<process>`. It never
 deletes the file, so only a patch of a running process counts.
@@ -26,7 +26,7 @@ def find_stash(root: Path) -> tuple[Path, int] | None:
     patches = [path for path in store.glob("patch*") if _PATCH.fullmatch(path.name)]
     if not patches:
         return None
-    import psutil  # 15 ms, and hardly ever needed: git's hooks ask, too
+    import psutil  # 15 ms, rarely needed: git's hooks come here, too
 
     place = Path(os.path.realpath(root))
     for path in sorted(patches, reverse=True):
@@ -34,7 +34,7 @@ def find_stash(root: Path) -> tuple[Path, int] | None:
         try:
             process = psutil.Process(pid)
             if process.create_time() > moment + _SLACK:
-                continue  # another process has got the number since
+                continue  # another process has the number now
             folder = process.cwd()
         except psutil.AccessDenied:
             return path, pid

@@ -37,7 +37,7 @@ _FEW = 2
 """The most changes of a model that are spelled out, and their most characters; more changes are counted."""
 _MAX_LENGTH = 100
 _SPACED = 4
-"""From so many rows of the terminal on, an empty row stands above the status."""
+"""The fewest rows of a terminal that has an empty row above the status."""
 
 
 class Activity(enum.StrEnum):
@@ -77,7 +77,7 @@ _STEPS: dict[type[events.Event], tuple[str, Activity | None]] = {
     events.Resumed: ("building again", None),
     events.Stopping: ("stopped by {0.signal}", None),
 }
-"""Events of one line, all but the last one only with `--verbose`; and the robot's activity after them."""
+"""Events that are one line, shown only with `--verbose` but for the last one; and the activity that they begin."""
 
 
 class RobotStatus(NamedTuple):
@@ -149,14 +149,14 @@ class Report:
     def show(self, event: events.Event) -> None:
         """Show an event."""
         lines = list(self.take(event, now().strftime("%H:%M:%S")))
-        # one terminal has both streams in their order, above the status; elsewhere each stream gets its own
+        # on one terminal, both streams stand in order above the status; otherwise each gets its own lines
         if self._area is None or not sys.stderr.isatty():
             write_lines([line.text for line in lines if line.error], sys.stderr)
             lines = [line for line in lines if not line.error]
         if self._area is None:
             write_lines([line.text for line in lines], sys.stdout)
         else:
-            # a command knows nothing of the status, and would write into it
+            # the output of a command would overwrite the status
             is_shown = not (self._commands or isinstance(event, events.Stopping))
             rows = self.status_lines(self._area.room, marks=has_marks(sys.stdout)) if is_shown else ()
             self._area.write([line.text.__rich__() for line in lines], [row.__rich__() for row in rows])
@@ -216,7 +216,7 @@ class Report:
             yield from self._findings(diagnostics)
 
     def _built(self, event: events.Built, clock: str) -> Iterator[LogLine]:
-        """Yield the line of a build that wrote or found anything, between its new findings and its new conflicts."""
+        """Yield a build's new findings, its line if it wrote or found anything, and its new conflicts."""
         result, robot, verbose = event.result, event.result.robot, self._console.verbose
         was_in_step = not (self._told.get((robot, "broken")) or self._told.get((robot, "conflicts")))
         errors = [finding for finding in result.diagnostics if finding.severity is Severity.ERROR]
@@ -272,7 +272,7 @@ class Report:
         return self._told[robot, topic] - before
 
     def _findings(self, diagnostics: Sequence[Diagnostic], clock: str = "") -> Iterator[LogLine]:
-        """Yield findings in the form of all commands; with a time of day if there is no line of a build above them."""
+        """Yield findings as all commands show them; with the time if no line of a build stands above."""
         for finding in findings(diagnostics, quiet=self._console.quiet, verbose=self._console.verbose):
             yield LogLine(StyledLine(((f"{clock}  " if clock else "", "dim"), *finding.parts)), error=True)
 
@@ -295,14 +295,14 @@ class Report:
             text = f"{Activity.CONFLICT} in {where}: waiting for `urdfsync resolve`"
             status = RobotStatus(Activity.CONFLICT, text)
         elif not result.writes and before is not None and before.activity is Activity.IN_STEP:
-            status = before  # with the time of the build that wrote something
+            status = before  # keep the time of the last build that wrote a file
         else:
             status = RobotStatus(Activity.IN_STEP, f"in step, built at {clock}" if result.writes else "in step")
         self._results[result.robot] = status
 
     @property
     def rows(self) -> Mapping[str, RobotStatus]:
-        """The status of each robot in the order of the configuration: the more urgent one of build and check."""
+        """The status of each robot, in order: that of build or check, whichever is more urgent."""
         rows = {}
         for robot, result in self._results.items():
             at_rest = min(result, self._checks.get(robot, result), key=lambda status: _RANKS.index(status.activity))
@@ -322,7 +322,7 @@ class Report:
             yield line((self._pause, "yellow"))
             room -= 1
         by_rank = sorted(rows, key=lambda robot: _RANKS.index(rows[robot].activity))
-        number = len(rows) if len(rows) <= room else max(room - 1, 0)  # the last line takes room, too
+        number = len(rows) if len(rows) <= room else max(room - 1, 0)  # room for the line that counts the others
         width = min(max(map(len, by_rank[:number]), default=0), _NAME_WIDTH)
         for robot in (robot for robot in rows if robot in by_rank[:number]):
             activity, text = rows[robot]

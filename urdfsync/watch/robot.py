@@ -16,14 +16,14 @@ from urdfsync.diagnostics import Diagnostic
 from urdfsync.engine.package_files import note_state, unchanged_state
 
 _TOLD = (STAT, STAT_TYPE, LSTAT)
-"""Checks whose changes are reported, an input before outputs: no names in a folder, no states of other robots."""
+"""Kinds of entries whose changes are reported, inputs first; not names in folders or states of other robots."""
 
 Looks: TypeAlias = dict[Entry, "str | tuple[int, ...]"]
 """The state of each entry: the hash of a file's content, without its times; facts of all else."""
 
 
 def look_at(entry: Entry, facts: tuple[int, ...] | None = None) -> str | tuple[int, ...]:
-    """Return the state of an entry with these facts; by default, with its present ones."""
+    """Return the state of an entry, by default with its present facts."""
     facts = check_path(*entry) if facts is None else facts
     if entry[0] not in CONTENTS:
         return facts
@@ -37,7 +37,7 @@ def look_at(entry: Entry, facts: tuple[int, ...] | None = None) -> str | tuple[i
 
 
 def _recall(reads: Dependencies, entry: Entry, facts: tuple[int, ...]) -> str | tuple[int, ...]:
-    """Return the state of an entry during a build; of an unknown file that has changed since, its facts."""
+    """Return the state of an entry during a build; for a changed file of unknown content, its facts."""
     known = unchanged_state(entry[1], facts)
     if sha256 := reads.hashes.get(entry) or (known and known.sha256):
         return sha256
@@ -56,17 +56,17 @@ class WatchedRobot(msgspec.Struct):
     due: float = math.inf
     """When to look at the files next, in seconds of a monotonic clock; infinite at rest."""
     is_told: bool = False
-    """Whether the user was told that the robot is settling; looks after the daemon's own builds are silent."""
+    """Whether `Settling` was reported; looks after the daemon's own builds are not."""
     sample: Looks | None = None
-    """The look before, since the last event; None if there was none. Two equal looks mean: settled."""
+    """The look before, if no event came since then, else None. After two equal looks the robot has settled."""
     invalid_until: float = 0.0
-    """The time until which the exporter of an invalid source may be at work; 0 if it is valid, or stays invalid."""
+    """The time until an invalid source becomes an error; 0 if it is valid, or an error already."""
     is_confirmed: bool = False
     """Whether the last build had nothing to write, with the present configuration."""
     failure: tuple[Diagnostic, ...] | None = None
     """Why the last build failed; None if it did not."""
     left_alone: frozenset[tuple[str, str]] = frozenset()
-    """Different files that the last build did not write, each with the kind of its action; and misfits."""
+    """Misfits, and the stale files that the last build did not write, with the kinds of their actions."""
     pending: tuple[Path, ...] = ()
     """Files that were written while the package is broken: the command of `--exec` waits for its repair."""
 
@@ -82,7 +82,7 @@ class WatchedRobot(msgspec.Struct):
     def take(self, reads: Dependencies, config: Looks) -> bool:
         """Take the entries and the configuration of a build; returns whether the entries differ from the last ones."""
         before, entries = self.built.keys(), reads.entries
-        if not entries:  # it met a bug, and is not to meet it again and again
+        if not entries:  # a bug ended the build: do not repeat it
             self.built = {entry: look_at(entry) for entry in before} | config
             return False
         self.built = {

@@ -15,7 +15,7 @@ from rich.text import Text
 from urdfsync.output.console import rich_console
 
 _WIDEST = 79
-"""The most columns of the status: longer lines would be broken in a narrowed terminal."""
+"""The most columns of the status: a narrowed terminal would wrap longer lines."""
 
 
 class StatusArea:
@@ -25,17 +25,17 @@ class StatusArea:
         self.console = rich_console(stream)
         self._stream = stream
         self._live: Live | None = None
-        """None while the status is empty, or a shell has the terminal."""
+        """None while the status is empty, or while a shell has the terminal."""
 
     @property
     def room(self) -> int:
-        """The most rows of the status: a third of the terminal, but four if there are five."""
+        """The most rows of the status: a third of the terminal, or four of five rows."""
         height = self.console.height
         return max(min(4, height - 1), height // 3)
 
     def write(self, lines: Sequence[Text], status: Sequence[Text]) -> None:
-        """Write lines; the terminal breaks long ones. `status` is shown below from now on."""
-        with self.console:  # all of it is written at once
+        """Write lines, which the terminal wraps; from now on `status` stands below."""
+        with self.console:  # one write
             is_shown = bool(status) and self._is_foreground()
             if not is_shown and self._live is not None:
                 self._live.stop()
@@ -43,7 +43,7 @@ class StatusArea:
             if lines:
                 self.console.print(Text("\n").join(lines), soft_wrap=True)
             if is_shown and self._live is None:
-                has_errors = sys.stderr.isatty()  # what libraries write there goes above the status
+                has_errors = sys.stderr.isatty()  # libraries' output goes above the status
                 self._live = Live(
                     console=self.console,
                     auto_refresh=False,
@@ -52,7 +52,7 @@ class StatusArea:
                     redirect_stderr=has_errors,
                 )
                 self._live.start()
-                self.console.show_cursor()  # a daemon that is killed must not leave a terminal without one
+                self.console.show_cursor()  # a killed daemon must not leave the terminal without a cursor
             if self._live is not None:
                 for row in status:
                     row.no_wrap, row.overflow = True, "ellipsis"
@@ -64,5 +64,5 @@ class StatusArea:
             return True
         try:
             return os.tcgetpgrp(self._stream.fileno()) == os.getpgrp()
-        except (OSError, ValueError):  # a terminal of somebody else, as in a test
+        except (OSError, ValueError):  # another process's terminal, as in a test
             return True

@@ -1,7 +1,7 @@
-"""The pages of watched robots for browsers on this machine, which follow the builds by server-sent events.
+"""Serves the pages of watched robots to browsers on this machine; server-sent events update them.
 
-The server listens only on the loopback. Pages of other sites are refused: their requests have another `Origin`, or
-another `Host` if their name leads here.
+The server listens only on the loopback. Requests from pages of other sites are refused: they have another `Origin`,
+or another `Host` if their name leads here.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ from urdfsync.watch import events
 from urdfsync.watch.daemon import WatchOptions
 
 _ALIVE = 10.0
-"""Seconds between messages, by which the server notices that a browser has gone."""
+"""Seconds between messages, by which the server notices closed browsers."""
 _MOST = 50
 """The most connections at a time; each open page has one."""
 _IDLE = 15.0
@@ -89,7 +89,7 @@ class View:
             self._news.notify_all()
 
     def page(self, name: str) -> bytes:
-        """Return the present page of a robot, else the last one; empty if there never was one."""
+        """Return the present page of a robot, else the last one; empty if there is none."""
         robot = self.robots[name]
         with self._making:
             if (build := robot.build) == robot.page_build:
@@ -102,7 +102,7 @@ class View:
                 robot.page, robot.page_build = page(content, check=check, build=build), build
                 if not robot.shown or robot.shown[0][0] != content.version[0]:
                     robot.shown = (content.version, *robot.shown[:1])
-            except Exception as error:  # noqa: BLE001 - builds go on, and the next one has another page
+            except Exception as error:  # noqa: BLE001 - builds go on, and the next one makes a new page
                 is_known = isinstance(error, UrdfsyncError | OSError)
                 robot.problem = robot.problem or str(error if is_known else internal_error(error))
         return robot.page
@@ -160,7 +160,7 @@ class _Handler(BaseHTTPRequestHandler):
         super().__init__(*connection)
 
     def handle(self) -> None:
-        """Answer; browsers may go away at any time."""
+        """Answer; the browser may close the connection at any time."""
         with contextlib.suppress(ConnectionError):
             super().handle()
 
@@ -194,4 +194,4 @@ class _Handler(BaseHTTPRequestHandler):
         self.wfile.write(content)
 
     def log_message(self, *_: object) -> None:
-        """Say nothing: the terminal is the daemon's."""
+        """Write nothing: the terminal is the daemon's."""

@@ -256,7 +256,7 @@ def test_a_file_that_is_no_urdf_is_one_error(content: bytes, code: str, line: in
     ("<link name='R&D'/>", "not well-formed (invalid token)"),
     ("<mass value='&kg;'/>", "undefined entity"),
     ("<visual><origin></visual>", "<origin> of line 2 is not closed"),
-    ("<a>" * 300 + "</a>" * 300, "elements stand inside of one another 256 deep"),
+    ("<a>" * 300 + "</a>" * 300, "elements are nested 256 deep"),
 ])  # fmt: skip
 def test_what_is_wrong_in_xml_is_said(text: str, message: str) -> None:
     (found,) = read(f"<robot name='r'>\n{text}</robot>").diagnostics

@@ -49,7 +49,7 @@ def _tool(config: Config, name: str, *, is_trusted: bool) -> Tool:
     if compiler.STARTS_PROGRAMS and not is_trusted:
         try:
             problem = find_untrusted_compiler(config, name, compiler.TITLE)
-        except ConfigError as error:  # the user's file of trusted folders can't be read
+        except ConfigError as error:  # the user's file of trusted folders is unreadable
             problem = error.diagnostics[0]
     return Tool(name, config.check.program(name), problem)
 

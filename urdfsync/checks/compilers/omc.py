@@ -106,7 +106,7 @@ def state(named: str) -> tuple[str, list[Path]]:
 
 def environment(cache: str, folder: str) -> dict[str, str]:  # noqa: ARG001 - see `Compiler`
     """See `Compiler`: the temporary folder is for scripts and whatever it writes."""
-    # It asks for an index of libraries on the network if there is none on disk: a proxy that nobody is leaves it alone.
+    # omc downloads an index of libraries if there is none on disk: an unreachable proxy prevents that.
     proxies = dict.fromkeys(("http_proxy", "https_proxy"), _NOBODY) | dict.fromkeys(("no_proxy", "NO_PROXY"), "")
     return dict.fromkeys(("TMPDIR", "TEMP", "TMP"), folder) | proxies
 
@@ -144,9 +144,9 @@ def work(job: CompileJob) -> Iterator[CompileResult]:
     """See `Compiler`: all in one script. A file that can't be loaded is the problem of each task."""
     folder = Path(tempfile.mkdtemp())
     version = _ask(job, folder, ["getVersion()"])[0].value
-    is_webassembly = version.endswith("-rust")  # which needs no C compiler, and has no other target
+    is_webassembly = version.endswith("-rust")  # it needs no C compiler, and has no other target
     flags = _MATCHING + " --simCodeTarget=wasm-jit" * is_webassembly
-    if any(task.export for task in job.tasks):  # else an FMU for co-simulation takes Euler's method, one step for each
+    if any(task.export for task in job.tasks):  # else co-simulation uses Euler's method
         flags += f" --fmiFlags=s:{'dassl' if is_webassembly else 'cvode'}"
     files = [f"loadFile({quoted(path.as_posix())})" for path in _package_files(job)]
     loads = [f"setCommandLineOptions({quoted(flags)})", "loadModel(Modelica)", *files]
@@ -156,7 +156,7 @@ def work(job: CompileJob) -> Iterator[CompileResult]:
     for task, some in zip(job.tasks, calls, strict=True):
         given = [next(answers) for _ in some]
         result = CompileResult(problem) if problem else _result(task, given, folder)
-        # a fault in the text of the task is in none of the user's files
+        # faults in the task's own text are in no file of the user's
         own = re.compile(rf"\[{re.escape((folder / 'task').as_posix())}\d+\.mo:[^\]]*\] ")
         result = msgspec.structs.replace(result, problem=own.sub("", result.problem))
         yield msgspec.structs.replace(result, version=version.removeprefix("OpenModelica ").removeprefix("v"))
@@ -170,7 +170,7 @@ def _calls(task: CompileTask, number: int, folder: Path) -> list[str]:
     if export := task.export:
         kind = f'version="{export.version}", fmuType="{export.kind}"'
         return [*calls, f"buildModelFMU({task.model}, {kind}, fileNamePrefix={quoted(task.model)})"]
-    if task.parameters and not task.runs:  # only a result names all parameters
+    if task.parameters and not task.runs:  # only the result of a run names all parameters
         return [*calls, f'simulate({task.model}, stopTime=1e-6, outputFormat="mat", fileNamePrefix="names{number}")']
     if not task.runs:
         return [*calls, f"checkModel({task.model})"]

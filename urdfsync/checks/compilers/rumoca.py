@@ -37,7 +37,7 @@ METHODS: tuple[str, ...] = ("auto", "bdf", "rk-like")
 HAS_STANDARD_LIBRARY = False
 STARTS_PROGRAMS = False
 
-_FILE = "Task.mo"  # always the same, so that a text takes the place of the one before in the compiler's memory
+_FILE = "Task.mo"  # always the same name, so that a new text replaces the last one in the compiler's memory
 _UNKNOWN = frozenset(("state", "algebraic", "output", "discrete_real", "discrete_value"))
 _SEARCH = re.compile(r"event iteration (at t=\S+) cycles .* which the mode search ")
 _STUCK = (
@@ -178,7 +178,7 @@ def _without_effect(model: rumoca.Model, names: tuple[str, ...]) -> tuple[str, .
     structural = {parameter.name for parameter in model.parameters if parameter.kind == "structural"}
 
     def is_used(number: int, above: frozenset[int] = frozenset()) -> bool:
-        # what the structure depends on is evaluated, and then mentioned nowhere; sizes are not even called structural
+        # structural parameters are evaluated and then missing; sizes are not even marked as structural
         variable = storage.variables[number]
         if variable.name in structural or storage.value_types[variable.value_type].scalar != "real":
             return True
@@ -199,11 +199,11 @@ def _simulate(model: rumoca.Model, run: Simulation, task: CompileTask) -> Simula
     try:
         result = model.simulate((0, run.stop), config=config, params=dict(run.parameters) or None)
         wanted = re.compile(task.pattern)
-        others = (name for name in result.names if wanted.fullmatch(name) and name[0] != "$")  # but for its own
+        others = (name for name in result.names if wanted.fullmatch(name) and name[0] != "$")  # without internal names
         series = {name: tuple(result[name].tolist()) for name in dict.fromkeys((*task.values, *others))}
     except (rumoca.RumocaError, LookupError, ValueError) as error:
         return SimulationResult(problem=_words(error))
-    values = {"time": tuple(result.time.tolist()), **series}  # all finite, or it says so itself
+    values = {"time": tuple(result.time.tolist()), **series}  # all finite, else rumoca reports an error
     parameters = {
         parameter.name: parameter.value
         for parameter in model.parameters

@@ -66,7 +66,7 @@ _SIZE = 20  # width and height of a component, and of the frame connectors at th
 _CONNECTOR = 12  # width and height of a connector that stands beside a component
 _FRAME = 32  # size of the connector of the root frame, as in the Modelica Standard Library
 _COLUMN = 40  # from a column's trunk to the gap between it and the next one
-_GAP = 4  # tracks for which a gap has room; one with more has room for twice, three times as many
+_GAP = 4  # tracks in a gap; a gap with more tracks is two or three times as wide
 _TRACK = 4  # distance of neighbouring lines
 _NAME = 8  # room for a name above a component
 _LINK_X = 14  # from a column's trunk to the middle of its links and couplings
@@ -265,7 +265,7 @@ def _cells(tree: KinematicTree) -> _Cells:
         columns[joint.child] = columns[joint.parent] + 1
     for joint in reversed(tree.joints):
         sizes[joint.parent] += sizes[joint.child]
-    # A new leaf makes a chain of two at most, and seldom one that is half as large as the largest beside it.
+    # A new leaf changes this for few links: it makes a chain of two at most.
     is_large = {joint.name: sizes[joint.child] > 2 for joint in tree.joints}
     following = dict[str, Joint]()
     for link, starting in children.items():
@@ -403,7 +403,7 @@ def _lines(
         route(drive.motion, axis, drive.axis)
         x, y = place(support)
         route(drive.motion, support, drive.support, (x, y + 2), (place(drive.support)[0], y + 2))
-        if drive.motor:  # its connector stands above that of the axis: the line passes this
+        if drive.motor:  # its connector stands above the axis's: the line passes it
             route("rotational", motor, drive.motor, (place(motor)[0], place(drive.motor)[1]))
     for joint, mimic in tree.followers():
         coupling, leader = names.couplings[joint.name], mimic.joint

@@ -102,7 +102,7 @@ def interface(
                 brings_back(lines.get(full_name, ""), full_name if full_name != old_name else "") if full_name else ""
             )
             changes.append(Effect((_label(kind, element), part), old_name, new_name, hint=hint))
-        elif part == "axis":  # a flange of the same name may be of another kind, and fit no drive
+        elif part == "axis":  # a flange of the same name may have another type
             old_motion, motion = old_connectors.drives[old_element].motion, connectors.drives[element].motion
             if old_motion != motion:
                 changes.append(Effect((_label(kind, element), "motion"), old_motion, motion))
@@ -112,7 +112,7 @@ def interface(
         path = "robot", f"order of {input_vector(connectors)}"
         changes.append(Effect(path, ", ".join(inputs), ", ".join(new_inputs)))
     added = [Effect((_label(kind, name), part), None, new_name) for (kind, name, part), new_name in new_names.items()]
-    return [*changes, *added]  # names that users may have connected come first
+    return [*changes, *added]  # first the names that users may have connected
 
 
 def _names(connectors: Connectors, options: Options) -> dict[tuple[str, str, str], str]:

@@ -71,7 +71,7 @@ class _Problem(Mechanism):
         """Of each loop, the distance from its frames to the farthest axis; 1 without axes."""
         self.units = np.ones(len(limits))
         for k, joint in enumerate(self.independent):
-            if joint.type == "prismatic":  # it moves the first of its loops by the size of that
+            if joint.type == "prismatic":  # it may move by the size of its first loop
                 self.units[k] = self.sizes[np.argmax(self.moves[:, k])]
         self.work = 0
 
@@ -91,7 +91,7 @@ class _Problem(Mechanism):
         Directions in which the equations of the kinds are dependent do not count: residuals of inexact numbers stay
         there.
         """
-        least = _INDEPENDENT**2 if rows is self.whole else 1e-12  # chosen ones are independent
+        least = _INDEPENDENT**2 if rows is self.whole else 1e-12  # chosen rows are independent
         q, caution, lower, upper = start, 1.0, self.lower, self.upper
         work = len(q) ** 2 * (len(q) + len(rows.loops))
         if not bounded:
@@ -99,7 +99,7 @@ class _Problem(Mechanism):
         gaps, jacobian = self.scaled(q, rows)
         for _ in range(60):
             movable = np.ones(len(q), bool) if free is None else free.copy()
-            while True:  # without the joints that would leave their limits from where they end
+            while True:  # repeat without the joints that would leave their limits
                 self.work += work
                 if self.work > _MOST_WORK:
                     raise _too_many(len(self.loops), len(self.joints), self.loops[0])
@@ -143,7 +143,7 @@ def assemble(tree: KinematicTree, wanted: frozenset[str], named: frozenset[str])
     loop, the first independent wanted ones are driven.
     """
     try:
-        with np.errstate(all="ignore"):  # absurd numbers overflow: what is not a number is not closed
+        with np.errstate(all="ignore"):  # huge numbers overflow, and NaN counts as not closed
             return _assemble(tree, wanted, named)
     except _UnclosableError as error:
         faults = error.faults
@@ -231,7 +231,7 @@ def _independent(matrices: Sequence[Array]) -> list[int]:
 
 
 def _rest(row: Array, basis: Array) -> Array:
-    for _ in range(2):  # the second time takes away what rounding left
+    for _ in range(2):  # the second time removes rounding errors
         row = row - basis.T @ (basis @ row)
     return row
 
@@ -335,7 +335,7 @@ def _refine(tree: KinematicTree, problem: _Problem, q: Array, rows: Rows, free: 
     exact, at = Mechanism(tree, object), array_of(q, object)
     exact_rows = rows.take(range(len(rows.loops)), object)
     inverse = np.linalg.inv(problem.evaluate(q, rows)[1][:, free])
-    for _ in range(3):  # each step gains at least half the digits that a float has
+    for _ in range(3):  # each step gains at least half of a float's digits
         at[free] = at[free] - array_of(inverse @ exact.left(at, exact_rows).astype(float), object)
     return np.where(free, [float(round(value, 12)) + 0.0 for value in at], q)
 
@@ -344,7 +344,7 @@ def _reach(problem: _Problem, q: Array, rows: Rows, driven: Sequence[int], free:
     """Return the longest ways of the driven joints, along the way that Test takes."""
     joints = problem.independent
     reach = {k: _SWEEP[MOTION_KINDS[joints[k].type]] for k in driven}
-    while True:  # until no joint turns to its other side, which each does once at most
+    while True:  # ends: each joint changes its side once at most
         ways = {k: _way(joints[k], float(q[k]), reach[k]) for k in driven}
         done = _follow(problem, q, rows, ways, free)
         if done < _STEPS:

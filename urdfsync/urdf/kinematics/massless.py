@@ -12,7 +12,7 @@ from urdfsync.urdf.kinematics.poses import Pose, compose, dot, link_poses, pose,
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.robot import MOTION_KINDS, Joint, Link, Motion, Vector, reflected_inertia
 
-_ROUNDING = 1e-6  # of angles, and of lengths in relation to where they are
+_ROUNDING = 1e-6  # of angles, and of lengths relative to their distance
 
 
 class _Axis(msgspec.Struct, frozen=True):
@@ -38,7 +38,7 @@ class _Axis(msgspec.Struct, frozen=True):
         rotation, centre = compose(at, pose(inertial.origin))
         x, y, z = (dot(column, self.direction) for column in zip(*rotation, strict=True))
         i = inertial.inertia
-        # about an axis that is off by a small angle, a rod has the square of this angle times its other moment
+        # about an axis that is off by a small angle, the moment of a rod is this angle squared times its other moment
         moment = i.ixx * x * x + i.iyy * y * y + i.izz * z * z + 2 * (i.ixy * x * y + i.ixz * x * z + i.iyz * y * z)
         return moment > _ROUNDING**2 * (i.ixx + i.iyy + i.izz) or (inertial.mass > 0 and self._is_off(centre))
 

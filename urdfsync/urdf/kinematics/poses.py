@@ -12,7 +12,7 @@ Matrix = tuple[Vector, Vector, Vector]
 Pose = tuple[Matrix, Vector]
 """Rotation R and translation p: v_world = R·v + p."""
 
-# Farther than any joint moves, and not so far that arithmetic overflows; leaderPosition in the library has it, too.
+# No joint moves so far, and arithmetic does not overflow. Also in leaderPosition of the library.
 _FAR = 1e60
 
 IDENTITY: Pose = (((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)), (0.0, 0.0, 0.0))
@@ -84,7 +84,7 @@ def position_ranges(tree: KinematicTree) -> Mapping[str, tuple[float, float]]:
     followers = tree.followers_by_leader()
     for joint in reversed(tree.leaders_first()):
         for follower, mimic in followers.get(joint.name, ()) if joint.type in MOTION_KINDS else ():
-            if abs(mimic.multiplier) > math.ulp(1):  # else the follower hardly moves, and reaches no limit
+            if abs(mimic.multiplier) > math.ulp(1):  # else the follower reaches no limit
                 ends = sorted((_near(end) - mimic.offset) / mimic.multiplier for end in ranges[follower.name])
                 lower, upper = ranges[joint.name]
                 ranges[joint.name] = max(lower, ends[0]), min(upper, ends[1])

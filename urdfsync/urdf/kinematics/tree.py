@@ -55,7 +55,7 @@ class KinematicTree(msgspec.Struct, frozen=True):
         """
         links = {link.name: link for link in robot.links}
         if len({joint.child for joint in robot.joints}) < len(robot.joints):
-            raise ValueError("two joints lead to one link")  # with a cycle the walk below would not end
+            raise ValueError("two joints lead to one link")  # else the loop below might not end
         children: defaultdict[str, list[Joint]] = defaultdict(list)
         for joint in robot.joints:
             children[joint.parent].append(joint)
@@ -130,6 +130,6 @@ class KinematicTree(msgspec.Struct, frozen=True):
         """Return all joints, each after the joint that it follows."""
         followers = self.followers_by_leader()
         order = [joint for joint in self.joints if joint.mimic is None]
-        for joint in order:  # grows while it is walked
+        for joint in order:  # the list grows in this loop
             order += (follower for follower, _ in followers.get(joint.name, ()))
         return order

@@ -52,7 +52,7 @@ def collada_parts(
     for tag, name in _NOT_READ.items():
         if root.find(f".//{{*}}{tag}") is not None:
             raise MeshError(f"it has {name}, which urdfsync doesn't read")
-    if any("-" in (indices.text or "") for indices in root.iter("{*}p")):  # which numpy counts from the end
+    if any("-" in (indices.text or "") for indices in root.iter("{*}p")):  # numpy would count them from the end
         raise MeshError("one of its faces has an index that no vertex has")
     _place_skins(root)
     if others is not None:
@@ -62,7 +62,7 @@ def collada_parts(
     _move_once_per_node(root)
     shapes = io.BytesIO(etree.tostring(root))
     del root  # pycollada parses them into a tree of its own
-    # not by `load_scene`: it would merge vertices, and leave out triangles that are not finite
+    # `load_scene` would merge vertices and drop infinite triangles
     loaded = load_collada(shapes, ignore_broken=False)
     for node in loaded["graph"]:
         mesh = loaded["geometry"][node["geometry"]]

@@ -33,7 +33,7 @@ def convert(dependency: Dependency, file: Path, content: bytes, others: Mapping[
     suffix = lookup.suffix(mesh.filename)
     try:
         if suffix not in _FORMATS:
-            raise MeshError(f"its format isn't one of {', '.join(_FORMATS)}")  # noqa: TRY301 - told as what the process finds
+            raise MeshError(f"its format isn't one of {', '.join(_FORMATS)}")  # noqa: TRY301 - reported like findings of the process
         colors = next((name for name in (lookup.PARTS, lookup.COLORS) if name in dependency.facts), "")
         is_obj = suffix == ".obj" and lookup.as_is(mesh)
         request = Request(suffix, mesh.scale, lookup.HULL in dependency.facts, colors, is_obj)

@@ -24,8 +24,8 @@ _FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute
 _HEADER = b"binary STL, written by urdfsync".ljust(80)
 _LARGEST = np.finfo(np.float32).max  # STL has single precision
 _STEPS = 36  # directions on each great circle
-_TIE = 1e-9  # of the size: what is meant to be equal differs by rounding
-_NEAR = 1e-8  # of the size: what may be a tie, far above the error of a matrix product
+_TIE = 1e-9  # of the size: equal lengths differ by rounding
+_NEAR = 1e-8  # of the size: a possible tie, far above the error of a matrix product
 _CHUNK = 1 << 14  # points whose products with all directions stay in the cache
 _DIGITS = 6
 
@@ -61,9 +61,9 @@ def joined(parts: Sequence[Triangles], most: float = MAX_TRIANGLES) -> Triangles
     for part in parts:
         if len(part.faces) and (part.faces.min() < 0 or part.faces.max() >= len(part.points)):
             raise MeshError("one of its faces has an index that no vertex has")
-    if len(parts) == 1:  # without a copy: a large one takes a quarter of the memory that there is
+    if len(parts) == 1:  # no copy: a large mesh takes a quarter of the memory
         return parts[0]
-    from trimesh.util import append_faces  # 0.7 s, which a page with meshes does without
+    from trimesh.util import append_faces  # 0.7 s that a page with meshes saves
 
     return Triangles(*append_faces([part.points for part in parts], [part.faces for part in parts]))
 

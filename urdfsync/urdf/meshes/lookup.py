@@ -49,7 +49,7 @@ _DRIVE = r"/*([A-Za-z]:/.*)"
 _MENTIONS = {
     ".obj": re.compile(rb"^[ \t]*mtllib[ \t]([^\r\n]+)", re.MULTILINE),
     ".mtl": re.compile(rb"^[ \t]*map_Kd[ \t]([^\r\n]+)", re.MULTILINE),
-    # that of a surface names an image of the file itself
+    # <init_from> of a surface names an image inside of the file
     ".dae": re.compile(rb"<surface\b[^<>]*>\s*<init_from>[^<>]+</init_from>|<init_from>([^<>]+)</init_from>"),
     GLTF: re.compile(rb'"uri"\s*:\s*"([^":]+\.bin)"'),
 }
@@ -132,7 +132,7 @@ def mentioned_files(file: str, content: bytes) -> list[str]:
     if suffix == ".obj":
         mentions = [library for line in mentions for library in _LIBRARY.findall(line)]
     names = dict.fromkeys(map(path_of_mention, mentions))
-    # a buffer without which there is no mesh is looked for below its folder alone
+    # buffers of glTF are looked for only below its folder
     return [str(path.parent / name) for name in names if name and not (suffix == GLTF and ".." in name.split("/"))]
 
 
@@ -206,7 +206,7 @@ def candidates(uri: str, lookup: Lookup) -> tuple[Path, ...]:
     absolute_paths: dict[Path, None] = {}
     for path in paths:
         sizes = [len(part.encode("utf-8", "surrogatepass")) for part in path.parts]
-        # no file system has longer ones, and looking for one would raise OSError
+        # no file system has longer names: looking for one raises OSError
         if path.is_absolute() and max(sizes) <= _NAME_BYTES and sum(sizes) + len(sizes) <= _PATH_BYTES:
             absolute_paths[path] = None
     return tuple(absolute_paths)

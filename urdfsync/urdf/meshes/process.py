@@ -86,7 +86,7 @@ class MeshProcess:
 
     def __init__(self) -> None:
         self._process: subprocess.Popen[bytes] | None = None
-        self._lock = threading.Lock()  # workers of a cluster are threads
+        self._lock = threading.Lock()  # a cluster's workers are threads
 
     def read(
         self, request: Request, content: bytes, others: Mapping[str, bytes] | None = None
@@ -108,10 +108,10 @@ class MeshProcess:
                 answer, files = _ask(process, request, (content, *others.values()))
                 if answer.is_last:
                     self.end()
-            except (OSError, ValueError) as error:  # it ends, or the answer is none
+            except (OSError, ValueError) as error:  # the process ended, or the answer is invalid
                 self.end()
                 raise MeshError(_LIMITS) from error
-            except BaseException:  # an interruption leaves the rest of an answer in the pipe
+            except BaseException:  # after an interruption, the pipe still has half an answer
                 self.end()
                 raise
             finally:
@@ -126,7 +126,7 @@ class MeshProcess:
         if process is not None:
             atexit.unregister(self.end)
             process.kill()
-            with contextlib.suppress(OSError), process:  # closes its pipes and waits; what was not written is lost
+            with contextlib.suppress(OSError), process:  # closes the pipes and waits; unwritten data are lost
                 pass
 
     def _start(self) -> subprocess.Popen[bytes]:
@@ -136,7 +136,7 @@ class MeshProcess:
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL,
-            # each thread would have memory of its own; numpy deprecates what libraries do
+            # each thread needs its own memory; libraries use deprecated parts of numpy
             env={**os.environ, **importable(), "OPENBLAS_NUM_THREADS": "1", "PYTHONWARNINGS": "ignore"},
             start_new_session=True,  # an interruption from the keyboard is for whoever waits, who ends the process
         )

@@ -51,9 +51,9 @@ def read_mesh(
     with _damage_is_an_error():
         parts = collada_parts(content) if suffix == ".dae" else _parts(suffix, content, buffers=others)
         mesh = joined([triangles for _, triangles in parts], most)
-        if len(mesh.faces) < _announced(suffix, content):  # trimesh passes over those that are missing
+        if len(mesh.faces) < _announced(suffix, content):  # trimesh ignores missing faces
             raise MeshError("its end is missing")
-    gc.collect()  # scenes refer to themselves, and hold copies of large meshes
+    gc.collect()  # scenes are cyclic and hold copies of large meshes
     return mesh
 
 
@@ -74,7 +74,7 @@ def read_parts(
             by_color.setdefault(color, []).extend([triangles] if len(triangles.faces) else ())
         joined(
             [part for some in by_color.values() for part in some]
-        )  # raises MeshError for none or too many of all colours
+        )  # raises MeshError without triangles, or with too many
         by_size = sorted(by_color, key=lambda color: sum(len(part.faces) for part in by_color[color]), reverse=True)
         for color in by_size[_MOST_COLORS:]:
             by_color.setdefault(None, []).extend(by_color.pop(color) if color else ())
@@ -82,7 +82,7 @@ def read_parts(
     gc.collect()
     missing = [f"`{cut(name, _LONGEST)}` not found" for name, other in others.items() if not other][:_NAMES]
     if suffix == ".dae" and None not in parts:
-        missing = []  # pictures that no colour comes from, such as bumps
+        missing = []  # missing pictures that give no colour, such as bumps
     return parts, missing or ["a part of it has none"] * (None in parts and len(parts) > 1)
 
 
@@ -94,7 +94,7 @@ def _damage_is_an_error() -> Iterator[None]:
     """
     try:
         with warnings.catch_warnings(), np.errstate(all="ignore"):
-            warnings.simplefilter("ignore")  # libraries use what numpy deprecates
+            warnings.simplefilter("ignore")  # libraries use deprecated parts of numpy
             warnings.filterwarnings("error", "string or file could not be read", DeprecationWarning)
             yield
     except (MeshError, MemoryError):
@@ -122,7 +122,7 @@ def _parts(
             files["m"] = b"".join(b"newmtl m%d\n" % number for number in range(len(used)))
         content = _plain_obj(content, with_materials=bool(colors))
     if suffix == ".gltf":
-        json.loads(content)  # where this fails, trimesh looks for another file
+        json.loads(content)  # raises here: trimesh would look for another file
     is_gltf = suffix in (".gltf", ".glb")
     if is_gltf:
         for compression in _COMPRESSIONS:
@@ -135,7 +135,7 @@ def _parts(
         process=False,
         skip_materials=not colors,
     )
-    for color in dict.fromkeys(by_name.values()):  # in the order of the file, which trimesh turns around
+    for color in dict.fromkeys(by_name.values()):  # in the file's order, which trimesh reverses
         yield color, Triangles(np.empty((0, 3)), np.empty((0, 3), dtype=np.int64))
     for node in scene.graph.nodes_geometry:
         pose, name = scene.graph[node]

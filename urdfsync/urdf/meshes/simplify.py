@@ -20,7 +20,7 @@ def packed(mesh: Triangles, most: int) -> tuple[bytes, Facts]:
         points, faces = _clustered(mesh, cells)
         if len(faces) <= most or cells <= 8:
             break
-        # the number of triangles of a surface goes with the square of the cells
+        # the number of triangles grows with the square of the cells
         cells = max(8, min(cells * 3 // 4, int(cells * (most / len(faces)) ** 0.5)))
     content = points.astype("<f4").tobytes() + faces.astype("<u4").tobytes()
     numbers = {"points": len(points), "faces": len(faces), "total": len(mesh.faces)}

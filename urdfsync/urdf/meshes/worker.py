@@ -35,18 +35,18 @@ def main() -> None:
         for file in files:
             answers.write(file)
         answers.flush()
-    os._exit(0)  # tidying up libraries takes a tenth of a second
+    os._exit(0)  # unloading libraries takes a tenth of a second
 
 
 def _answer(request: Request, content: bytes, others: Mapping[str, bytes]) -> tuple[Answer, list[bytes]]:
-    # these bring in numpy and trimesh: after `main` has put the unused packages aside, and before the limits hold
+    # these import numpy and trimesh: after `main` has blocked unused packages, and before the limits are set
     from urdfsync.urdf.meshes import geometry, simplify
 
     is_plain = bool(request.most) and request.suffix == ".stl" and is_binary_stl(content)
-    if not is_plain:  # else trimesh, which takes half a second, has nothing to do
+    if not is_plain:  # plain meshes need no trimesh, which takes half a second
         from urdfsync.urdf.meshes.reading import read_mesh, read_parts
 
-        sys.modules.pop("PIL", None)  # trimesh goes without it, textures do not
+        sys.modules.pop("PIL", None)  # trimesh does not need it, textures do
     try:
         with limits(request.seconds, MEMORY * (FOR_PICTURE if request.most else 1)):
             if request.most:

@@ -42,7 +42,7 @@ def robot_data(tree: KinematicTree, names: Connectors, dependent: frozenset[str]
             "follower": tree.joint(joint.name).component,
             "follower_motion": motions[joint.name],
             "name": joint.name,
-            # a leader that does not move holds its follower, which then has none in the model
+            # a fixed leader holds its follower, which then has no leader in the model
             "leader": tree.joint(mimic.joint).component if motions[mimic.joint] else None,
             "leader_motion": motions[mimic.joint],
             "leader_name": mimic.joint,

@@ -1,4 +1,4 @@
-"""The YAML that the collection `example-parallel-robots` keeps beside a URDF, as elements at the end of the URDF.
+"""Reads the YAML of loops that `example-parallel-robots` keeps beside a URDF, as elements of the URDF.
 
     closed_loop: [[FRAME, FRAME], …]          pairs of links
     type: [3d | 6d, …]                        a ball or a fixed joint for each pair
@@ -6,7 +6,8 @@
     joint_name: [JOINT, …]                    joints that URDF has no type for, each with
     joint_type: [SPHERICAL | UJOINT_XY | FIXED, …]
 
-So all readers of the URDF read them, too, with their lines. A joint of more than one axis becomes a chain.
+The elements go to the end of the URDF, so that all its readers have them, with their lines. A joint of several axes
+becomes a chain.
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ from urdfsync.spelling import counted
 from urdfsync.urdf.parse import xml
 
 AXES = "joint_axes"
-"""Element of a joint that turns about other axes than URDF says, one after the other: `<joint_axes joint axes>`."""
+"""Element that gives a joint several axes, one after the other: `<joint_axes joint axes>`."""
 SUFFIX = ".yaml"
 _KINDS = {"3d": "ball", "6d": "fixed"}
 _TYPES = {
@@ -31,7 +32,7 @@ _TYPES = {
 }
 _MARK = b"closed_loop"
 _LARGEST = 100_000
-"""The most bytes of a YAML: at the worst they take 2 s and 60 MB, since PyYAML is slow. 10,000 loops have fewer."""
+"""The most bytes of a YAML: PyYAML takes up to 2 s and 60 MB for these. 10,000 loops have fewer."""
 _DEEPEST = 50
 """Deepest nesting of lists in a YAML: PyYAML needs three levels of recursion for each."""
 _MOST = 10_000_000
@@ -40,9 +41,9 @@ _DIRECTIONS = {"x": "1 0 0", "y": "0 1 0", "z": "0 0 1"}
 
 
 def join(content: bytes, other: bytes, file: str) -> tuple[bytes, Sequence[tuple[int, int]]]:
-    """Return a URDF with a YAML's elements before its last tag, and the line of each in both files.
+    """Return the URDF with the YAML's elements before its last tag, and the line of each in both files.
 
-    Another YAML adds nothing. Raises SourceError for an unreadable one.
+    A YAML of another kind adds nothing. Raises SourceError for an unreadable one.
     """
     end = content.rfind(b"</robot")
     if _MARK not in other or end < 0:
@@ -65,7 +66,7 @@ def join(content: bytes, other: bytes, file: str) -> tuple[bytes, Sequence[tuple
 
 
 def with_plain_joints(content: bytes) -> bytes:
-    """Return such a URDF with plain joints, which turn about their one written axis."""
+    """Return the URDF with joints of their one written axis."""
     return re.sub(rb"<%s [^>]*/>" % AXES.encode(), b"", content)
 
 
@@ -86,7 +87,7 @@ def _compose(content: bytes) -> Any:
 
         def compose_node(self, parent: Any, index: Any) -> Any:
             if self.depth == _DEEPEST:
-                raise _LoopsError(f"lists stand inside of one another {_DEEPEST} deep", self.peek_event())
+                raise _LoopsError(f"lists are nested {_DEEPEST} deep", self.peek_event())
             self.depth += 1
             node = super().compose_node(parent, index)
             self.depth -= 1
@@ -131,7 +132,7 @@ def _elements(document: Any) -> Iterator[tuple[str, int]]:
     from xml.sax.saxutils import quoteattr  # 9 ms, with urllib, http and email; few robots need it
 
     if document.id != "mapping":
-        return  # another YAML that has the word in it
+        return  # a YAML of another kind, which has the word in it
     parts = dict[str, Any]()
     for key, value in document.value:
         if key.id != "scalar":
@@ -168,9 +169,9 @@ def _elements(document: Any) -> Iterator[tuple[str, int]]:
 
 
 def split_joints(document: xml.Document) -> xml.Document:
-    """Return the document with a chain in place of each joint with several axes, and a fixed joint without one.
+    """Return the document with a chain for each joint of several axes, and a fixed joint for each of none.
 
-    The source only measures the joints of a chain. Elements without a known joint or axes stay.
+    The source only measures the joints of a chain. Elements with an unknown joint or axes stay.
     """
     root = document.root
     if not (elements := root.findall(AXES)):

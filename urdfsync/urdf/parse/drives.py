@@ -30,7 +30,7 @@ _REDUCTIONS = (
 )
 """Elements of a transmission with its reduction; the first existing one counts."""
 _COMMANDS: tuple[Command, ...] = get_args(Command)
-"""The first of these counts among several interfaces of a joint."""
+"""Interfaces of a joint in order: the first existing one counts."""
 _INTERFACES: Mapping[str, Command | None] = {
     "PositionJointInterface": "position",
     "VelocityJointInterface": "velocity",
@@ -45,7 +45,7 @@ _STATES = ("position", "velocity", "acceleration", "effort")
 _KINDS = {"transmission": "gears", "command": "commands", "mimic": "couplings", "start": "start positions"}
 """Fields of `Drive` that may contradict each other, in words."""
 _SAME = 1e-6
-"""Greatest rounding error of a position, in rad or m."""
+"""The greatest rounding error of a position, in rad or m."""
 _WHEELS = re.compile(r"(?:left|right)(?:Front|Rear)?Joint|(?:left|right)_joint")
 """Elements by which plugins for differential and skid-steer drives name the joints of wheels."""
 
@@ -57,7 +57,7 @@ class Drive(NamedTuple):
     """For example `transmission wheel_trans / joint wheel`; empty for the configuration."""
     joint: str
     element: Element | None = None
-    """The element that is modelled by it."""
+    """The source's element."""
     transmission: Transmission | None = None
     command: Command | None = None
     mimic: Mimic | None = None
@@ -96,7 +96,7 @@ def read_drives(reader: Reader, element: Element, path: str) -> Iterator[Drive]:
                 drive = Drive(place, name, transmission, gear, next(filter(commands.__contains__, _COMMANDS), None))
                 is_measured = commands == {None}
                 yield drive._replace(is_driven=not is_measured, is_measured=is_measured, is_coupled=len(joints) > 1)
-        # the simulator of Franka has such ones for handles of the whole arm, which couple nothing
+        # Franka's simulator has such transmissions for handles of the whole arm; they couple nothing
         is_interface = (transmission.findtext("type") or "").strip().endswith("Interface")
         if len(joints) > 1 and not is_interface:
             message = f"{path} couples {len(joints)} joints: they move independently of one another, without gears"
@@ -104,8 +104,8 @@ def read_drives(reader: Reader, element: Element, path: str) -> Iterator[Drive]:
 
 
 def _read_control(reader: Reader, joint: Element, path: str, name: str) -> Drive:
-    """Return the drive of a joint of `<ros2_control>`: its command, or else a mere measurement."""
-    # gazebo_ros2_control has `velocity_pid` for a velocity that a controller of its own keeps
+    """Return the drive of a joint of `<ros2_control>`; without a command it only measures."""
+    # gazebo_ros2_control has `velocity_pid` for a velocity with its own controller
     interfaces = {part.get("name", "").removesuffix("_pid"): part for part in joint.findall("command_interface")}
     states = joint.findall("state_interface")
     reader.used.update(state for state in states if state.get("name") in _STATES)
@@ -203,7 +203,7 @@ def _read_gear(reader: Reader, element: Element, path: str) -> Transmission | No
         reader.add(element, "bad-transmission", f"{path}: the reduction is 0")
     gear = Transmission(reduction or 1.0, number("joint/offset") or 0.0, number("actuator/drake:rotor_inertia"))
     reader.used.update(part for part in element if part.tag in ("joint", "actuator"))
-    # the <type> of the transmission: that of one joint, which is modelled
+    # a SimpleTransmission drives one joint, and is modelled
     reader.used.update(part for part in element if "SimpleTransmission" in (part.text or ""))
     return None if gear == Transmission() else gear
 
@@ -257,7 +257,7 @@ def _with_drives(reader: Reader, joint: Joint, drives: list[Drive]) -> Joint:
         drives.insert(0, Drive(place, joint.name, mimic=joint.mimic, is_driven=False))
     mimic = first("mimic")
     if mimic and not joint.mimic:
-        reader.lines[place] = reader.lines[mimic.path]  # of later findings about the coupling
+        reader.lines[place] = reader.lines[mimic.path]  # for later findings about the coupling
     for drive in drives:
         stated = drive.element.get("mimic", "").lower() if drive.element is not None else ""
         if stated == ("false" if mimic else "true"):

@@ -1,4 +1,4 @@
-"""Reads links, joints and materials. A fault becomes a diagnostic, and a default replaces the value."""
+"""Reads links, joints and materials. For a faulty value there is a diagnostic, and a default replaces it."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ from urdfsync.urdf.validate import Finding, perhaps
 _SHAPES: Mapping[str, type[Geometry]] = {str(kind.__struct_config__.tag): kind for kind in get_args(Geometry)}
 
 _TWINS = {"iyx": "ixy", "izx": "ixz", "izy": "iyz"}
-"""The other half of a symmetrical tensor, which some exporters write, too."""
+"""The other half of a symmetrical tensor; some exporters write both."""
 
 
 def read_link(reader: Reader, element: Element, path: str, contact: Contact | None) -> Link:
@@ -58,7 +58,7 @@ def read_link(reader: Reader, element: Element, path: str, contact: Contact | No
 def _read_shapes(reader: Reader, link: Element, path: str, tag: str, owner: str) -> Iterator[Visual | Collision]:
     """Yield each visual or collision that can be drawn.
 
-    Others are left out with a warning, and are not counted in paths.
+    Others are left out with a warning, and have no number in paths.
     """
     number = 0
     for element in link.findall(tag):
@@ -88,7 +88,7 @@ def _read_shapes(reader: Reader, link: Element, path: str, tag: str, owner: str)
 
 
 def read_material(reader: Reader, element: Element, path: str, owner: str = "") -> Material:
-    """Read a material as it is written; its colour is None if it is absent or, after a warning, faulty."""
+    """Read a material as written; a missing colour is None, and so is, after a warning, a faulty one."""
     reader.expect(element, path, ("name",), moves=False)
     color = reader.children(element, path, ("color",), owner).get("color")
     rgba = None

@@ -1,8 +1,8 @@
 """Reads elements into the structs of `urdf.robot`.
 
-A field of numbers or text is the attribute of its name. A field that is a struct is the child element of its name. One
-without a default is required. What no field asks for is kept as text (see `Extension`), and told: with a warning where
-URDF says how things move, in the counted note elsewhere.
+A field of numbers or text is the attribute of its name. A field that is a struct is the child element of its name. A
+field without a default is required. Unknown parts are kept as text (see `Extension`) and reported: with a warning where
+they may change the motion, otherwise in one note that counts them.
 
 SDFormat writes values as text: `<axis><xyz>0 1 0</xyz></axis>`, `<lower>-1</lower>`, `<pose>0 0 1 0 0 0</pose>`
 (sdformat.org/spec, version 1.11). Such a text is read, with a warning.
@@ -44,23 +44,23 @@ Values = TypeVar("Values", bound=msgspec.Struct)
 _DECIMAL = re.compile(r"[+-]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
 _BLANKS = re.compile(r"[ \t\r\n\f\v]+")
 _COUNTS = {str: 0, JointType: 0, float: 1, float | None: 1, Vector: 3}
-"""Numbers of an attribute, by the type of its field; 0 for text."""
+"""Count of numbers of an attribute, by the type of its field; 0 for text."""
 _ONE_VALUE = {"parent": "link", "child": "link", "axis": "xyz", "mass": "value"}
 """Child elements of fields of numbers or text, with their only attribute."""
 _REPEATED = ("visual", "collision")
 _LENGTHS = {"xyz": 3, "rpy": 3, "quat_xyzw": 4}
-"""Numbers of attributes that an unknown one may mean."""
+"""Counts of numbers of attributes that an unknown one may mean."""
 _POSE = 6
 _ELSEWHERE = ("transmission", "start")
-"""Fields whose elements do not stand in the element of their struct."""
+"""Fields whose elements stand outside of the element of their struct."""
 _STILL = frozenset({Link, Visual, Collision, Calibration, SafetyController, *get_args(Geometry)})
-"""Structs of elements in which something unknown moves nothing."""
+"""Structs of elements in which unknown parts do not change the motion."""
 _NEUTRAL = frozenset({"name", "id", "sensor", "dont_collapse"})
-"""Attributes and elements that move nothing anywhere; with `dont_collapse` Isaac Gym keeps a fixed joint."""
+"""Attributes and elements that never change the motion; with `dont_collapse` Isaac Gym keeps a fixed joint."""
 _MASSES = ("inertial", "mass", "inertia")
 _MASS_WORDS = re.compile("mass|inerti", re.IGNORECASE)
 _BY_KIND = frozenset({"unknown-attribute", "unknown-element"})
-"""Codes of warnings that are one line for each name: messages that are the same but for their path."""
+"""Codes of warnings whose messages differ only by their path: one line for each name."""
 _SHOWN_ALONE = 3
 _LINES_SHOWN = 8
 _TEXT_SHOWN = 60
@@ -80,11 +80,11 @@ class Reader:
         self.diagnostics: list[Diagnostic] = []
         """Diagnostics so far, without the name of the file."""
         self.extensions: list[tuple[str, Element]] = []
-        """Elements that no struct asks for, each with its owner."""
+        """Elements that belong to no struct, each with its owner."""
         self.attributes: list[tuple[str, Element]] = []
-        """Attributes that nothing asks for and that move nothing, each with its element."""
+        """Unknown attributes that do not change the motion, each with its element."""
         self.used = set[Element]()
-        """The elements in `extensions`, or inside of them, that are read otherwise."""
+        """The elements in `extensions`, or inside of them, that other code reads."""
 
     @property
     def failed(self) -> bool:
@@ -128,7 +128,7 @@ class Reader:
     ) -> dict[str, Element]:
         """Return the first child of each tag, visuals and collisions aside; others become extensions of `owner`.
 
-        `moves` says whether others would move the robot.
+        `moves` says whether others would change the motion.
         """
         by_tag: dict[str, Element] = {}
         for child in element:
@@ -148,7 +148,7 @@ class Reader:
         return by_tag
 
     def keep(self, child: Element, path: str, tags: Collection[str], owner: str, *, moves: bool = False) -> None:
-        """Keep an element that has none of `tags`; warn about one that would move the robot or looks misspelt."""
+        """Keep an element with none of `tags`; warn if it would change the motion or looks misspelt."""
         self.extensions.append((owner, child))
         mass = next((part for part in child.iter() if part.tag in _MASSES), None)
         if mass is not None:
@@ -208,7 +208,7 @@ class Reader:
         return None
 
     def expect(self, element: Element, path: str, attributes: Collection[str], *, moves: bool = True) -> None:
-        """Tell attributes other than `attributes`, with a warning if these may move the robot or look misspelt."""
+        """Report attributes other than `attributes`: with a warning if they may change the motion or look misspelt."""
         for name in element.attrib:
             if name in attributes or name.startswith("xml"):
                 continue
@@ -310,7 +310,7 @@ class Reader:
             return text
         else:
             self.add(element, "empty-attribute", f"{path}: the attribute {name!r} is empty")
-        # a required value gets one that no later check complains of, so that a fault is told once
+        # a missing required value gets one that passes all later checks, so that the fault is reported once
         return ("", 1.0, None, (1.0, 1.0, 1.0))[count] if is_required else default
 
 
@@ -333,7 +333,7 @@ def _schema(
         if field.name in _ELSEWHERE:
             continue
         if structs:
-            name = field.name.removesuffix("s") if field.default == () else field.name  # visuals: elements <visual>
+            name = field.name.removesuffix("s") if field.default == () else field.name  # visuals: <visual>
             children[name] = structs[0], field.default
         elif field.name in _ONE_VALUE:
             children[field.name] = _COUNTS[kind], field.default
@@ -346,7 +346,7 @@ def _schema(
 
 @functools.cache
 def _moving_tags() -> frozenset[str]:
-    """Return the elements that say how a joint or a body moves, wherever they stand."""
+    """Return the tags that change the motion in each place."""
     return frozenset({*_schema(Joint)[1], *_schema(Inertial)[1], "pose"} - {"safety_controller", "calibration"})
 
 
@@ -354,7 +354,7 @@ _alike = functools.lru_cache(maxsize=1024)(perhaps)  # 0.1 ms, and a robot may h
 
 
 def _meant(count: int, absent: Sequence[str], attributes: Sequence[str]) -> str:
-    """Return what an unknown attribute of so many words may mean: the only vector of that length, or any attribute."""
+    """Return a hint about an unknown attribute of `count` words: the only vector of that length, or all attributes."""
     if count == _LENGTHS["quat_xyzw"] and "rpy" in attributes:
         return 'write quat_xyzw="x y z w" in a robot of version="1.1", or rpy in rad'
     alike = absent if len(attributes) == 1 else [name for name in absent if _LENGTHS.get(name) == count]

@@ -21,10 +21,10 @@ _IN_GAZEBO = {
     "min_depth": ("minDepth", "surface/contact/ode/min_depth", "collision/surface/contact/ode/min_depth"),
 }
 _IN_LINK = {"mu": ("contact/lateral_friction",), "kp": ("contact/stiffness",), "kd": ("contact/damping",)}
-"""Fields of `Contact`, and paths of their elements in gazebo blocks (gazebo's, then SDFormat's) and in links."""
+"""Fields of `Contact`, and the paths of their elements: in gazebo blocks (Gazebo's, then SDFormat's), and in links."""
 
 FORCES = re.compile("force|cable|spring|damper|bushing|tendon")
-"""Elements of a robot that act between its links: in early and present Drake, and in MuJoCo."""
+"""Elements that act between the links of a robot: in early and present Drake, and in MuJoCo."""
 
 
 def read_contacts(reader: Reader, root: Element) -> Mapping[str, Contact]:
@@ -64,7 +64,7 @@ def read_contacts(reader: Reader, root: Element) -> Mapping[str, Contact]:
 
 
 def warn_of_left_out(reader: Reader, root: Element) -> None:
-    """Add a warning for each element that changes the motion and is in no model."""
+    """Add a warning for each element that changes the motion but is not modelled."""
     links = {link.get("name", ""): link for link in root.iterfind("link")}
     for gazebo in root.iterfind("gazebo"):
         name = gazebo.get("reference", "")

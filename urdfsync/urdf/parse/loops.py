@@ -1,14 +1,14 @@
-"""Reads the loops of a robot from all their places in a source or the configuration.
+"""Reads the loops of a robot from a source and the configuration.
 
 - `<loop_joint>`, as Isaac Sim and early Drake write it: `<link1>` and `<link2>`, each with `link`, `xyz` and `rpy`.
 - `<drake:ball_constraint>`: two bodies, each with a point.
-- `<joint>` of SDF within `<gazebo>`: its frame is given in the child, and is closed where all joints are at zero.
-- Two links `closing_NAME_1` and `closing_NAME_2`, as onshape-to-robot writes them. They say of no kind, and count as a
+- `<joint>` of SDF within `<gazebo>`: its frame is given in the child; the loop is closed with all joints at zero.
+- Two links `closing_NAME_1` and `closing_NAME_2`, as onshape-to-robot writes them. They have no kind, and count as a
   ball, which closes planar loops as a hinge does.
-- The option `loops`, which wins over a loop of the source with its name or its two frames.
+- The option `loops`, which replaces a loop of the source with its name or its two frames.
 
-Loops in other words are told, not read: raisim's pins, MuJoCo's `<equality>` and joints of a plugin have no page that
-says how they stand in a URDF. MuJoCo documents `<compiler>`, `<option>` and `<size>` there (XML reference, URDF).
+Other forms of loops are reported, not read: raisim's pins, MuJoCo's `<equality>` and joints of plugins are documented
+nowhere as parts of a URDF. MuJoCo documents `<compiler>`, `<option>` and `<size>` there (XML reference, URDF).
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ _KINDS: Mapping[str, LoopKind] = {
     "fixed": "fixed",
 }
 _JOINS_NOTHING = re.compile("collision|contact|exclude|group|chain|effector|frame|virtual|sensor|camera")
-"""Elements that name links and do not join them, such as those of SRDF."""
+"""Elements that name links but do not join them, such as those of SRDF."""
 _CONSTRAINS = re.compile("constraint|equality|coupl|weld|gear|tendon|spring")
 _CLOSING = re.compile(r"(closing_.+)_([12])")
 _DETACHABLE = ("parent_link", "child_link")
@@ -69,9 +69,9 @@ def find_loop_elements(root: Element) -> Iterator[Element]:
 
 
 def tell_foreign_loops(reader: Reader, root: Element, options: Options) -> None:
-    """Add a finding for each element in other words than ours that joins two links, or constrains them otherwise.
+    """Add a finding for each unread element that joins two links or constrains them otherwise.
 
-    Loops of the configuration state such a pair.
+    A pair of links that the configuration has as a loop is not reported.
     """
     links = {name for link in root.iterfind("link") if not (name := link.get("name", "")).isdecimal()}
     stated = {frozenset({loop.parent, loop.child}) for loop in configured_loops(options.loops)}
@@ -129,9 +129,9 @@ def read_loops(reader: Reader, root: Element, robot: Robot, options: Options) ->
                     reader.keep(part, path, _PARTS[element.tag], path, moves=True)
             read = _read_loop_joint if element.tag == "loop_joint" else _read_ball
             loop = read(reader, element, path, name)
-        if loop is not None and loop.parent and loop.child:  # a name that is missing is told already
+        if loop is not None and loop.parent and loop.child:  # a missing name is reported already
             loops.append(loop)
-    # a frame may be that of a joint, which is that of its child
+    # a frame may be that of a joint, which equals that of its child
     loops = [
         replace(loop, parent=ends.get(loop.parent, loop.parent), child=ends.get(loop.child, loop.child))
         for loop in loops
@@ -139,7 +139,7 @@ def read_loops(reader: Reader, root: Element, robot: Robot, options: Options) ->
     configured = configured_loops(options.loops)
     faulty = {finding.path for finding in validate.check_loops(configured, links)}
     paths = validate.element_paths("loop", (loop.name for loop in configured))
-    # option_names tells the others
+    # option_names reports the others
     chosen = [loop for path, loop in zip(paths, configured, strict=True) if path not in faulty]
     of_source = list[Loop]()
     for loop in map(_with_axes_of_its_kind, loops):
@@ -161,12 +161,12 @@ def configured_loops(loops: Sequence[LoopOption]) -> list[Loop]:
 
 
 def _find_rival(loop: Loop, configured: Sequence[Loop]) -> Loop | None:
-    """Return the configured loop that replaces one of the source: it has its name or its frames."""
+    """Return the configured loop with the name or the frames of a loop of the source."""
     return next((other for other in configured if other.name == loop.name or _ends(other) == _ends(loop)), None)
 
 
 def _with_axes_of_its_kind(loop: Loop) -> Loop:
-    """Return a loop without the axes that its kind lacks: each place fills these in differently."""
+    """Return a loop without the axes that its kind does not have: sources fill these in differently."""
     axis = loop.axis if loop.kind in ("revolute", "universal") else (0.0, 0.0, 1.0)
     return replace(loop, axis=axis, child_axis=loop.child_axis if loop.kind == "universal" else (1.0, 0.0, 0.0))
 
@@ -230,7 +230,7 @@ def _read_joint(
 ) -> Loop | None:
     """Return a joint of SDF; its frame is the child link's, moved by its <pose>.
 
-    `in_gazebo` are the links that only Gazebo has: a joint to one closes no loop of the robot.
+    `in_gazebo` are the links that only Gazebo has: no joint to them closes a loop of the robot.
     """
     kind = _kind(reader, element, path)
     parent, child = (element.findtext(tag, "").strip() for tag in ("parent", "child"))
@@ -253,7 +253,7 @@ def _read_joint(
     second = _vector(reader, element, "axis2/xyz", path)
     if kind is None or parent not in poses or child not in poses:
         known = kind is None or not (parent and child)
-        return None if known else Loop(name, kind or "ball", parent, child)  # validate tells which does not exist
+        return None if known else Loop(name, kind or "ball", parent, child)  # validate reports the missing one
     child_origin = Origin(numbers[:3], numbers[3:])  # type: ignore[arg-type] # six numbers
     origin = _origin(compose(_inverse(poses[parent]), compose(poses[child], pose(child_origin))))
     return Loop(name, kind, parent, child, origin, child_origin, axis, second or _second_axis(axis))
@@ -266,7 +266,7 @@ def _inverse(of: Pose) -> Pose:
 
 
 def _origin(of: Pose) -> Origin:
-    """Return a pose as place and angles, with digits that all machines round alike."""
+    """Return a pose as place and angles, rounded so that all machines agree."""
     (r, place) = of
     angles = (
         math.atan2(r[2][1], r[2][2]),
@@ -278,7 +278,7 @@ def _origin(of: Pose) -> Origin:
 
 
 def _frames_by_name(reader: Reader, links: Sequence[Link], configured: Sequence[Loop]) -> Iterator[Loop]:
-    """Yield a ball for each pair of links that onshape-to-robot names as the ends of a loop, if no option states it."""
+    """Yield a ball for each pair of links that onshape-to-robot names as ends of a loop, unless it is configured."""
     pairs: dict[str, dict[str, str]] = {}
     for link in links:
         if match := _CLOSING.fullmatch(link.name):

@@ -1,6 +1,6 @@
-"""SDFormat's spelling in a URDF, read a second time and written as attributes, for the programs that check a reading.
+"""Writes SDFormat's spelling in a URDF as attributes, for the programs that check our reading.
 
-It shares no code with `fields`, which reads it first.
+It shares no code with `fields`, so that one fault can't be in both.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from xml.etree.ElementTree import tostring
 from urdfsync.urdf.parse import xml
 
 _ALONE = {"parent": "link", "child": "link", "mass": "value", "axis": "xyz"}
-"""Attributes that are the text of their element."""
+"""Attributes that SDFormat writes as text of an element."""
 _NAMES = "xyz lower upper effort velocity damping friction multiplier offset ixx ixy ixz iyy iyz izz".split()
 
 

@@ -1,4 +1,4 @@
-"""yourdfpy as second reader: an independent reading of the same bytes, to find our own misreadings.
+"""Compares our reading with that of yourdfpy, to find our own misreadings.
 
 Loading this module takes most of a second, because of yourdfpy.
 """
@@ -25,17 +25,17 @@ from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.robot import MOTION_KINDS, Robot
 from urdfsync.urdf.validate import Finding
 
-# What yourdfpy raises for files that the strict reader accepts: it expects attributes that may be absent.
+# yourdfpy raises these for valid files, since it expects optional attributes.
 _FAILURES = (ArithmeticError, AttributeError, LookupError, SyntaxError, TypeError, ValueError)
 _SHOWN = 5
 _TOLERANCE = 1e-9
-"""The greatest difference of two poses, in m and relative to the farthest link; for elements of rotations as well."""
+"""The greatest allowed difference of poses, in m relative to the farthest link, and of elements of rotations."""
 
 
 def cross_check(content: bytes, file: str) -> tuple[Diagnostic, ...]:
     """Return the names, types, parents and poses in which yourdfpy differs from `read_robot`, which accepts the URDF.
 
-    `file` is its name in diagnostics. Joints of several axes, which are no URDF, are read as plain ones.
+    `file` is its name in diagnostics. Joints of several axes are no URDF, and are read with one axis.
     """
     content = with_plain_joints(content)
     options = Options(allow=get_args(LeftOut))
@@ -44,7 +44,7 @@ def cross_check(content: bytes, file: str) -> tuple[Diagnostic, ...]:
         return ()
     respelled = with_attributes(content)
     findings = list(compare_readers(respelled, reading.robot))
-    if respelled != content and (other := read_robot(respelled, file, options).robot):  # yourdfpy has no masses of it
+    if respelled != content and (other := read_robot(respelled, file, options).robot):
         for ours, theirs in zip(reading.robot.links + reading.robot.joints, other.links + other.joints, strict=True):
             if ours != theirs:
                 path = f"{type(ours).__name__.lower()} {ours.name}"
@@ -81,7 +81,7 @@ def compare_readers(content: bytes, robot: Robot) -> Iterator[Finding]:
 
 
 def _structure(robot: Any) -> Mapping[str, frozenset[str]]:
-    """Return names, types and tree; the robots of both readers have the same attributes."""
+    """Return names, types and tree, from the robot of either reader."""
     return {
         "links": frozenset(str(link.name) for link in robot.links),
         "joints": frozenset(f"{joint.name} ({joint.type}, {joint.parent} → {joint.child})" for joint in robot.joints),
@@ -89,21 +89,21 @@ def _structure(robot: Any) -> Mapping[str, frozenset[str]]:
 
 
 def _compare_poses(robot: Robot, theirs: Any) -> Iterator[Finding]:
-    """Compare the poses of links, with all joints at zero and then each elsewhere; the first difference counts.
+    """Compare the poses of links, first with all joints at zero; yield the first difference.
 
-    Followers are moved by themselves here: yourdfpy can't follow a joint that follows another one.
+    Following joints get positions of their own: yourdfpy can't follow a joint that follows another one.
     """
     tree, axes = KinematicTree.of(robot), {}
     for link in theirs.links:
-        link.visuals.clear()  # they would be nodes among the links
+        link.visuals.clear()  # else visuals would be nodes among the links
     for joint in theirs.joints:
         joint.mimic = None
         if joint.type in MOTION_KINDS:
             axes[joint.name] = 1.0 if MOTION_KINDS[joint.type] == "rotational" else float(np.linalg.norm(joint.axis))
     parents = {joint.child: joint.parent for joint in robot.joints}
-    # different ones for neighbours, so that exchanged joints show
+    # neighbours get different positions, so that exchanged joints show
     positions = {name: 0.3 + 0.1 * (number % 10) for number, name in enumerate(axes)}
-    with _silence(), np.errstate(all="ignore"):  # of positions without end
+    with _silence(), np.errstate(all="ignore"):  # for infinite positions
         scene = yourdfpy.URDF(robot=theirs, build_scene_graph=True, load_meshes=False)
         for moved, words in (({}, "at zero"), (positions, "away from zero")):
             scene.update_cfg({name: position / axes[name] for name, position in moved.items()})
@@ -125,7 +125,7 @@ def _compare_poses(robot: Robot, theirs: Any) -> Iterator[Finding]:
 
 @contextlib.contextmanager
 def _silence() -> Iterator[None]:
-    """Keep yourdfpy from logging: every problem is a finding."""
+    """Keep yourdfpy from logging: each problem is a finding."""
     logger = logging.getLogger("yourdfpy.urdf")
     before, logger.disabled = logger.disabled, True
     try:

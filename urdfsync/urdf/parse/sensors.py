@@ -32,7 +32,7 @@ _STATES: Mapping[str, SensorKind] = {
     "force": "force_torque",
     "torque": "force_torque",
 }
-"""Kinds by the beginning of the names of state interfaces of ros2_control."""
+"""Kinds by the prefix of the state interfaces of ros2_control."""
 _CAMERA = {
     "width": ("image/width", "image@width"),
     "height": ("image/height", "image@height"),
@@ -56,7 +56,7 @@ _DIRECTIONS = ("child_to_parent", "parent_to_child")
 _COUNTS = frozenset({"width", "height", "samples", "vertical_samples"})
 _LARGEST_INTEGER = 2**31 - 1  # of Modelica
 _PARTS = ("camera", "ray", "lidar")
-"""Elements of a sensor with these fields, if its own element lacks them."""
+"""Other elements of a sensor that may have these fields."""
 
 _Numbers = TypeVar("_Numbers", Camera, Lidar)
 
@@ -73,14 +73,14 @@ class _SensorElement(NamedTuple):
 def read_sensors(reader: Reader, root: Element, links: Collection[str], joints: Iterable[Joint]) -> tuple[Sensor, ...]:
     """Return the sensors that the package models.
 
-    Sensors of other kinds, and those of ros2_control without a frame, are left out. Sensors of one name get the name of
-    their place before it.
+    Sensors of other kinds, and those of ros2_control without a frame, are left out. If sensors have the same name, the
+    name of their link or joint is put before it.
     """
     joints_above, joint_names = {joint.child: joint.name for joint in joints}, {joint.name for joint in joints}
     placed = list[_SensorElement]()
     for source in _find_sensors(root):
         place, is_wrench = source.at, source.kind == "force_torque"
-        if is_wrench and place not in joint_names:  # gazebo names the link that the joint carries
+        if is_wrench and place not in joint_names:  # gazebo names the joint's child link
             place = joints_above.get(place, place)
         path = reader.place(source.element, f"sensor {source.name}")
         if place in (joint_names if is_wrench else links):
@@ -95,7 +95,7 @@ def read_sensors(reader: Reader, root: Element, links: Collection[str], joints: 
         name = source.name if counts[source.name] == 1 else f"{source.at}/{source.name}"
         sensor = _read(reader, source, name)
         first = sensors.setdefault((source.name, source.at), sensor)
-        # ros2_control names place and kind of a sensor, and no number
+        # ros2_control has place and kind of a sensor, but no numbers
         if first.kind != sensor.kind or (first != sensor and source.element.find("state_interface") is None):
             message = f"{source.at!r} has another sensor {source.name}, and the first counts"
             reader.add(source.element, "duplicate-element", message, "give each sensor a name of its own")
@@ -103,7 +103,7 @@ def read_sensors(reader: Reader, root: Element, links: Collection[str], joints: 
 
 
 def _find_sensors(root: Element) -> Iterator[_SensorElement]:
-    """Yield the sensors of a known kind with a place, which is not yet checked."""
+    """Yield the sensors of a known kind; their places are not yet checked."""
     for at, element in _elements(root):
         parent = element.find("parent")
         inside = [child.tag for child in element]

@@ -29,13 +29,13 @@ from urdfsync.urdf.robot import Robot
 
 _MODELLED = ("link", "joint", "material")
 _DIALECTS = frozenset({"gazebo", "ros2_control", "transmission", "sensor", "mujoco", "drake:joint", AXES})
-"""Elements of a robot whose parts are read elsewhere, or that say nothing of links and joints."""
+"""Elements of a robot that other code reads, or that do not concern links and joints."""
 _XACRO = ("include", "macro", "if", "unless", "property")
-"""Elements of xacro that mean nothing without their prefix since ROS Noetic."""
+"""Elements of xacro that need their prefix since ROS Noetic."""
 _LONGEST, _KINDS = 60, 12
 """The most characters of a tag, and the most tags, in the note on unmodelled elements; its details have all."""
 _XACRO_LOGIC = ("xacro:macro", "xacro:if", "xacro:unless", "xacro:insert_block")
-# Attributes that may hold any text: a `${…}` left over in them is odd, but no reason to refuse the robot.
+# Attributes with free text: a remaining `${…}` in one is a warning, in others an error.
 _TEXTS = ("name", "link", "joint", "filename", "group")
 _VERSION = re.compile(r"\s*([0-9]{1,9})\.([0-9]{1,9})")
 _NEWEST = 1, 2
@@ -53,7 +53,7 @@ class RobotReading(NamedTuple):
     diagnostics: tuple[Diagnostic, ...]
     lines: Mapping[str, int]
     unmodelled: tuple[Diagnostic, ...] = ()
-    """One note on unmodelled elements, if there are any."""
+    """The note on unmodelled elements, if any."""
 
 
 def read_robot(content: bytes, file: str, options: Options = _DEFAULTS) -> RobotReading:
@@ -61,7 +61,7 @@ def read_robot(content: bytes, file: str, options: Options = _DEFAULTS) -> Robot
 
     Raises nothing for bad input. The options choose the parts that may be left out, and the drives.
 
-    All faults of the model are reported, not only the first; a fault of the XML is one error.
+    All faults of the model are reported, but only the first fault of the XML.
     """
     try:
         document = split_joints(xml.parse(content))
@@ -108,7 +108,7 @@ def _is_urdf(reader: Reader, document: xml.Document) -> bool:
     for child in root:
         for element in child.iter():
             names = [name for name, text in element.items() if "${" in text or "$(" in text]
-            if child.tag not in _MODELLED:  # plugins of simulators have `$(…)` of their own
+            if child.tag not in _MODELLED:  # plugins of simulators have their own `$(…)`
                 names = []
             is_xacro = element.tag.startswith("xacro:")
             if (is_xacro and (element.tag in _XACRO_LOGIC or not has_links)) or not set(names).issubset(_TEXTS):
@@ -164,7 +164,7 @@ def _read(reader: Reader, document: xml.Document, options: Options) -> Robot:
         elif child.tag not in (*_MODELLED, *TAGS):
             reader.keep(child, "robot", (*_MODELLED, *TAGS), "")
         if child.tag in ("gazebo", "ros2_control"):
-            reader.used.add(child)  # its parts are read one by one, or are not modelled
+            reader.used.add(child)  # its parts are read or reported one by one
     for element in root.iterfind("gazebo/joint"):
         reader.used.update((element, *(part for part in element if part.tag in ("parent", "child", "pose"))))
     contacts = read_contacts(reader, root)
@@ -197,7 +197,7 @@ def _read(reader: Reader, document: xml.Document, options: Options) -> Robot:
         tags[tag] = (*tags.get(tag, ()), text)
     robot = Robot(name, tuple(linked), tuple(joints), extensions, sensors)
     reader.extend(validate.check(robot, complete=complete))
-    if complete:  # else the joint that a transmission names may be one of those left out
+    if complete:  # an incomplete robot may lack the joint that a transmission names
         names = {joint.name for joint in joints}
         for drive in drives:
             if drive.joint not in names:

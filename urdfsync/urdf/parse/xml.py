@@ -20,7 +20,7 @@ from urdfsync.diagnostics import Diagnostic
 from urdfsync.engine.file_kinds import find_conflict, find_kind
 from urdfsync.urdf.validate import diagnostic
 
-_DEEPEST = 256  # as in libxml2; writing an element takes a level of recursion for each of its own
+_DEEPEST = 256  # as in libxml2; writing an element needs a recursion for each level
 _BYTE_ORDER_MARKS = (
     (codecs.BOM_UTF8, "utf-8-sig"),
     (codecs.BOM_UTF32_LE, "utf-32"),
@@ -32,14 +32,14 @@ _BYTE_ORDER_MARKS = (
 )
 _WIDE = ("utf-16", "utf-32", "ucs")
 _NO_ENCODINGS = ("idna", "punycode", "raw-unicode-escape", "unicode-escape")
-"""Python's codecs for single words: each fails with other exceptions, and one takes minutes for 100 KB."""
+"""Codecs of Python that are refused: they fail with unusual exceptions, and one takes minutes for 100 KB."""
 _DECLARATION = re.compile(
     r"""<\?xml\s+version\s*=\s*(["'])1\.[01]\1
     (?:\s+encoding\s*=\s*(["'])(?P<encoding>[A-Za-z][\w.-]*)\2)?
     (?:\s+standalone\s*=\s*(["'])(?:yes|no)\4)?\s*\?>""",
     re.VERBOSE | re.ASCII,
 )
-# ROS's parser accepts these. They do not name the encoding, since other parsers ignore them.
+# ROS's parser accepts these. Their encoding is ignored, as other parsers do.
 _FAULTY_DECLARATION = r"(?ia)\s*<\?xml\s[^<>]*\?>"
 _UNCLOSED = expat.errors.XML_ERROR_TAG_MISMATCH, expat.errors.XML_ERROR_NO_ELEMENTS
 _HINTS = {expat.errors.XML_ERROR_MISPLACED_XML_PI: "put <?xml … ?> at the beginning of the file, above all comments"}
@@ -73,7 +73,7 @@ def parse(content: bytes) -> Document:
     def start(tag: str, attributes: dict[str, str]) -> None:
         lines[element := builder.start(tag, attributes)] = parser.CurrentLineNumber
         if len(above) == _DEEPEST:
-            message = f"this is not well-formed XML: elements stand inside of one another {_DEEPEST} deep"
+            message = f"this is not well-formed XML: elements are nested {_DEEPEST} deep"
             raise ParseError("xml-syntax", message, lines[element])
         above.append(element)
 
@@ -91,7 +91,7 @@ def parse(content: bytes) -> Document:
         raise ParseError("xml-entity", message, parser.CurrentLineNumber)
 
     parser.buffer_text = True
-    parser.specified_attributes = True  # a document type may have others
+    parser.specified_attributes = True  # a document type may add default attributes
     parser.StartElementHandler, parser.EndElementHandler, parser.CharacterDataHandler = start, end, builder.data
     parser.StartDoctypeDeclHandler, parser.EntityDeclHandler = refuse_type, refuse_entity
     error = None
@@ -99,7 +99,7 @@ def parse(content: bytes) -> Document:
         parser.Parse(text.encode(), True)  # noqa: FBT003 - expat's own signature
     except expat.ExpatError as fault:
         error = fault
-    # else they hold the parser, which holds them, and all elements stay until Python looks for cycles
+    # the handlers and the parser refer to each other: without this, all elements stay until the garbage collection
     parser.StartElementHandler = parser.StartDoctypeDeclHandler = parser.EntityDeclHandler = None
     if (error or ">>>>>>>" in text) and (conflict := find_conflict(text)) is not None:
         raise ParseError(conflict.code, conflict.message, conflict.line)
@@ -136,14 +136,14 @@ def _decode(content: bytes) -> tuple[str, list[Diagnostic]]:
     encoding = next((name for mark, name in _BYTE_ORDER_MARKS if content.startswith(mark)), "")
     declaration = _DECLARATION.match(content[:200].decode(encoding or "latin-1", errors="ignore"))
     declared = ((declaration and declaration["encoding"]) or "utf-8").lower()
-    is_faulty = not encoding and declared.startswith(_WIDE)  # the bytes are others
+    is_faulty = not encoding and declared.startswith(_WIDE)  # the bytes are in another encoding
     encoding = encoding or ("utf-8" if is_faulty else declared)
     try:
         if codecs.lookup(encoding).name in _NO_ENCODINGS:
-            raise LookupError  # noqa: TRY301 - as for one that Python does not know
+            raise LookupError  # noqa: TRY301 - as Python does for an unknown codec
         text = content.decode(encoding).replace("\r\n", "\n").replace("\r", "\n")
         if not text.isascii():
-            text.encode()  # some codecs give halves of characters
+            text.encode()  # some codecs return lone surrogates
     except UnicodeDecodeError as error:
         before = content[: error.start].decode(encoding, errors="replace")
         name = encoding.removesuffix("-sig").upper()

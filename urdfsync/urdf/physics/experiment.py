@@ -35,7 +35,7 @@ def experiment(sample: Sample, step: float | None = None) -> Experiment | str:
     """
     file, options = sample.file, sample.options
     reading = read_robot(sample.content, file, options)
-    # such a package lacks a part of the robot
+    # the package lacks a part of the robot
     if left_out := [entry.message for entry in reading.diagnostics if entry.code in options.allow]:
         return left_out[0]
     robot = _robot(reading)
@@ -47,7 +47,7 @@ def experiment(sample: Sample, step: float | None = None) -> Experiment | str:
     trials = list[Trial]()
     # the reference has the smooth law and rigid drives, and the embedded compiler starts no two joints that slide
     simplified = msgspec.structs.replace(options, friction="smooth", elastic="none", saturated="none")
-    with np.errstate(all="ignore"):  # numbers without end in the source
+    with np.errstate(all="ignore"):  # infinite numbers in the source
         try:
             subject = Subject(msgspec.structs.replace(sample, content=completed, options=simplified), tree)
         except OpenLoopError:

@@ -23,7 +23,7 @@ GRAVITY = 9.81
 
 ENDLESS = 1e300
 """A larger limit is none: numbers that follow from it would be infinite."""
-_FARTHEST = 10.0  # limits beyond it (m or rad) say nothing about where a joint is at home, and cost digits
+_FARTHEST = 10.0  # limits beyond it (m or rad) do not show where a joint works, and cost digits
 
 
 class Course(NamedTuple):
@@ -148,7 +148,7 @@ def axis_course(joint: Joint) -> Course:
     It begins near the middle of its range, if that is finite and sensible. The joint's name decides, so that a new
     joint does not change the motion of the others. No speed is close to zero, where faults are invisible.
     """
-    draw = random.Random(joint.name)  # noqa: S311 - nothing is kept secret
+    draw = random.Random(joint.name)  # noqa: S311 - not for cryptography
 
     def signed(least: float, most: float) -> float:
         return math.copysign(draw.uniform(least, most), draw.uniform(-1, 1))

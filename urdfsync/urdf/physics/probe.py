@@ -21,7 +21,7 @@ from urdfsync.urdf.physics.motion import Course
 from urdfsync.urdf.physics.subject import Subject
 from urdfsync.urdf.robot import MOTION_KINDS, MOTIONS, Joint, Origin
 
-_FAR_GROUND = -1e9  # m: the ground is that far down, and nothing touches
+_FAR_GROUND = -1e9  # m: the ground is so far down that nothing touches it
 _PARTS = (Path(__file__).parent / "parts.mo").read_text("utf-8")
 
 FORCE = tuple(f"base.frame_b.f[{i}]" for i in (1, 2, 3))
@@ -71,7 +71,7 @@ def robot_variables(subject: Subject, approach: str) -> RobotVariables:
     else:
         record = f"{target.package}.{target.name}Parameters"
         declaration = f"UrdfSync.Robots.GenericRobot robot(redeclare parameter {record} data, checkLimits = false, "
-        # the class that constrains the record of the generic robot knows no joint by its name
+        # the record's constraining class in the generic robot has no names of joints
         numbers = f"parameter {record} numbers"
         flanges = {
             joint.name: f"robot.{kind}Axis[{number}]"
@@ -140,7 +140,7 @@ def moving_probe(
     declarations.append(f"MovingBase base({tables}, axis = {vector(motion.TURN_AXIS)})")
     source = _text(target, options, "", declarations, connections)
     last = float(max(motion.Instant))
-    # loops are closed by integration: what it leaves open shows in accelerations, by the square of its rate of decay
+    # loops are closed by integration: its error appears in accelerations, times the square of its rate of decay
     tolerance = 1e-11 if subject.tree.loops else None
     return Probe(source, "Probe_.Probe", last, step, tuple(values), tuple(optional), tolerance)
 

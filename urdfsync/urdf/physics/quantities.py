@@ -107,7 +107,7 @@ def sensors(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
     """Yield the readings of the sensors that measure motion or forces."""
     parents = {joint.name: joint.parent for joint in subject.tree.joints}
     for sensor in subject.tree.sensors:
-        if sensor.kind in ("imu", "accelerometer", "gyroscope"):  # one component, of which all is compared
+        if sensor.kind in ("imu", "accelerometer", "gyroscope"):  # all values of the component are compared
             outputs = {"a": "m/s²", "w": "rad/s"}
             rows = [subject.reference.acceleration(subject.states[t], sensor, subject.root) for t in COMPARED]
         elif sensor.kind == "force_torque":

@@ -75,7 +75,7 @@ def read(content: bytes, file: str, loose: Collection[str] = ()) -> PinocchioRob
         for joint in root.findall("joint")
         for mimic in joint.findall("mimic")
     }
-    # the name of the root's joint in Pinocchio, which no element has
+    # a name for Pinocchio's root joint that no element has
     unused = "_" * (1 + max(len(element.get("name", "")) for element in root.iter()))
     try:
         model = pin.buildModelFromXML(content.decode("utf-8-sig"), pin.JointModelFreeFlyer(), unused)
