@@ -250,8 +250,6 @@ def test_an_edit_moves_into_a_file_that_is_edited_too(folder: Path, execute: Exe
     assert "Real mine = 1;" in text
     assert "Real another = 2;" in text
     assert "Real mine" not in Path(LINK.format(1)).read_text()
-    execute("resolve", LINK.format(1), "--undo", code=None)
-    assert "Real mine = 1;" in Path(LINK.format(1)).read_text()
 
 
 def test_an_answer_names_a_part_that_exists(folder: Path, execute: Execute) -> None:
@@ -269,6 +267,113 @@ def test_an_edit_of_a_part_that_is_gone_is_asked_about(edited: Path, execute: Ex
     assert "`link_2` is another part now, the former `link_3`" in words
     execute("resolve", "--all", "--take")
     assert "mine" not in Path(LINK.format(2)).read_text()
+
+
+def test_edits_change_places_once_while_a_number_conflicts(edited: Path, execute: Execute) -> None:
+    """Conflicts about numbers put off nothing else, but names that are exchanged."""
+    record = LINK.format(1).replace(".mo", "Parameters.mo")
+    edit(record, "1.1", "1.5")
+    Path("arm.urdf").write_text(arm(1.2, 2.2, 3.3, order="132"))
+    for _ in range(3):
+        execute("build", code=Exit.CONFLICT)
+        assert "Real mine" in Path(LINK.format(2)).read_text()
+    execute("resolve", record, "--take")
+    assert "Real mine" in Path(LINK.format(3)).read_text()
+    execute("build", "--check")
+
+
+def test_a_new_part_does_not_inherit_the_edit_of_one_that_is_gone(folder: Path, execute: Execute) -> None:
+    Path("urdfsync.toml").write_text(CONFIGURATION)
+    Path("arm.urdf").write_text(arm(1.1, 2.2, 3.3))
+    execute("build")
+    edit(LINK.format(3), "\nequation", MINE)
+    Path("arm.urdf").write_text(arm(1.1, 2.2))
+    execute("build")
+    Path("arm.urdf").write_text(arm(1.1, 2.2, 7.7))
+    assert "`link_3` is another part now" in execute("build", code=Exit.CONFLICT).words
+    execute("resolve", LINK.format(3), "--take")
+    assert "Real mine" not in Path(LINK.format(3)).read_text()
+
+
+def test_an_edit_that_cannot_move_is_asked_about(folder: Path, execute: Execute) -> None:
+    """The edit of a part that is gone is in its way."""
+    Path("urdfsync.toml").write_text(CONFIGURATION)
+    Path("arm.urdf").write_text(arm(1.1, 2.2, 3.3))
+    execute("build")
+    edit(LINK.format(2), "\nequation", MINE)
+    edit(LINK.format(3), "\nequation", "\n  Real former = 3;\n\nequation")
+    Path("arm.urdf").write_text(arm(1.1, 2.2))
+    execute("build")
+    Path("arm.urdf").write_text(arm(1.1, 9.9, 2.2))
+    words = execute("build", code=Exit.CONFLICT).words
+    assert "`link_2` is another part now" in words
+    assert "`link_3` is another part now" in words
+    execute("resolve", LINK.format(2), "--moved", code=Exit.ERROR)
+    execute("resolve", LINK.format(3), "--take", code=None)
+    execute("resolve", LINK.format(2), "--moved", code=None)
+    assert "Real mine" in Path(LINK.format(3)).read_text()
+
+
+def test_a_class_made_a_folder_is_asked_about(edited: Path, execute: Execute) -> None:
+    file = Path(LINK.format(2))
+    file.with_suffix("").mkdir()
+    file.rename(file.with_suffix("") / "package.mo")
+    Path("arm.urdf").write_text(arm(1.1, 2.2, 3.3, order="132"))
+    assert "`link_2` is another part now" in execute("build", code=Exit.CONFLICT).words
+
+
+def test_a_model_that_extends_the_robot_uses_names_alone(edited: Path, execute: Execute) -> None:
+    Path("Mine.mo").write_text("model Mine\n  extends Arm.Arm;\nequation\n  x = joint_2Axis.phi;\nend Mine;\n")
+    Path("arm.urdf").write_text(arm(1.1, 2.2, 3.3, order="132"))
+    assert "Mine.mo:4: warning: `joint_2Axis` names another part now" in execute("build").words
+
+
+@NEEDS_GIT
+def test_edits_that_git_left_with_exchanged_names_change_places_together(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, execute: Execute
+) -> None:
+    Path("urdfsync.toml").write_text(CONFIGURATION)
+    repository = Repository(folder, monkeypatch)
+    Path("arm.urdf").write_text(arm(1.1, 2.2, 3.3))
+    execute("build")
+    repository.commit()
+    repository.git("checkout", "-q", "-b", "export")
+    Path("arm.urdf").write_text(arm(1.1, 2.2, 3.3, order="132"))
+    execute("build")
+    repository.commit()
+    repository.git("checkout", "-q", "main")
+    for number in (2, 3):
+        edit(LINK.format(number), "\nequation", MINE.replace("1", str(number)))
+    repository.commit()
+    repository.merge("export")
+    execute("build", code=Exit.CONFLICT)
+    words = execute("resolve", LINK.format(2), "--moved", "link_3", code=Exit.ERROR).words
+    assert "it is asked about, too" in words
+    execute("resolve", LINK.format(2), LINK.format(3), "--moved")
+    for number, other in ((2, 3), (3, 2)):
+        assert f"Real mine = {other};" in Path(LINK.format(number)).read_text()
+        assert f"Real mine = {number};" not in Path(LINK.format(number)).read_text()
+    execute("build", "--check")
+    assert "an answer about parts can't be undone" in execute("resolve", LINK.format(2), "--undo", code=2).words
+
+
+@NEEDS_GIT
+def test_ordinary_edits_after_an_exchange_are_not_asked_about(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, execute: Execute
+) -> None:
+    """An earlier commit has another edit in the same place, which was another part's."""
+    Path("urdfsync.toml").write_text(CONFIGURATION)
+    repository = Repository(folder, monkeypatch)
+    Path("arm.urdf").write_text(arm(1.1, 2.2, 3.3))
+    execute("build")
+    for effort, order in (("12", ""), ("", "132"), ("15", "132")):
+        if effort:
+            edit(JOINT.format(2), "effort = 10", f"effort = {effort}")
+        Path("arm.urdf").write_text(arm(1.1, 2.2, 3.3, order=order))
+        execute("build")
+        repository.commit()
+    execute("build", "--check")
+    assert "effort = 12" in Path(JOINT.format(3)).read_text()
 
 
 def test_exchanges_can_be_declared_and_count_once(folder: Path, execute: Execute) -> None:

@@ -39,7 +39,7 @@ def test_the_editor_sees_all_versions_in_one_file_outside_of_the_project(
     editor("print(len(names), Path.cwd() == file.parent); print(file.read_text()); sys.exit(3)")
     with unchanged(contradictory, but=".urdfsync/lock"):
         error = execute("resolve", MODEL, "--edit", code=2).err
-    assert "the editor ended with exit code 3; nothing was changed; what you edited is in " in error
+    assert "the editor ended with exit code 3; nothing was changed; your text is in " in error
     (file,) = tmp_path.glob("urdfsync-edit-*/0/*")
     assert file.name == "Ladder.mo"
     lines = file.read_text().splitlines()
@@ -78,7 +78,7 @@ def test_an_edited_text_that_cannot_be_used_changes_nothing(
     with unchanged(contradictory, but=".urdfsync/lock"):
         error = execute("resolve", MODEL, "--edit", code=2).err
     assert words in error
-    assert "nothing was changed; what you edited is in " in error
+    assert "nothing was changed; your text is in " in error
     assert "; --edit begins anew" in error
 
 
@@ -139,7 +139,7 @@ def test_a_text_that_is_not_taken_is_left(
     editor(f"import re\nif file.name == 'Ladder.mo': sys.exit(1)\nfile.write_text({generated})")
     with unchanged(contradictory, but=".urdfsync/lock"):
         error = execute("resolve", "--all", "--edit", code=2).err
-    assert "the editor ended with exit code 1; nothing was changed; what you edited is in " in error
+    assert "the editor ended with exit code 1; nothing was changed; your text is in " in error
     assert len(list(tmp_path.glob("urdfsync-edit-*/*/R8.mo"))) == 1
 
 

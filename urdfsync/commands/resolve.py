@@ -48,8 +48,8 @@ def add(commands: arguments.Commands) -> None:
     }
     for kind, words in kinds.items():
         choice.add_argument(f"--{kind}", dest="choice", action="store_const", const=kind, help=words)
-    words = "move your edit to the element that is now called NAME"
-    choice.add_argument("--moved", metavar="NAME", help=words)
+    words = "move your edit to the element that is now called NAME, by default the likely one"
+    choice.add_argument("--moved", nargs="?", const="", metavar="NAME", help=words)
     words = "with --merge: which side counts where both changed the same"
     parser.add_argument("--prefer", choices=["mine", "generated"], help=words)
     arguments.add_dry_run(parser)
@@ -111,7 +111,7 @@ def _choice(args: argparse.Namespace) -> Choice:
         if args.choice is Choice.UNDO:
             hint = "name each file as the last build or `resolve` listed it: urdfsync resolve FILE --undo"
         raise arguments.UsageError(args.parser, wrong, hint)
-    if args.moved:
+    if args.moved is not None:
         return Choice.MOVED
     return Choice(f"{args.choice}-{args.prefer}") if args.prefer else args.choice
 

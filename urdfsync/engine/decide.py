@@ -84,7 +84,9 @@ def decide_package(generation: Generation) -> Decision:
     order_actions, orders, shared = _decide_orders(generation, actions)
     _refuse_markers(files, actions, (key for key, text in orders.items() if find_markers(text)))
     has_conflicts = any(action.is_conflict for action in actions)
-    numbers = _renumbered(generation, actions, merged, conflicts) if has_conflicts else ()
+    numbers: Collection[str] = ()
+    if has_conflicts and not generation.has_exchanges:  # else edits would move once more with each build
+        numbers = _renumbered(generation, actions, merged, conflicts)
     origins = set(generation.moves.values())
     known = {action.path for action in (*actions, *order_actions)}
     unknown = [Action(key, Reason.UNKNOWN, Role.MODEL) for key in _find_unknown(inputs, known)]
@@ -182,14 +184,15 @@ def _conflict(
     known = [generated if sha256 == action.generated else last.base(sha256) for sha256 in hashes]
     # a file may have several bases: if the text of one is lost, its changes are unknown, and no merge is possible
     bases = [text for text in known if text is not None] if None not in known else []
+    doubt, base = doubts.get(action.path), bases[0] if bases else None
     if mine is None:
-        package = files.text(f"{key.removesuffix('.mo')}/package.mo") or ""
-        reason, base = "you made a folder of the class", bases[0] if bases else None
-        return Conflict(action.path, base, package, generated, None, origin=action.origin, rejected=reason)
-    if doubt := doubts.get(action.path):
-        texts, is_own = (bases[0] if bases else None, mine, generated, None), action.owner == doubt.element
+        mine, why = files.text(f"{key.removesuffix('.mo')}/package.mo") or "", "you made a folder of the class"
+        why = describe_doubt(doubt) if doubt else why
+        return Conflict(action.path, base, mine, generated, None, origin=action.origin, rejected=why)
+    if doubt:
+        is_own = action.owner == doubt.element
         why, moved_to = describe_doubt(doubt, is_used=not is_own), doubt.moved_to if is_own else ""
-        return Conflict(action.path, *texts, rejected=why, moved_to=moved_to)
+        return Conflict(action.path, base, mine, generated, None, rejected=why, moved_to=moved_to)
     if contradictions := files.left_by_git.get(key):
         texts, why = (bases[0] if bases else None, mine, generated, None), united.describe(contradictions)
         return Conflict(action.path, *texts, origin=action.origin, rejected=why)

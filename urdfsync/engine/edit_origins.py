@@ -46,27 +46,42 @@ EDITED = (Reason.KEEP, Reason.CONFLICT)
 def find_doubts(generation: Generation, actions: Iterable[Action]) -> dict[str, Doubt]:
     """Return why edited files may belong to other elements than before, by key."""
     inputs, notes = generation.inputs, generation.inputs.last.notes
-    edited = [one for one in actions if one.reason in EDITED and one.mine and one.role is not Role.IMPORT]
+    edited = [one for one in actions if one.reason in EDITED and one.role is not Role.IMPORT]
     edited = [one for one in edited if not inputs.files.is_chosen(one.path)]
     record = inputs.last.record
     unconfirmed = [one for one in edited if one.mine not in record.confirmed]
     # what the user said of an export holds until the next one
     is_told = inputs.last.seen == generation.now.snapshot
-    found, doubts = generation.matching.doubts, dict[str, Doubt | None]()
-    for action in (unconfirmed if is_told else edited) if found else ():
-        element = _element(action)
-        lines = None if element else _edit_of(generation, action).added
-        doubts[action.path] = (
-            found.get(element) if element else _named(generation, lines, found, generation.now.snapshot)
-        )
+    doubts = dict[str, Doubt | None]()
+    for action in unconfirmed if is_told else edited:
+        doubts[action.path] = _doubt(generation, action)
     if notes.model == model_hash(record.snapshot):  # else git may have changed what names mean
         unconfirmed = [one for one in unconfirmed if notes.edited.get(one.path) != one.mine]
+    unconfirmed = [one for one in unconfirmed if one.mine]  # a class made a folder is in no commit as this file
     if unconfirmed and inputs.last.version is not None and git.find_top(inputs.config.root) is not None:
         dependencies.mark_incomplete()  # a commit changes the answer, and no file
         edits = {action: _edit_of(generation, action) for action in unconfirmed}
         for commit in _commits(generation):
             doubts |= _look(generation, commit, edits)
     return {path: doubt for path, doubt in doubts.items() if doubt}
+
+
+def _doubt(generation: Generation, action: Action) -> Doubt | None:
+    """Return why an edit that stays in its file may belong to another element than the file, by the last build."""
+    found, last = generation.matching.doubts, generation.inputs.last
+    if not (element := _element(action)):
+        lines = _edit_of(generation, action).added if found else ()
+        return _named(generation, lines, found, generation.now.snapshot)
+    if element in found:
+        return found[element]
+    if moved_to := generation.renames.get(element):  # it can't move there
+        return Doubt(" ".join(element), "", (), moved_to, is_certain=True)
+    path = last.folder.path(action.path)
+    is_orphan = last.package is not None and path not in last.package.artifacts and action.path in last.files
+    is_new = last.record.open is not None and action.path not in last.record.open.asked  # of a build since
+    if is_orphan and not (is_new or last.record.is_united or generation.respelled):
+        return Doubt(" ".join(element), is_certain=True)  # the element that it was made for is gone
+    return None
 
 
 def model_hash(snapshot: Mapping[str, Any] | None) -> str:
@@ -176,14 +191,16 @@ def _element(action: Action) -> ElementKey | None:
 
 
 def _named(
-    generation: Generation, lines: Iterable[str] | None, doubts: Mapping[ElementKey, Doubt], snapshot: Snapshot
+    generation: Generation, lines: Iterable[str], doubts: Mapping[ElementKey, Doubt], snapshot: Snapshot
 ) -> Doubt | None:
     """Return the doubt about the first element that lines of a common file name, by the names of a model."""
+    if not doubts:
+        return None
     names = generation.inputs.domain.names(snapshot, generation.inputs.last.target)
     elements = {
         identifier: (kind.removesuffix("s"), name) for kind in names for name, identifier in names[kind].items()
     }
-    words = dict.fromkeys(word for line in lines or () for word in re.findall(r"\w+", line))
+    words = dict.fromkeys(word for line in lines for word in re.findall(r"\w+", line))
     found = (elements.get(identifier_of(word, elements)) for word in words)
     return next((doubts[key] for key in found if key and key in doubts), None)
 

@@ -86,6 +86,15 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
         gone = {name: f"{name}{GONE}" for _, name in displaced(self.renames)}
         return {**gone, **{name: new for (kind, name), new in self.renames.items() if (kind, name) in now}}
 
+    @cached_property
+    def has_exchanges(self) -> bool:
+        """Whether an element has the former name of another one."""
+        last = self.inputs.last.version
+        if last is None or not self.renames:
+            return False
+        before = self.inputs.domain.features(last.snapshot)
+        return any((kind, new) in before for (kind, _), new in self.renames.items())
+
     @property
     def undeclared_renames(self) -> Mapping[ElementKey, str]:
         """The renames as far as they are not the configuration's word, which may be taken back."""

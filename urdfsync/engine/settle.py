@@ -57,6 +57,9 @@ class Settled(msgspec.Struct):
     keys: set[str] = msgspec.field(default_factory=set)
     """Keys of the choices that were applied."""
 
+    asked: set[str] = msgspec.field(default_factory=set)
+    """The keys of files that an answer about parts has changed."""
+
     def add(
         self, inputs: Inputs, action: Action, content: bytes | None, record: FileRecord, reason: Reason, choice: Choice
     ) -> None:
@@ -66,6 +69,7 @@ class Settled(msgspec.Struct):
         if mine is not None and (choice is not Choice.UNDO or content != mine):  # else there is nothing to bring back
             self.before[key] = Former(mine, former, inputs.last.bases(former))
         self.contents[key], self.bases[key] = content, record
+        self.asked |= {key} if action.reason is Reason.ASKED or choice is Choice.MOVED else set()
         changes = {"path": key, "origin": None, "reason": reason, "choice": choice, "is_waiting": False}
         self.actions[key] = msgspec.structs.replace(action, **changes)
 
@@ -94,11 +98,15 @@ def _settle(generation: Generation, decision: Decision, action: Action, chosen: 
     content = mine = inputs.files.read_on_disk(key)
     conflict = decision.disputed.get(action.path)
     if choice is Choice.MOVED:
-        return action.reason is Reason.ASKED and _move(generation, decision, action, chosen.text or "", settled)
+        return action.reason is Reason.ASKED and _move(generation, decision, action, chosen.text, settled)
     if choice is Choice.UNDO:
         aside = inputs.last.aside.get(inputs.folder.path(key))
         if aside is None or action.role is Role.IMPORT or inputs.files.hash(key, action.role) != aside.after:
             return False
+        if aside.is_asked:
+            saved = inputs.store.aside_file(inputs.robot.name).parent / aside.file
+            message, hint = "an answer about parts can't be undone", f"take what you want from {shown(saved)}"
+            raise OutputError.of("no-undo", message, shown(inputs.files.path(key)), hint=hint)
         content, reason = inputs.last.aside_text(aside.file), Reason.UNDO
         if content is None:
             return False
@@ -147,18 +155,24 @@ def _settle(generation: Generation, decision: Decision, action: Action, chosen: 
     return True
 
 
-def _move(generation: Generation, decision: Decision, action: Action, new: str, settled: Settled) -> bool:
-    """Move an edit to the file of another element. Raises ConfigError if that is impossible."""
+def _move(generation: Generation, decision: Decision, action: Action, named: str | None, settled: Settled) -> bool:
+    """Add that an edit goes to the file of another element, by default the likely one. Raises ConfigError if it can't.
+
+    Edits that leave their files in the same command make room for each other.
+    """
     inputs, (kind, _, name), key = generation.inputs, action.owner.partition(" "), action.path
     conflict, artifacts = decision.disputed[key], generation.package.artifacts
+    new = named or conflict.moved_to
     template = artifacts[inputs.folder.path(key)].template
     places = {one.owner: path for path, one in artifacts.items() if one.template == template}
     known = {known for one, known in inputs.domain.features(generation.now.snapshot) if one == kind}
     message = "" if new in known else f"the source has no {kind} `{new}`"
     near = nearest(new, sorted(known - {name}))
-    hint = f"did you mean `{near}`?" if near else "name the part as the source has it"
+    hint = f"did you mean `{near}`?" if near and message else "name the part that the edit belongs to: --moved NAME"
     if not name:
         message, hint = "it belongs to no single part", "change the names in it, then use --keep"
+    elif not new:
+        message = "it is not known to which part the edit belongs"
     elif new == name:
         message = f"it belongs to {kind} `{name}` already"
     elif not message and f"{kind} {new}" not in places:
@@ -167,19 +181,32 @@ def _move(generation: Generation, decision: Decision, action: Action, new: str, 
         raise ConfigError.of("wrong-rename", message, shown(inputs.files.path(key)), hint=hint)
     path = places[f"{kind} {new}"]
     target, generated = inputs.folder.key(path), generation.package.content(path).decode()
-    last = inputs.last.files.get(target, FileRecord())
+    last, choices = inputs.last.files.get(target, FileRecord()), inputs.options.choices
+    is_leaving = target in choices and choices[target].choice is Choice.MOVED
+    if any(one.path == target and one.reason is Reason.ASKED for one in decision.actions) and not is_leaving:
+        file, message = shown(inputs.files.path(target)), "it is asked about, too"
+        raise ConfigError.of(
+            "wrong-rename", message, file, hint="settle it first, or name both files with --moved alone"
+        )
+    if inputs.files.read(f"{target.removesuffix('.mo')}/package.mo") or inputs.files.read(key) is None:
+        file, message = shown(inputs.files.path(target)), "one of the two classes is a folder"
+        raise ConfigError.of("wrong-rename", message, file, hint="move the edit by hand, then use --keep")
     is_edited = inputs.files.hash(target, action.role) not in (None, generation.package.hash(path), *last.hashes)
+    is_edited = is_edited and not is_leaving
     text = (inputs.files.text(target) or "") if is_edited else generated
+    if target in settled.contents:
+        text = (settled.contents[target] or b"").decode()
     merged = _merge_into(generation, conflict, f"{kind}s", name, new, text)
     if merged is None:
         file, message = shown(inputs.files.path(target)), "your edit does not fit into this file"
         raise ConfigError.of("wrong-rename", message, file, hint="move the edit by hand, then use --take")
-    source = with_line_ends(generation.package.content(inputs.folder.path(key)), inputs.files.read(key) or b"")
     content = with_line_ends(encode(merged), inputs.files.read(target) or b"")
     record = last if is_edited else FileRecord((generation.package.hash(path),))
     hashes = generation.package.hash(path), inputs.files.hash(target, action.role)
     other = Action(target, Reason.MERGE, action.role, f"{kind} {new}", generated=hashes[0], mine=hashes[1])
-    settled.add(inputs, action, source, FileRecord((str(action.generated),)), Reason.UPDATE, Choice.MOVED)
+    if key not in settled.contents:  # else another edit has come here already
+        source = with_line_ends(generation.package.content(inputs.folder.path(key)), inputs.files.read(key) or b"")
+        settled.add(inputs, action, source, FileRecord((str(action.generated),)), Reason.UPDATE, Choice.MOVED)
     settled.add(inputs, other, content, record, Reason.MERGE, Choice.MOVED)
     return True
 

@@ -181,7 +181,8 @@ def _record(generation: Generation, decision: Decision, settled: Settled) -> Rec
             if files.get(inputs.folder.key(entry.target)) == FileRecord((entry.target_hash,))
             and entry not in old.imports.get(key, ())
         }
-        open_ = Open(as_recorded(generation.now.snapshot), generation.undeclared_renames)
+        asked = frozenset(action.path for action in decision.actions if action.reason is Reason.ASKED)
+        open_ = Open(as_recorded(generation.now.snapshot), generation.undeclared_renames, asked)
         settled_texts = {state_of(text).text_sha256 for text in settled.contents.values() if text is not None}
         return msgspec.structs.replace(
             old,

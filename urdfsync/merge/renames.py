@@ -50,8 +50,13 @@ def without_clashes(names: Mapping[str, str], mine: str) -> dict[str, str]:
 
 
 def find_uses_of(text: str, names: Mapping[str, str]) -> Iterator[tuple[str, int]]:
-    """Yield names of other classes' components, or of classes in others, with their places in the text."""
-    yield from ((token.text, token.start) for before, token in _uses(text) if before and token.text in names)
+    """Yield names of other classes' components, or of classes in others, with their places in the text.
+
+    A text that extends classes uses inherited names alone, too.
+    """
+    uses = list(_uses(text))
+    extends = any(token.text == "extends" for _, token in uses)
+    yield from ((token.text, token.start) for before, token in uses if (before or extends) and token.text in names)
 
 
 def find_renamed(base: SyntaxTree, mine: SyntaxTree, generated: SyntaxTree) -> dict[str, str]:

@@ -82,7 +82,9 @@ class Open(msgspec.Struct, frozen=True):
 
     seen: Mapping[str, Any] = {}
     renamed: Mapping[ElementKey, str] = {}
-    """Elements of the last complete build and their names in it, if they were renamed or confirmed by the user."""
+    """Elements of the last complete build and their names in it, if they were renamed."""
+    asked: frozenset[str] = frozenset()
+    """The keys of files that may belong to other parts."""
 
 
 class Record(msgspec.Struct, frozen=True, kw_only=True):

@@ -42,6 +42,7 @@ _FACTS: Mapping[str, Any] = {
     "confirmed": str,
     "seen": tuple[str, str | None, Any],
     "renamed": tuple[str, str, str],
+    "asked": str,
 }
 """The first words of lines, and the type of the JSON value behind each. A `file` has its hash and its path."""
 _DECODERS = {word: msgspec.json.Decoder(kind) for word, kind in _FACTS.items()}
@@ -79,6 +80,7 @@ def _facts(record: Record) -> Iterator[tuple[str, object]]:
     if record.open:
         yield from (("seen", fact) for fact in _elements(record.open.seen))
         yield from (("renamed", (*key, name)) for key, name in record.open.renamed.items())
+        yield from (("asked", key) for key in record.open.asked)
 
 
 def _elements(snapshot: Mapping[str, Any]) -> Iterator[tuple[Any, ...]]:
@@ -164,7 +166,7 @@ def _record(values: Mapping[str, list[Any]], *, is_whole: bool) -> Record:
         renamed = {(kind, old): new for kind, old, new in values["renamed"]}
         seen = _snapshot(values["seen"])
         is_known = seen is not None and len(renamed) == len(values["renamed"])
-        open_ = Open(seen, renamed) if seen is not None and is_known else Open()
+        open_ = Open(seen, renamed, frozenset(values["asked"])) if seen is not None and is_known else Open()
     return Record(
         package=package,
         class_=class_,
