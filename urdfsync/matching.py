@@ -334,9 +334,9 @@ class _Matcher:
         """Whether an element has other neighbours than before: the only one of a relation, or all."""
         before, after = self._old[key].neighbours, self._new[key].neighbours
         others = [
-            (one, self._pairs[one] != after[relation])
+            (one, self._taken.get(after[relation]) != one)
             for relation, one in before.items()
-            if relation in after and one in self._pairs
+            if relation in after and (one in self._pairs or after[relation] in self._taken)
         ]
         is_elsewhere = any(is_other and key in self._old[one].neighbours.values() for one, is_other in others)
         return is_elsewhere or (bool(others) and all(is_other for _, is_other in others))
