@@ -401,6 +401,75 @@ def test_exchanges_can_be_declared_and_count_once(folder: Path, execute: Execute
     assert "Real mine" in Path(LINK.format(2)).read_text()
 
 
+@pytest.mark.parametrize("declared", ["", 'renamed = {link_3 = "link_2"}\n'], ids=["found", "declared"])
+def test_a_renamed_part_and_the_one_that_is_gone_keep_their_own_edits(
+    edited: Path, execute: Execute, declared: str
+) -> None:
+    """Both are edited; the third part has the name of the second, which is gone."""
+    edit(LINK.format(3), "\nequation", MINE.replace("mine", "third"))
+    Path("urdfsync.toml").write_text(f"{CONFIGURATION}{declared}")
+    Path("arm.urdf").write_text(arm(1.1, 3.3))
+    words = execute("build", code=Exit.CONFLICT).words
+    assert "`link_2` is another part now, the former `link_3`" in words
+    execute("resolve", "--all", "--take")
+    text = Path(LINK.format(2)).read_text()
+    assert "Real third" in text
+    assert "mine" not in text
+    execute("build", "--check")
+
+
+def test_half_an_exchange_is_declared(folder: Path, execute: Execute) -> None:
+    """The third part has lost its name to the second one: its edit is asked about."""
+    Path("urdfsync.toml").write_text(CONFIGURATION)
+    Path("arm.urdf").write_text(arm(1.1, 2.2, 3.3))
+    execute("build")
+    edit(LINK.format(3), "\nequation", MINE)
+    Path("urdfsync.toml").write_text(f'{CONFIGURATION}renamed = {{link_2 = "link_3"}}\n')
+    Path("arm.urdf").write_text(arm(1.1, 2.5, 3.5))
+    words = execute("build", code=Exit.CONFLICT).words
+    assert "`link_3` is another part now, the former `link_2`" in words
+    Path("urdfsync.toml").write_text(f'{CONFIGURATION}renamed = {{link_2 = "link_3", link_3 = "link_2"}}\n')
+    execute("build")
+    assert ["Real mine" in Path(LINK.format(number)).read_text() for number in (2, 3)] == [True, False]
+
+
+def legs(*masses: float) -> str:
+    """Legs that hang at one base."""
+    elements = [link("base", 9.0)]
+    for number, mass in enumerate(masses, 1):
+        elements += [link(f"link_{number}", mass), joint(f"to_{number}", "continuous", "base", f"link_{number}")]
+    return robot(*elements)
+
+
+EXCHANGE = {"link_1": "link_2", "link_2": "link_1"}
+TWINS: dict[str, tuple[dict[str, str], list[float], int]] = {
+    "the same export": (EXCHANGE, [1.1, 1.1, 1.1], 1),
+    "another mass": (EXCHANGE, [1.1, 1.1, 4.4], 1),
+    "one leg more": ({f"link_{number}": f"link_{number + 1}" for number in (1, 2, 3)}, [1.1] * 4, 3),
+}
+
+
+@pytest.mark.parametrize(("renames", "masses", "number"), TWINS.values(), ids=TWINS)
+def test_what_is_declared_of_parts_that_look_alike_counts_once(
+    folder: Path, execute: Execute, renames: dict[str, str], masses: list[float], number: int
+) -> None:
+    Path("urdfsync.toml").write_text(CONFIGURATION)
+    Path("arm.urdf").write_text(legs(1.1, 1.1, 1.1))
+    execute("build")
+    edit(LINK.format(2), "\nequation", MINE)
+    words = ", ".join(f'{old} = "{new}"' for old, new in renames.items())
+    Path("urdfsync.toml").write_text(f"{CONFIGURATION}renamed = {{{words}}}\n")
+    for last in (masses[-1], masses[-1], 5.5):
+        Path("arm.urdf").write_text(legs(*masses[:-1], last))
+        execute("build")
+        holders = [path.name for path in Path("modelica").rglob("*.mo") if "Real mine" in path.read_text()]
+        assert holders == [f"Link_{number}.mo"]
+    shutil.rmtree(".urdfsync/notes")  # another machine has the record, and no notes
+    Path("arm.urdf").write_text(legs(*masses[:-1], 6.6))
+    execute("build")
+    assert "Real mine" in Path(LINK.format(number)).read_text()
+
+
 def test_a_recorded_model_that_the_files_contradict_moves_nothing(edited: Path, execute: Execute) -> None:
     """A stranger exchanged two links in the record: the edit stays, and is asked about."""
     state = Path(".urdfsync/robots/arm.state")

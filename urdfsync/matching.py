@@ -101,7 +101,7 @@ class _Matcher:
 
     def run(self) -> Matching:
         """Go through the steps above."""
-        declared, votes = dict(self._pairs), self._votes()
+        votes = self._votes()
         self._take(self._proved(votes).items())
         self._spread(self._pairs, is_late=False)
         named = [(key, key) for key in self._old if key in self._new]
@@ -115,7 +115,7 @@ class _Matcher:
         self._spread(self._pairs, is_late=True)
         renames = {old: self._pairs[old][1] for old in self._in_order() if self._pairs.get(old, old) != old}
         doubts = self._doubts(by_name, votes)
-        return Matching(renames, {key: doubts[key] for key in sorted(doubts) if key not in declared.values()})
+        return Matching(renames, {key: doubts[key] for key in sorted(doubts)})
 
     def _in_order(self) -> list[ElementKey]:
         """Return the old elements by kind, as the domain has these, and by name."""
@@ -334,9 +334,9 @@ class _Matcher:
         """Whether an element has other neighbours than before: the only one of a relation, or all."""
         before, after = self._old[key].neighbours, self._new[key].neighbours
         others = [
-            (one, self._pairs[one] != after[relation])
+            (one, self._taken.get(after[relation]) != one)
             for relation, one in before.items()
-            if relation in after and one in self._pairs
+            if relation in after and (one in self._pairs or after[relation] in self._taken)
         ]
         is_elsewhere = any(is_other and key in self._old[one].neighbours.values() for one, is_other in others)
         return is_elsewhere or (bool(others) and all(is_other for _, is_other in others))

@@ -12,14 +12,24 @@ from urdfsync.matching import Doubt, Matching, match
 from urdfsync.spelling import nearest
 
 
-def find_matching(domain: Domain, old: Snapshot, new: Snapshot, declared: Mapping[str, str]) -> Matching:
-    """Match the elements of two versions; `declared` maps old names to new ones, until a kind has its new names."""
-    if old == new:
+def find_matching(
+    domain: Domain, old: Snapshot, new: Snapshot, declared: Mapping[str, str], *, is_pending: bool = False
+) -> Matching:
+    """Match the elements of two versions; `declared` maps old names to new ones, until a kind has its new names.
+
+    A kind has its new names if an element is as it was under its old one. If the renames are known to be pending, this
+    holds only if the contents under the new name are others: elements that look alike prove nothing.
+    """
+    if old == new and not (declared and is_pending):
         return Matching()
     before, after = domain.features(old), domain.features(new)
     named = {(kind, name): (kind, declared[name]) for kind, name in before if name in declared}
     named = {key: new for key, new in named.items() if new in after}
-    done = {key[0] for key in named if before[key] == after.get(key)}  # kinds that an earlier build renamed
+    done = {
+        key[0]
+        for key, new in named.items()
+        if before[key] == after.get(key) and not (is_pending and before[key].contents == after[new].contents)
+    }
     return match(before, after, {key: new for key, new in named.items() if key[0] not in done})
 
 
@@ -34,12 +44,14 @@ def find_matching_since(
     """Match the elements of the last complete build with those of now.
 
     While a conflict is open, one export may rename an element and the next one change its numbers. So the renames up to
-    the model last seen are joined with those since then.
+    the model last seen are joined with those since then. `declared` has renames that no complete build has made.
     """
-    direct = find_matching(domain, recorded, now, declared)
+    direct = find_matching(domain, recorded, now, declared, is_pending=True)
     if last_seen is None:
         return direct
-    later = find_matching(domain, last_seen, now, declared)
+    opened = {(name, new) for (_, name), new in open_renames.items()}
+    remaining = {name: new for name, new in declared.items() if (name, new) not in opened}
+    later = find_matching(domain, last_seen, now, remaining, is_pending=True)
     existing, seen = domain.features(now), domain.features(last_seen)
     gone, followed = displaced(open_renames), dict[ElementKey, str]()
     for kind, name in domain.features(recorded):
