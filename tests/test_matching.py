@@ -99,6 +99,22 @@ def test_an_element_whose_name_another_one_has_is_told() -> None:
     assert (doubt.former, doubt.is_certain) == ("b", True)
 
 
+@pytest.mark.parametrize("mass", [3.5, 3])
+def test_a_neighbour_that_is_another_one_now_is_a_doubt(mass: float) -> None:
+    """What was `b` is gone; `c` has its name, and another mass, or another place."""
+    old = chain("abcd", [9, 2, 3, 4], [0.2, 0.3, 0.4])
+    found = match(old, chain("abc", [9, mass, 4], [0.3 if mass == 3.5 else 0.5, 0.4]))
+    assert (("link", "b") if mass == 3.5 else ("joint", "to_b")) in found.doubts
+
+
+@pytest.mark.parametrize("names", ["abcd", "abc"])
+def test_other_numbers_in_the_same_place_are_no_doubt(names: str) -> None:
+    """Whether the last part is gone or not."""
+    old = chain("abcd", [9, 2, 3, 4], [0.2, 0.3, 0.4])
+    found = match(old, chain(names, [9.5, 2.5, 3.5, 4.5][: len(names)], [0.25, 0.35, 0.45]))
+    assert found == Matching()
+
+
 def test_what_is_declared_holds() -> None:
     old, new = chain("abc", [9, ALIKE, ALIKE]), chain("abc", [9, ALIKE, ALIKE])
     declared = {("link", "b"): ("link", "c"), ("link", "c"): ("link", "b")}

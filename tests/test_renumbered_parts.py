@@ -418,6 +418,30 @@ def test_a_renamed_part_and_the_one_that_is_gone_keep_their_own_edits(
     execute("build", "--check")
 
 
+CHANGES = {
+    "another mass": ('mass value="3.3"', 'mass value="3.5"', LINK),
+    "another position": (f'xyz="{3.3 / 10} ', 'xyz="0.5 ', JOINT),
+}
+
+
+@pytest.mark.parametrize("more", [(), (4.4,)], ids=["three parts", "four parts"])
+@pytest.mark.parametrize(("old", "new", "file"), CHANGES.values(), ids=CHANGES)
+def test_a_part_is_gone_and_the_next_one_has_its_name_and_other_numbers(
+    folder: Path, execute: Execute, old: str, new: str, file: str, more: tuple[float, ...]
+) -> None:
+    Path("urdfsync.toml").write_text(CONFIGURATION)
+    Path("arm.urdf").write_text(arm(1.1, 2.2, 3.3, *more))
+    execute("build")
+    edit(LINK.format(2), "\nequation", MINE)
+    edit(JOINT.format(2), "effort = 10", "effort = 12")
+    export = arm(1.1, 3.3, *more)
+    assert old in export
+    Path("arm.urdf").write_text(export.replace(old, new))
+    words = execute("build", code=Exit.CONFLICT).words
+    name = Path(file.format(2)).stem.removesuffix("Parameters").lower()
+    assert f"`{name}` may be another part now: parts next to it, or like it, have other names" in words
+
+
 def test_half_an_exchange_is_declared(folder: Path, execute: Execute) -> None:
     """The third part has lost its name to the second one: its edit is asked about."""
     Path("urdfsync.toml").write_text(CONFIGURATION)

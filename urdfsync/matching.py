@@ -331,7 +331,10 @@ class _Matcher:
         return doubts
 
     def _contradicts(self, key: ElementKey) -> bool:
-        """Whether an element has other neighbours than before: the only one of a relation, or all."""
+        """Whether an element has other neighbours than before: the only one of a relation, or all.
+
+        A neighbour that is gone counts if another element has its name now.
+        """
         before, after = self._old[key].neighbours, self._new[key].neighbours
         others = [
             (one, self._taken.get(after[relation]) != one)
