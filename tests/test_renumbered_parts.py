@@ -494,6 +494,18 @@ def test_what_is_declared_of_parts_that_look_alike_counts_once(
     assert "Real mine" in Path(LINK.format(number)).read_text()
 
 
+def test_names_declared_before_the_first_build_move_nothing(folder: Path, execute: Execute) -> None:
+    legs = [link("base", 9.0), *(link(name, 1.1) for name in ("link_1", "link_2"))]
+    joints = [joint(f"to_{name}", "continuous", "base", name) for name in ("link_1", "link_2")]
+    Path("arm.urdf").write_text(robot(*legs, *joints))
+    Path("urdfsync.toml").write_text(f'{CONFIGURATION}renamed = {{link_1 = "link_2", link_2 = "link_1"}}\n')
+    execute("build")
+    edit(LINK.format(1), "\nequation", MINE)
+    for _ in range(2):
+        execute("build")
+        assert "Real mine" in Path(LINK.format(1)).read_text()
+
+
 def test_a_recorded_model_that_the_files_contradict_moves_nothing(edited: Path, execute: Execute) -> None:
     """A stranger exchanged two links in the record: the edit stays, and is asked about."""
     state = Path(".urdfsync/robots/arm.state")

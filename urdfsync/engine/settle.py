@@ -191,6 +191,9 @@ def _move(generation: Generation, decision: Decision, action: Action, named: str
     if inputs.files.read(f"{target.removesuffix('.mo')}/package.mo") or inputs.files.read(key) is None:
         file, message = shown(inputs.files.path(target)), "one of the two classes is a folder"
         raise ConfigError.of("wrong-rename", message, file, hint="move the edit by hand, then use --keep")
+    if target in generation.moves.values():
+        file, message = shown(inputs.files.path(target)), "its own text moves to another file"
+        raise ConfigError.of("wrong-rename", message, file, hint="build first, then move the edit by hand")
     is_edited = inputs.files.hash(target, action.role) not in (None, generation.package.hash(path), *last.hashes)
     is_edited = is_edited and not is_leaving
     text = (inputs.files.text(target) or "") if is_edited else generated

@@ -214,6 +214,8 @@ def _record(generation: Generation, decision: Decision, settled: Settled) -> Rec
 
 def _brought(generation: Generation) -> Mapping[str, str]:
     """Return the declared renames that this build or an earlier one has applied."""
+    if generation.inputs.last.version is None:  # the first build has the new names already
+        return dict(generation.inputs.robot.renamed)
     done = generation.inputs.last.record.renamed
     brought = {(name, new) for (_, name), new in generation.renames.items()}
     declared = generation.inputs.robot.renamed.items()
