@@ -76,8 +76,8 @@ def _doubt(generation: Generation, action: Action) -> Doubt | None:
         return found[element]
     if moved_to := generation.renames.get(element):  # it can't move there
         return Doubt(" ".join(element), "", (), moved_to, is_certain=True)
-    path = last.folder.path(action.path)
-    is_orphan = last.package is not None and path not in last.package.artifacts and action.path in last.files
+    is_known = last.version is None or element in generation.inputs.domain.features(last.version.snapshot)
+    is_orphan = not is_known and action.path in last.files
     is_new = last.record.open is not None and action.path not in last.record.open.asked  # of a build since
     if is_orphan and not (is_new or last.record.is_united or generation.respelled):
         return Doubt(" ".join(element), is_certain=True)  # the element that it was made for is gone
