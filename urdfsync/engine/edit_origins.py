@@ -23,7 +23,7 @@ from urdfsync.engine.actions import Action, Reason
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.last_build import NO_MODEL
 from urdfsync.engine.package_files import text_hash
-from urdfsync.engine.package_names import identifier_of
+from urdfsync.engine.package_names import elements_by_identifier, identifier_of
 from urdfsync.engine.renames import find_matching
 from urdfsync.files import digest
 from urdfsync.matching import Doubt
@@ -55,7 +55,7 @@ def find_doubts(generation: Generation, actions: Iterable[Action]) -> dict[str, 
     doubts = dict[str, Doubt | None]()
     for action in unconfirmed if is_told else edited:
         doubts[action.path] = _doubt(generation, action)
-    if notes.model == model_hash(record.snapshot):  # else git may have changed what names mean
+    if unconfirmed and notes.model == model_hash(record.snapshot):  # else git may have changed what names mean
         unconfirmed = [one for one in unconfirmed if notes.edited.get(one.path) != one.mine]
     unconfirmed = [one for one in unconfirmed if one.mine]  # a class made a folder is in no commit as this file
     if unconfirmed and inputs.last.version is not None and git.find_top(inputs.config.root) is not None:
@@ -76,8 +76,9 @@ def _doubt(generation: Generation, action: Action) -> Doubt | None:
         return found[element]
     if moved_to := generation.renames.get(element):  # it can't move there
         return Doubt(" ".join(element), "", (), moved_to, is_certain=True)
-    is_known = last.version is None or element in generation.inputs.domain.features(last.version.snapshot)
-    is_orphan = not is_known and action.path in last.files
+    # if only numbers changed, no element is new, and most builds need no features
+    is_new_element = last.version is not None and generation.is_structural and element not in generation.elements_before
+    is_orphan = is_new_element and action.path in last.files
     is_new = last.record.open is not None and action.path not in last.record.open.asked  # of a build since
     if is_orphan and not (is_new or last.record.is_united or generation.respelled):
         return Doubt(" ".join(element), is_certain=True)  # the element that it was made for is gone
@@ -196,10 +197,7 @@ def _named(
     """Return the doubt about the first element that lines of a common file name, by the names of a model."""
     if not doubts:
         return None
-    names = generation.inputs.domain.names(snapshot, generation.inputs.last.target)
-    elements = {
-        identifier: (kind.removesuffix("s"), name) for kind in names for name, identifier in names[kind].items()
-    }
+    elements = elements_by_identifier(generation.inputs.domain, snapshot, generation.inputs.last.target)
     words = dict.fromkeys(word for line in lines for word in re.findall(r"\w+", line))
     found = (elements.get(identifier_of(word, elements)) for word in words)
     return next((doubts[key] for key in found if key and key in doubts), None)

@@ -11,7 +11,7 @@ import msgspec
 from urdfsync import changes
 from urdfsync.changes import Changes
 from urdfsync.diagnostics import Diagnostic
-from urdfsync.domain import ChangeClass, ElementKey, Lookup, Role, Version, displaced
+from urdfsync.domain import ChangeClass, ElementKey, Features, Lookup, Role, Version, displaced
 from urdfsync.engine import imports, source
 from urdfsync.engine.generate import Package, generate
 from urdfsync.engine.imports import Imported
@@ -49,7 +49,7 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
         matching = self._match(declared)
         if last.version is None or not matching.renames:
             return matching
-        old = self.inputs.domain.features(last.version.snapshot)
+        old = self.elements_before
         if last.record.is_united:  # a united record has elements of both branches: a name may mean either
             return Matching(without_exchanges(matching, old).renames)
         found = {key: new for key, new in matching.renames.items() if key[1] not in declared}
@@ -89,11 +89,13 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
     @cached_property
     def has_exchanges(self) -> bool:
         """Whether an element has the former name of another one."""
+        return any((kind, new) in self.elements_before for (kind, _), new in self.renames.items())
+
+    @cached_property
+    def elements_before(self) -> Mapping[ElementKey, Features]:
+        """The elements of the last complete build, with their features."""
         last = self.inputs.last.version
-        if last is None or not self.renames:
-            return False
-        before = self.inputs.domain.features(last.snapshot)
-        return any((kind, new) in before for (kind, _), new in self.renames.items())
+        return {} if last is None else self.inputs.domain.features(last.snapshot)
 
     @property
     def undeclared_renames(self) -> Mapping[ElementKey, str]:

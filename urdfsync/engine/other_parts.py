@@ -19,7 +19,7 @@ from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.engine.actions import Reason
 from urdfsync.engine.decide import Decision
 from urdfsync.engine.generation import GONE, Generation
-from urdfsync.engine.package_names import identifier_of, known_names, other_parts
+from urdfsync.engine.package_names import elements_by_identifier, identifier_of, known_names, other_parts
 from urdfsync.files import shown
 from urdfsync.state.notes import Use
 
@@ -54,8 +54,8 @@ def _doubtful_names(generation: Generation) -> dict[str, str]:
     """Return the names that the last package had and that may mean other parts now."""
     if not (doubts := generation.matching.doubts):
         return {}
-    names = generation.inputs.domain.names(generation.now.snapshot, generation.inputs.robot.target)
-    elements = {identifier: (kind[:-1], name) for kind in names for name, identifier in names[kind].items()}
+    inputs = generation.inputs
+    elements = elements_by_identifier(inputs.domain, generation.now.snapshot, inputs.robot.target)
     return {name: MAYBE for name in known_names(generation) if elements.get(identifier_of(name, elements)) in doubts}
 
 

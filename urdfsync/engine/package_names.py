@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from pathlib import PurePosixPath
 
-from urdfsync.domain import displaced
+from urdfsync.domain import Domain, ElementKey, Snapshot, Target, displaced
 from urdfsync.engine.generation import GONE, Generation
 from urdfsync.modelica.files import class_path
 
@@ -47,11 +47,7 @@ def renamed_names(generation: Generation) -> dict[str, str]:
     names = names_of(generation, renamed, before := before | {*map(class_of, files)})
     gone = displaced(generation.renames)
     if last := inputs.last.version if gone else None:
-        identifiers = {
-            identifier: (kind.removesuffix("s"), name)
-            for kind, of_kind in inputs.domain.names(last.snapshot, inputs.last.target).items()
-            for name, identifier in of_kind.items()
-        }
+        identifiers = elements_by_identifier(inputs.domain, last.snapshot, inputs.last.target)
         # else they would mean the elements that have these names now
         names |= {name: f"{name}{GONE}" for name in before if identifiers.get(identifier_of(name, identifiers)) in gone}
     return names
@@ -99,6 +95,12 @@ def new_names(part: str, renamed: Mapping[str, str]) -> Iterator[str]:
         new = renamed[old]
         first = new[:1].upper() if part[:1].isupper() else new[:1].lower()
         yield from dict.fromkeys((f"{first}{new[1:]}{part[len(old) :]}", f"{new}{part[len(old) :]}"))
+
+
+def elements_by_identifier(domain: Domain, snapshot: Snapshot, target: Target) -> dict[str, ElementKey]:
+    """Return the elements of a model by their Modelica identifiers."""
+    names = domain.names(snapshot, target)
+    return {identifier: (kind.removesuffix("s"), name) for kind in names for name, identifier in names[kind].items()}
 
 
 def identifier_of(part: str, identifiers: Collection[str]) -> str:

@@ -56,7 +56,6 @@ class Settled(msgspec.Struct):
     """New names by old ones, before the choices."""
     keys: set[str] = msgspec.field(default_factory=set)
     """Keys of the choices that were applied."""
-
     asked: set[str] = msgspec.field(default_factory=set)
     """The keys of files that an answer about parts has changed."""
 
