@@ -205,8 +205,8 @@ def _named(
 
 def _has_followed(generation: Generation, action: Action, name: str, edit: _Edit, lines: Counter[str]) -> bool:
     """Return whether the file of the element's new name has the edit, too, so that this one is another edit."""
-    inputs, artifacts = generation.inputs, generation.package.artifacts
-    owner, template = f"{action.owner.partition(' ')[0]} {name}", artifacts[inputs.folder.path(action.path)].template
-    paths = (path for path, one in artifacts.items() if (one.owner, one.template) == (owner, template))
-    texts = (_lines(inputs.files.text(inputs.folder.key(path)) or "") for path in paths)
-    return any(not lines - text if edit.added else not lines & text for text in texts)
+    inputs, owner = generation.inputs, f"{action.owner.partition(' ')[0]} {name}"
+    if (path := generation.package.find_like(inputs.folder.path(action.path), owner)) is None:
+        return False
+    text = _lines(inputs.files.text(inputs.folder.key(path)) or "")
+    return not lines - text if edit.added else not lines & text

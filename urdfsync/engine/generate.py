@@ -50,6 +50,11 @@ class Package:
             self._hashes[path] = text_digest(self.content(path))
         return self._hashes[path]
 
+    def find_like(self, path: str, owner: str) -> str | None:
+        """Return the file of another owner that has the template of this one; None if there is none."""
+        template = self.artifacts[path].template
+        return next((a.path for a in self.artifacts.values() if (a.owner, a.template) == (owner, template)), None)
+
     def skip(self, noted: Mapping[str, tuple[str, str]], stored: Callable[[str], str | None]) -> None:
         """Take the hashes of texts that this program has rendered on this machine, as `notes` returned them.
 

@@ -160,57 +160,59 @@ def _move(generation: Generation, decision: Decision, action: Action, named: str
     Edits that leave their files in the same command make room for each other.
     """
     inputs, (kind, _, name), key = generation.inputs, action.owner.partition(" "), action.path
-    conflict, artifacts = decision.disputed[key], generation.package.artifacts
+    conflict, choices = decision.disputed[key], inputs.options.choices
     new = named or conflict.moved_to
-    template = artifacts[inputs.folder.path(key)].template
-    places = {one.owner: path for path, one in artifacts.items() if one.template == template}
+    path = _find_target(generation, action, new)
+    target, sha256 = inputs.folder.key(path), generation.package.hash(path)
+    is_leaving = target in choices and choices[target].choice is Choice.MOVED
+    is_asked = any(one.path == target and one.reason is Reason.ASKED for one in decision.actions)
+    message = ""
+    if is_asked and not is_leaving:
+        message, hint = "it is asked about, too", "settle it first, or name both files with --moved alone"
+    elif inputs.files.read(f"{target.removesuffix('.mo')}/package.mo") or inputs.files.read(key) is None:
+        message, hint = "one of the two classes is a folder", "move the edit by hand, then use --keep"
+    elif target in generation.moves.values():
+        message, hint = "its own text moves to another file", "build first, then move the edit by hand"
+    if message:
+        raise ConfigError.of("wrong-rename", message, shown(inputs.files.path(target)), hint=hint)
+    last, mine = inputs.last.files.get(target, FileRecord()), inputs.files.hash(target, action.role)
+    is_edited = mine not in (None, sha256, *last.hashes) and not is_leaving
+    text = (inputs.files.text(target) or "") if is_edited else generation.package.content(path).decode()
+    if target in settled.contents:
+        text = (settled.contents[target] or b"").decode()
+    merged = _merge_into(generation, conflict, f"{kind}s", name, new, text)
+    if merged is None:
+        message, hint = "your edit does not fit into this file", "move the edit by hand, then use --take"
+        raise ConfigError.of("wrong-rename", message, shown(inputs.files.path(target)), hint=hint)
+    if key not in settled.contents:  # else another edit has come here already
+        source = _generated(generation, action, inputs.files.read(key) or b"")
+        settled.add(inputs, action, source, FileRecord((str(action.generated),)), Reason.UPDATE, Choice.MOVED)
+    content = with_line_ends(encode(merged), inputs.files.read(target) or b"")
+    other = Action(target, Reason.MERGE, action.role, f"{kind} {new}", generated=sha256, mine=mine)
+    settled.add(inputs, other, content, last if is_edited else FileRecord((sha256,)), Reason.MERGE, Choice.MOVED)
+    return True
+
+
+def _find_target(generation: Generation, action: Action, new: str) -> str:
+    """Return the path of the like file of the element `new`, below the package. Raises ConfigError if there is none."""
+    inputs, (kind, _, name) = generation.inputs, action.owner.partition(" ")
+    path = generation.package.find_like(inputs.folder.path(action.path), f"{kind} {new}")
     known = {known for one, known in inputs.domain.features(generation.now.snapshot) if one == kind}
-    message = "" if new in known else f"the source has no {kind} `{new}`"
-    near = nearest(new, sorted(known - {name}))
-    hint = f"did you mean `{near}`?" if near and message else "name the part that the edit belongs to: --moved NAME"
+    near, message = nearest(new, sorted(known - {name})), ""
+    hint = "name the part that the edit belongs to: --moved NAME"
     if not name:
         message, hint = "it belongs to no single part", "change the names in it, then use --keep"
     elif not new:
         message = "it is not known to which part the edit belongs"
     elif new == name:
         message = f"it belongs to {kind} `{name}` already"
-    elif not message and f"{kind} {new}" not in places:
+    elif new not in known:
+        message, hint = f"the source has no {kind} `{new}`", f"did you mean `{near}`?" if near else hint
+    elif path is None:
         message = f"{kind} `{new}` has no such file"
-    if message:
-        raise ConfigError.of("wrong-rename", message, shown(inputs.files.path(key)), hint=hint)
-    path = places[f"{kind} {new}"]
-    target, generated = inputs.folder.key(path), generation.package.content(path).decode()
-    last, choices = inputs.last.files.get(target, FileRecord()), inputs.options.choices
-    is_leaving = target in choices and choices[target].choice is Choice.MOVED
-    if any(one.path == target and one.reason is Reason.ASKED for one in decision.actions) and not is_leaving:
-        file, message = shown(inputs.files.path(target)), "it is asked about, too"
-        raise ConfigError.of(
-            "wrong-rename", message, file, hint="settle it first, or name both files with --moved alone"
-        )
-    if inputs.files.read(f"{target.removesuffix('.mo')}/package.mo") or inputs.files.read(key) is None:
-        file, message = shown(inputs.files.path(target)), "one of the two classes is a folder"
-        raise ConfigError.of("wrong-rename", message, file, hint="move the edit by hand, then use --keep")
-    if target in generation.moves.values():
-        file, message = shown(inputs.files.path(target)), "its own text moves to another file"
-        raise ConfigError.of("wrong-rename", message, file, hint="build first, then move the edit by hand")
-    is_edited = inputs.files.hash(target, action.role) not in (None, generation.package.hash(path), *last.hashes)
-    is_edited = is_edited and not is_leaving
-    text = (inputs.files.text(target) or "") if is_edited else generated
-    if target in settled.contents:
-        text = (settled.contents[target] or b"").decode()
-    merged = _merge_into(generation, conflict, f"{kind}s", name, new, text)
-    if merged is None:
-        file, message = shown(inputs.files.path(target)), "your edit does not fit into this file"
-        raise ConfigError.of("wrong-rename", message, file, hint="move the edit by hand, then use --take")
-    content = with_line_ends(encode(merged), inputs.files.read(target) or b"")
-    record = last if is_edited else FileRecord((generation.package.hash(path),))
-    hashes = generation.package.hash(path), inputs.files.hash(target, action.role)
-    other = Action(target, Reason.MERGE, action.role, f"{kind} {new}", generated=hashes[0], mine=hashes[1])
-    if key not in settled.contents:  # else another edit has come here already
-        source = with_line_ends(generation.package.content(inputs.folder.path(key)), inputs.files.read(key) or b"")
-        settled.add(inputs, action, source, FileRecord((str(action.generated),)), Reason.UPDATE, Choice.MOVED)
-    settled.add(inputs, other, content, record, Reason.MERGE, Choice.MOVED)
-    return True
+    if message or path is None:
+        raise ConfigError.of("wrong-rename", message, shown(inputs.files.path(action.path)), hint=hint)
+    return path
 
 
 def _merge_into(generation: Generation, conflict: Conflict, kind: str, old: str, new: str, text: str) -> str | None:
