@@ -5,9 +5,9 @@ They depend on the structure of the robot alone, on no number of the URDF.
 
 from __future__ import annotations
 
-import functools
 from collections import defaultdict
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
+from functools import lru_cache
 from typing import Any
 
 import msgspec
@@ -28,7 +28,7 @@ _PICTURE = 100  # where the picture on the icon ends, and the rows begin
 _FRAME_Y = -50  # where the benches of the library have the frame that the robot is connected to
 
 
-@functools.lru_cache(maxsize=1)
+@lru_cache(maxsize=1)
 def robot_data(tree: KinematicTree, names: Connectors, dependent: frozenset[str]) -> Mapping[str, Any]:
     """Return the data of the robot model; `tree` has no numbers, `dependent` joints follow from others through loops.
 
@@ -149,17 +149,21 @@ def _drives(tree: KinematicTree, names: Connectors) -> list[dict[str, Any]]:
     ]
 
 
-def _rows(connectors: Iterable[str]) -> dict[str, int]:
-    """Return the rows of the connectors at one side of the icon; a new connector displaces few others."""
+@lru_cache(maxsize=8)
+def _rows(connectors: tuple[str, ...]) -> Mapping[str, int]:
+    """Return the rows of the connectors at one side of the icon; a new connector displaces few others.
+
+    Each file of the whole robot asks for them.
+    """
     return find_rows(dict.fromkeys(connectors, (0, range(1))), set())
 
 
-def _drive_rows(names: Connectors) -> dict[str, int]:
-    return _rows(drive.axis for drive in names.drives.values())
+def _drive_rows(names: Connectors) -> Mapping[str, int]:
+    return _rows(tuple(drive.axis for drive in names.drives.values()))
 
 
-def _frame_rows(names: Connectors) -> dict[str, int]:
-    return _rows([*names.frames.values(), *names.sensor_frames.values()])
+def _frame_rows(names: Connectors) -> Mapping[str, int]:
+    return _rows((*names.frames.values(), *names.sensor_frames.values()))
 
 
 def _y(row: int) -> int:
