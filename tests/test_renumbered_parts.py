@@ -520,6 +520,24 @@ def test_a_recorded_model_that_the_files_contradict_moves_nothing(edited: Path, 
     assert "Real mine" in Path(LINK.format(2)).read_text()
 
 
+@pytest.mark.parametrize("lost", ["links", "joints"])
+@pytest.mark.parametrize("export", EXPORTS)
+def test_a_recorded_model_that_lacks_parts_loses_no_edit(
+    edited: Path, execute: Execute, lost: str, export: str
+) -> None:
+    """As git may leave it: one branch took parts away, the other changed what names them."""
+    state = Path(".urdfsync/robots/arm.state")
+    text = state.read_text()
+    for number in "123":
+        kept = re.sub(rf'^model \["{lost}","\w+_{number}",.*\n', "", text, flags=re.MULTILINE)
+        assert kept != text
+        state.write_text(kept)
+        Path("arm.urdf").write_text(EXPORTS[export][0])
+        code = execute("build", code=None).code
+        assert code in (Exit.IN_STEP, Exit.CONFLICT)
+        assert sum("Real mine" in path.read_text() for path in Path("modelica/Arm").rglob("*.mo")) == 1
+
+
 @NEEDS_GIT
 @pytest.mark.slow
 @pytest.mark.parametrize("way", WAYS)

@@ -28,7 +28,10 @@ _PLACE = frozenset({"type", "kind", "origin", "child_origin", "axis", "child_axi
 
 
 def find_features(snapshot: Robot) -> Mapping[ElementKey, Features]:
-    """Return contents and neighbours of links, joints and loops."""
+    """Return contents and neighbours of links, joints and loops.
+
+    In a model that git has merged, a joint may name a link that is gone.
+    """
     features = dict[ElementKey, Features]()
     leading = {joint.child: joint.name for joint in snapshot.joints}
     for link in snapshot.links:
@@ -46,7 +49,8 @@ def find_features(snapshot: Robot) -> Mapping[ElementKey, Features]:
             more = {key: _without_names(data[key]) for key in data.keys() - _PLACE - _NAMES}
             contents |= {"limits": more} if more else {}
             ends: dict[str, ElementKey] = {"child": ("link", element.child), "parent": ("link", element.parent)}
-            features[kind, element.name] = Features(contents, ends)
+            existing = {relation: end for relation, end in ends.items() if end in features}
+            features[kind, element.name] = Features(contents, existing)
     return features
 
 
