@@ -158,7 +158,8 @@ def test_a_mistake_that_one_robot_meets_leaves_the_others_alone(
     monkeypatch.chdir(repository.folder)
     robots = ("one", "other")
     tables = [f'[robots.{name}]\nsource = "{name}.urdf"\npackage = "{name.title()}"\n' for name in robots]
-    Path("urdfsync.toml").write_text("".join(tables))
+    # without a library `check` compiles nothing
+    Path("urdfsync.toml").write_text("".join(tables) + '[check]\nlibrary = "nothing"\n')
     for name in robots:
         Path(f"{name}.urdf").write_text(URDF)
     execute("build", "--quiet")

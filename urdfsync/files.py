@@ -127,13 +127,13 @@ class Tree:
         self._checked = {str(root): True}
 
     def covers(self, path: str | os.PathLike[str]) -> bool:
-        """Whether a path is below the root; absolute, and without detours if it is a string."""
+        """Whether a path is below the root; absolute, and without `..` if it is a string."""
         return os.fspath(path).startswith(self._below)
 
     def read(self, path: str | os.PathLike[str]) -> bytes | None:
         """Read a file below the root; None if there is none.
 
-        A path that is a string is absolute and without detours.
+        A path that is a string is absolute and has no `..`.
 
         Raises OutputError for a link, for another irregular file, and for an unreadable one.
         """

@@ -123,7 +123,7 @@ class _Matcher:
         return sorted(self._old, key=lambda key: (kinds[key[0]], key[1]))
 
     def _take(self, matches: Iterable[tuple[ElementKey, ElementKey]]) -> dict[ElementKey, ElementKey]:
-        """Add the matches of unmatched elements; return these."""
+        """Match those of these pairs whose elements have no match yet; return the new matches."""
         taken = dict[ElementKey, ElementKey]()
         for old, new in matches:
             if old in self._old and new in self._new and old not in self._pairs and new not in self._taken:

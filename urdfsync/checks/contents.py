@@ -28,7 +28,8 @@ def content_hash(root: Path, without: Collection[str] = ()) -> str:
     """Return the SHA-256 (hex) over a file, or over the names and contents of all files below a folder.
 
     Left out are hidden files, Python's caches, and files and folders with one of the names `without`. An unreadable
-    file counts as empty: a compiler can't read it either. Raises UrdfsyncError for a link to a folder or out of `root`.
+    file counts as empty: a compiler can't read it either. Raises UrdfsyncError for a symbolic link to a folder,
+    or to a file outside of `root`.
     """
     # strings take half the time of paths: a library has 3,000 files
     top, files, hashed = os.path.realpath(root), list[str](), hashlib.sha256()
@@ -67,7 +68,7 @@ def copy_library(
 ) -> None:
     """Copy a library, which is a folder or a file. `leave_out` is as the `ignore` of `shutil.copytree`.
 
-    Raises UrdfsyncError for a link to a folder or out of the library, and for a library that is too large.
+    Raises UrdfsyncError for a symbolic link to a folder or out of the library, and for a library that is too large.
     """
     top, size = os.path.realpath(root), 0
 

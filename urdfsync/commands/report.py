@@ -34,8 +34,8 @@ def add(commands: arguments.Commands) -> None:
         "report",
         "--wait",
         help="write a page with a robot in 3D, and what changed",
-        description="Write one HTML file that needs nothing else: the robot in 3D with its axes to move, its tree and "
-        "its diagram, what changed since the last build or another version, your edits and the conflicts.",
+        description="Write one HTML file that needs nothing else: the robot in 3D with joints that you can move, its "
+        "tree and its diagram, what changed since the last build or another version, your edits and the conflicts.",
         epilog="examples: urdfsync report arm\n          urdfsync report arm --against HEAD~1 --output review.html",
     )
     option = parser.add_argument

@@ -69,7 +69,7 @@ def tell_uses(uses: Mapping[str, Use]) -> Iterator[Diagnostic]:
             hint = f"use `{new}`, or save the file as it is"
             if new.endswith(GONE):
                 message = f"`{name}` names another part now: its former part is gone"
-                hint = "change this use, or save the file as it is"
+                hint = "change it, or save the file as it is if it is right"
             elif new == MAYBE:
                 message, hint = f"`{name}` may name another part now", "look at it, and save the file"
             yield Diagnostic(Severity.WARNING, CODE, message, shown(Path(path)), line, hint=hint)

@@ -91,7 +91,7 @@ class PackageFiles:
         return Path(self._place(key))
 
     def is_inside(self, key: str) -> bool:
-        """Return whether urdfsync may touch the file: it is below the output folder or the configuration's."""
+        """Return whether urdfsync may touch the file: it is below the output folder or that of the configuration."""
         return self._tree(self._place(key).rpartition(os.sep)[0]) is not None
 
     def is_chosen(self, key: str) -> bool:

@@ -100,7 +100,7 @@ class _Environment(jinja2.Environment):
     """Jinja for templates of installed packages."""
 
     def getattr(self, obj: Any, attribute: str) -> Any:
-        """See Jinja. Items of a dict go before its methods, as in an element that is called `items`."""
+        """See Jinja. `x.items` is an item `items` of the dict, if it has one, and else its method."""
         return obj[attribute] if type(obj) is dict and attribute in obj else super().getattr(obj, attribute)
 
 
@@ -167,7 +167,7 @@ class _Sandbox(ImmutableSandboxedEnvironment):
         return super().call(context, function, *arguments, **named)
 
     def getattr(self, obj: Any, attribute: str) -> Any:
-        """See Jinja. Items of a dict go before its methods, as in an element that is called `items`.
+        """See Jinja. `x.items` is an item `items` of the dict, if it has one, and else its method.
 
         They and the fields of structs are data, which the sandbox allows.
         """

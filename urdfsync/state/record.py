@@ -57,8 +57,8 @@ class FileRecord(msgspec.Struct, frozen=True):
     def base(self, mine: object, generated: str | None) -> str | None:
         """Return the base to compare with; None if urdfsync never wrote the file.
 
-        An unedited file has any of the hashes. An edited one with an ambiguous base has to conflict: its base differs
-        from the generated text.
+        An unedited file has any of the hashes. An edited file with an ambiguous base has to conflict, so its
+        base is one that differs from the generated text.
         """
         if not self.hashes:
             return None

@@ -223,7 +223,7 @@ def is_inside(path: str) -> bool:
 
 
 def _is_normal(path: str) -> bool:
-    """Whether a path is relative, with forward slashes, without detours and control characters."""
+    """Whether a path is relative, with forward slashes, without `..` and control characters."""
     is_absolute = path.startswith("/") or re.match(r"[A-Za-z]:", path) is not None
     is_printable = not any(ord(char) < 32 or ord(char) == 127 for char in path)
     return not is_absolute and is_printable and "\\" not in path and posixpath.normpath(path) == path

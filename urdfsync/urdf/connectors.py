@@ -14,7 +14,7 @@ from urdfsync.urdf.drives import assembly, can_be_driven, has_motor
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.names import GENERATED, Identifier, identify
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import MOTION_KINDS, Command, Motion
+from urdfsync.urdf.robot import MOTION_KINDS, SENSOR_KINDS, Command, Motion
 
 _VARIABLES: Mapping[Motion, Mapping[Command, str]] = {
     "rotational": {"position": "phi", "velocity": "w", "effort": "tau"},
@@ -111,7 +111,7 @@ def connector_names(tree: KinematicTree, options: Options) -> Connectors:
         {
             sensor.name: free_name(sensors["sensor", sensor.name], "Frame", taken | used)
             for sensor in tree.sensors
-            if sensor.kind in ("camera", "lidar")
+            if SENSOR_KINDS[sensor.kind].has_frame
         },
     )
 

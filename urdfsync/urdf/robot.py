@@ -65,6 +65,41 @@ JOINT_KINDS: Mapping[JointType, JointKind] = {
 MOTION_KINDS: Mapping[JointType, Motion] = {name: kind.motion for name, kind in JOINT_KINDS.items() if kind.motion}
 
 
+class Output(NamedTuple):
+    """A vector that a sensor shows."""
+
+    name: str
+    unit: str
+    """As Modelica writes it."""
+    quantity: str
+    """In words."""
+
+
+class SensorModel(msgspec.Struct, frozen=True):
+    """The properties of a kind of sensor."""
+
+    name: str
+    """Its class in the library's `Sensors`."""
+    at: Literal["link", "joint"] = "link"
+    outputs: tuple[Output, ...] = ()
+    """Those of Run."""
+    has_frame: bool = False
+    """Whether the robot has a frame for what looks through it."""
+    record: str = "Sensor"
+    """The class of its numbers in the library's `Records`."""
+
+
+_GAIN, _TURN = Output("a", "m/s2", "acceleration minus gravity"), Output("w", "rad/s", "angular velocity")
+SENSOR_KINDS: Mapping[SensorKind, SensorModel] = {
+    "imu": SensorModel("Imu", outputs=(_GAIN, _TURN)),
+    "accelerometer": SensorModel("Imu", outputs=(_GAIN,)),
+    "gyroscope": SensorModel("Imu", outputs=(_TURN,)),
+    "force_torque": SensorModel("ForceTorque", "joint", (Output("f", "N", "force"), Output("t", "N.m", "torque"))),
+    "camera": SensorModel("Camera", has_frame=True, record="Camera"),
+    "lidar": SensorModel("Lidar", has_frame=True, record="Lidar"),
+}
+
+
 class Origin(msgspec.Struct, frozen=True, gc=False):
     """Pose of a child frame in its parent frame."""
 
@@ -359,6 +394,11 @@ class Sensor(msgspec.Struct, frozen=True, gc=False):
     """Whether the wrench is in the axes of the parent link, not the child."""
     on_child: bool = False
     """Whether the wrench acts from the parent on the child, not the other way round."""
+
+    @property
+    def is_in_joint(self) -> bool:
+        """Whether `at` is a joint."""
+        return SENSOR_KINDS[self.kind].at == "joint"
 
 
 class Robot(msgspec.Struct, frozen=True, gc=False):

@@ -111,7 +111,7 @@ _WARNINGS = {
     "duplicate-element": "remove the others",
     "sdf-spelling": "write it as URDF has it: other programs leave it out",
     "missing-value": "add one of them, or take the element out, which ROS's parser refuses",
-    "newer-version": "remove what is newer than URDF 1.2: it has no effect",
+    "newer-version": "remove what is newer than URDF 1.2: urdfsync ignores it",
     "newer-attribute": "name the version of URDF that has it",
     "unknown-attribute": "correct its name, or remove it",
     "unknown-element": "correct its name, or remove it",

@@ -307,7 +307,7 @@ def _cells(tree: KinematicTree) -> _Cells:
     carriers = _carriers(tree)
     starts = {name: (links[link][0] + 1, range(columns[link], columns[link] + 1)) for name, link in carriers.items()}
     rows = find_rows(starts, taken)
-    below += ((sensor.at, rows[sensor.name]) for sensor in tree.sensors if sensor.kind != "force_torque")
+    below += ((sensor.at, rows[sensor.name]) for sensor in tree.sensors if not sensor.is_in_joint)
     sensors = {name: (rows[name], columns[link]) for name, link in carriers.items()}
     return _Cells({link.name: links[link.name] for link in tree.links}, joints, sensors, below)
 
@@ -315,7 +315,7 @@ def _cells(tree: KinematicTree) -> _Cells:
 def _carriers(tree: KinematicTree) -> dict[str, str]:
     """Return the link above each sensor; a force-torque sensor stands below the joint's child."""
     children = {joint.name: joint.child for joint in tree.joints}
-    return {sensor.name: children[sensor.at] if sensor.kind == "force_torque" else sensor.at for sensor in tree.sensors}
+    return {sensor.name: children[sensor.at] if sensor.is_in_joint else sensor.at for sensor in tree.sensors}
 
 
 def _placements(tree: KinematicTree, names: Connectors, grid: _Grid) -> dict[str, Placement]:
@@ -359,7 +359,7 @@ def _lines(
     motions = {joint.name: MOTION_KINDS[joint.type] for joint in tree.joints if joint.type in MOTION_KINDS}
     carried = defaultdict[str, list[str]](list)
     for sensor in tree.sensors:
-        if sensor.kind != "force_torque":
+        if not sensor.is_in_joint:
             carried[sensor.at].append(sensor.name)
 
     def place(end: str) -> Point:

@@ -12,7 +12,7 @@ from msgspec.structs import replace
 
 from urdfsync.domain import ElementKey, Features, displaced, plain
 from urdfsync.urdf.drives import can_be_driven, passive_joints
-from urdfsync.urdf.robot import Collision, Mesh, Robot, Visual
+from urdfsync.urdf.robot import SENSOR_KINDS, Collision, Mesh, Robot, Visual
 
 _NAMES = frozenset(
     {"name", "parent", "child", "joint", "actuated", "measured", "drive", "transmission", "command", "start"}
@@ -86,9 +86,7 @@ def renamed(robot: Robot, renames: Mapping[ElementKey, str]) -> Robot:
             replace(joint, mimic=joint.mimic and mentioning(joint.mimic))
             for joint in under_new_names("joint", robot.joints)
         ),
-        sensors=tuple(
-            replace(one, at=new("joint" if one.kind == "force_torque" else "link", one.at)) for one in robot.sensors
-        ),
+        sensors=tuple(replace(one, at=new(SENSOR_KINDS[one.kind].at, one.at)) for one in robot.sensors),
         loops=tuple(under_new_names("loop", robot.loops)),
         extensions={
             f"{key[0]} {new(*key)}" if key[1] else place: robot.extensions[place] for place, key in kept.items()

@@ -8,19 +8,11 @@ import msgspec
 
 from urdfsync.urdf.connectors import Connectors
 from urdfsync.urdf.kinematics.tree import KinematicTree
+from urdfsync.urdf.robot import SENSOR_KINDS
 
 _ROW = 20  # height of an output in the diagram of Run
 _TOP = 80  # of the first one, below those of the drives
 _ICON_ROW, _ICON_TOP = 10, 90
-
-_A, _W = ("a", "m/s2", "acceleration minus gravity"), ("w", "rad/s", "angular velocity")
-_OUTPUTS = {
-    "imu": (_A, _W),
-    "accelerometer": (_A,),
-    "gyroscope": (_W,),
-    "force_torque": (("f", "N", "force"), ("t", "N.m", "torque")),
-}
-"""Outputs of a sensor by its kind: name, unit, and quantity in words."""
 
 
 def sensor_models(tree: KinematicTree, names: Connectors) -> list[dict[str, Any]]:
@@ -28,9 +20,10 @@ def sensor_models(tree: KinematicTree, names: Connectors) -> list[dict[str, Any]
     return [
         {
             "component": names.sensors[sensor.name],
-            "kind": sensor.kind,
-            "title": f'sensor "{sensor.name}" of {"joint" if sensor.kind == "force_torque" else "link"} "{sensor.at}"',
-            "joint": tree.joint(sensor.at).component if sensor.kind == "force_torque" else None,
+            "model": SENSOR_KINDS[sensor.kind].name,
+            "record": SENSOR_KINDS[sensor.kind].record,
+            "title": f'sensor "{sensor.name}" of {SENSOR_KINDS[sensor.kind].at} "{sensor.at}"',
+            "joint": tree.joint(sensor.at).component if sensor.is_in_joint else None,
             "in_parent": sensor.in_parent,
             "sign": "-" if sensor.on_child else "",
             "frame": names.sensor_frames.get(sensor.name),
@@ -50,11 +43,11 @@ def sensor_outputs(tree: KinematicTree, names: Connectors) -> list[dict[str, Any
     outputs = [
         {
             "component": names.sensors[sensor.name],
-            "output": output,
-            "unit": unit,
-            "text": f'{quantity} that sensor "{sensor.name}" shows',
+            "output": output.name,
+            "unit": output.unit,
+            "text": f'{output.quantity} that sensor "{sensor.name}" shows',
         }
         for sensor in tree.sensors
-        for output, unit, quantity in _OUTPUTS.get(sensor.kind, ())
+        for output in SENSOR_KINDS[sensor.kind].outputs
     ]
     return [row | {"y": _TOP - _ROW * k, "icon_y": _ICON_TOP - _ICON_ROW * k} for k, row in enumerate(outputs)]

@@ -11,7 +11,7 @@ from xml.etree.ElementTree import Element
 import msgspec
 
 from urdfsync.urdf.parse.fields import Reader, quoted
-from urdfsync.urdf.robot import Camera, Joint, Lidar, Origin, Sensor, SensorKind
+from urdfsync.urdf.robot import SENSOR_KINDS, Camera, Joint, Lidar, Origin, Sensor, SensorKind
 
 _TYPES: Mapping[str, SensorKind] = {
     "imu": "imu",
@@ -79,14 +79,13 @@ def read_sensors(reader: Reader, root: Element, links: Collection[str], joints: 
     joints_above, joint_names = {joint.child: joint.name for joint in joints}, {joint.name for joint in joints}
     placed = list[_SensorElement]()
     for source in _find_sensors(root):
-        place, is_wrench = source.at, source.kind == "force_torque"
-        if is_wrench and place not in joint_names:  # gazebo names the joint's child link
+        place, kind = source.at, SENSOR_KINDS[source.kind].at
+        if kind == "joint" and place not in joint_names:  # gazebo names the joint's child link
             place = joints_above.get(place, place)
         path = reader.place(source.element, f"sensor {source.name}")
-        if place in (joint_names if is_wrench else links):
+        if place in (joint_names if kind == "joint" else links):
             placed.append(source._replace(at=place))
             continue
-        kind = "joint" if is_wrench else "link"
         message = f"{path} is at {kind} {source.at!r}, which does not exist: it is left out"
         reader.add(source.element, "unknown-sensor-place", message)
     counts = Counter(name for name, _ in {(source.name, source.at) for source in placed})

@@ -18,7 +18,7 @@ from urdfsync.urdf.physics.motion import COMPARED, Instant
 from urdfsync.urdf.physics.probe import CENTRE, FORCE, MASS, TORQUE, RobotVariables
 from urdfsync.urdf.physics.reference import Gear, Solution
 from urdfsync.urdf.physics.subject import Subject
-from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS
+from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS, SENSOR_KINDS
 
 Pair: TypeAlias = tuple[Compared, Sequence[Iterable[float]]]
 """A quantity, and its expected values at each of its instants."""
@@ -107,17 +107,18 @@ def sensors(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
     """Yield the readings of the sensors that measure motion or forces."""
     parents = {joint.name: joint.parent for joint in subject.tree.joints}
     for sensor in subject.tree.sensors:
-        if sensor.kind in ("imu", "accelerometer", "gyroscope"):  # all values of the component are compared
-            outputs = {"a": "m/s²", "w": "rad/s"}
+        if SENSOR_KINDS[sensor.kind].name == "Imu":
+            outputs = SENSOR_KINDS["imu"].outputs  # all values of the component are compared
             rows = [subject.reference.acceleration(subject.states[t], sensor, subject.root) for t in COMPARED]
-        elif sensor.kind == "force_torque":
-            outputs = {"f": "N", "t": "N·m"}
+        elif sensor.is_in_joint:
+            outputs = SENSOR_KINDS[sensor.kind].outputs
             at = parents[sensor.at]
             rows = [subject.reference.wrench(subject.states[t], sensor, at, subject.root) for t in COMPARED]
         else:
             continue
-        for k, (output, unit) in enumerate(outputs.items()):
+        for k, (output, modelica_unit, _) in enumerate(outputs):
             values = tuple(f"{names.sensors[sensor.name]}.{output}[{i}]" for i in (1, 2, 3))
+            unit = modelica_unit.replace("2", "²").replace(".", "·")
             compared = Compared(Quantity.READING, f"sensor {sensor.name}", unit, values, COMPARED, Part.SENSORS, output)
             yield compared, [row[k] for row in rows]
 

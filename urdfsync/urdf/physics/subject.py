@@ -36,7 +36,7 @@ class Subject:
         self.tree, self.target, self.options = closed.tree, sample.target, options
         self.root: Element = xml.parse(sample.content).root
         self.axes = tuple(joint for joint in motion.driven_axes(tree) if joint.name not in closed.dependent)
-        sensed = {sensor.at for sensor in tree.sensors if sensor.kind == "force_torque"}
+        sensed = {sensor.at for sensor in tree.sensors if sensor.is_in_joint}
         names = [joint.name for joint in self.axes]
         self.reference = Reference(read(sample.content, sample.file, sensed), names, closed)
         self.base = motion.base_courses()
