@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import functools
 import gc
+import itertools
 import os
 import shutil
 import signal
 import sys
 from collections import Counter
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Generator, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -243,11 +244,12 @@ def snapshot_of() -> Callable[[Path], dict[str, tuple[int, bytes]]]:
     return files.snapshot
 
 
-@pytest.hookimpl(tryfirst=True)  # before `-m` looks at the marks
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+@pytest.hookimpl(wrapper=True, tryfirst=True)  # before `-m` looks at the marks
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> Generator[None]:
     """Mark what shows the same with every Python, and all but the first case of a test, and put long tests first.
 
-    The longest of all hardly computes. Then come those that take seconds, so that no process ends late.
+    xdist gives each process a piece of this list, and what is left of others' pieces later. So each piece begins with
+    long tests, those of a file in one piece: no process ends late.
     """
     cases = Counter[str]()
     for item in items:
@@ -255,7 +257,18 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         if cases[test] or _is_same_with_every_python(item):
             item.add_marker("once")
         cases[test] += 1
-    items.sort(key=lambda item: ("soak" not in item.nodeid, item.get_closest_marker("slow") is None))
+    yield
+    slow = [item for item in items if item.get_closest_marker("slow")]
+    quick = [item for item in items if not item.get_closest_marker("slow")]
+    pieces: list[list[pytest.Item]] = [[] for _ in range(int(os.environ.get("PYTEST_XDIST_WORKER_COUNT", "1")))]
+    for _, tests in itertools.groupby(slow, key=lambda item: item.path):
+        min(pieces, key=len).extend(tests)
+    size = len(items) // len(pieces)
+    for piece in pieces:
+        room = max(0, size - len(piece))
+        piece += quick[:room]
+        del quick[:room]
+    items[:] = [*itertools.chain.from_iterable(pieces), *quick]
 
 
 _SAME = tuple(f"tests/{name}" for name in (

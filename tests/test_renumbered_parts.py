@@ -541,8 +541,10 @@ def test_a_recorded_model_that_lacks_parts_loses_no_edit(
 @NEEDS_GIT
 @pytest.mark.slow
 @pytest.mark.parametrize("way", WAYS)
-@pytest.mark.parametrize("edits_first", [False, True])
-@pytest.mark.parametrize("driver", [False, True])
+@pytest.mark.parametrize(
+    ("edits_first", "driver"),
+    [(False, True), (True, False), *(pytest.param(both, both, marks=pytest.mark.large) for both in (False, True))],
+)
 def test_one_branch_exchanges_names_and_the_other_edits(
     folder: Path, monkeypatch: pytest.MonkeyPatch, execute: Execute, way: str, edits_first: bool, driver: bool
 ) -> None:

@@ -399,7 +399,7 @@ STEPS = st.lists(st.one_of(CHANGES, st.sampled_from([BUILD, CHECK, STATUS, "rest
 
 
 @pytest.mark.slow
-@often(12)
+@often(6)
 @given(STEPS)
 def test_check_and_command_agree(
     in_step: Path, tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch, steps: list[object]
