@@ -229,6 +229,24 @@ def test_an_edit_of_a_common_file_that_names_what_may_be_another_part_is_asked_a
     execute("build", "--check")
 
 
+@NEEDS_GIT
+def test_a_clone_asks_nothing_about_words_in_a_remark(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, execute: Execute
+) -> None:
+    """The edit was made before the export; this machine knows that, and a clone looks for it in the commits."""
+    Path("urdfsync.toml").write_text(CONFIGURATION)
+    repository = Repository(folder, monkeypatch)
+    Path("arm.urdf").write_text(arm(1.1, 2.2, 3.3))
+    execute("build")
+    edit("modelica/Arm/Links/package.mo", "\n  annotation", '\n  constant Real mine = 1 "Of link_2";\n\n  annotation')
+    repository.commit()
+    Path("arm.urdf").write_text(arm(1.1, 2.2, 3.3, order="213"))
+    execute("build")
+    repository.commit()
+    repository.git("clone", "-q", ".", "clone")
+    execute("build", "--config", "clone/urdfsync.toml")
+
+
 def test_the_same_part_gets_what_is_new(folder: Path, execute: Execute) -> None:
     record = LINK.format(1).replace(".mo", "Parameters.mo")
     Path("urdfsync.toml").write_text(CONFIGURATION)

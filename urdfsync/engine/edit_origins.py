@@ -27,6 +27,7 @@ from urdfsync.engine.package_names import elements_by_identifier, identifier_of
 from urdfsync.engine.renames import find_matching
 from urdfsync.files import digest
 from urdfsync.matching import Doubt
+from urdfsync.modelica.files import code_of, text_of
 from urdfsync.state import statefile
 from urdfsync.state.record import FileRecord, as_read
 
@@ -167,6 +168,7 @@ def _look(generation: Generation, commit: Revision, edits: Mapping[Action, _Edit
     except (KeyError, SourceError, StateError, *NO_MODEL):
         return {}
     formers, moved = {(key[0], new): key[1] for key, new in matching.renames.items()}, dict(matching.doubts)
+    now = inputs.domain.features(generation.now.snapshot)
     for key in known:
         if key in matching.renames or key in formers:
             moved_to = matching.renames.get(key, "")
@@ -180,7 +182,8 @@ def _look(generation: Generation, commit: Revision, edits: Mapping[Action, _Edit
             doubt = moved.get(element)
             if doubt and not _has_followed(generation, action, doubt.moved_to, edits[action], lines):
                 doubts[action.path] = doubt
-        elif doubt := _named(generation, lines, moved, snapshot):
+        # a name that is gone is told as such
+        elif doubt := _named(generation, lines, {key: moved[key] for key in moved if key in now}, snapshot):
             doubts[action.path] = doubt
     return doubts
 
@@ -198,7 +201,8 @@ def _named(
     if not doubts:
         return None
     elements = elements_by_identifier(generation.inputs.domain, snapshot, generation.inputs.last.target)
-    words = dict.fromkeys(word for line in lines for word in re.findall(r"\w+", line))
+    code = text_of(code_of("\n".join(lines).encode()))
+    words = dict.fromkeys(re.findall(r"\w+", code))
     found = (elements.get(identifier_of(word, elements)) for word in words)
     return next((doubts[key] for key in found if key and key in doubts), None)
 
