@@ -277,6 +277,12 @@ _SAME = tuple(f"tests/{name}" for name in (
 ))  # fmt: skip
 
 
+def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
+    """Leave out the files that `-m "not once"` would deselect whole: a process takes 13 s to find all tests."""
+    is_one_more = "not once" in config.option.markexpr and collection_path.is_relative_to(REPOSITORY)
+    return True if is_one_more and str(collection_path.relative_to(REPOSITORY)).startswith(_SAME) else None
+
+
 def _is_same_with_every_python(item: pytest.Item) -> bool:
     """Whether a test compiles models, reads the corpus or draws random cases; compilers have tests of their own.
 

@@ -52,7 +52,7 @@ def put_aside(
         place, after = PurePosixPath(folder.path(key)), contents.get(key, settled.contents.get(key))
         file = place.with_name(f"{place.stem}.{digest(former.text)[:8]}{place.suffix}").as_posix()
         sha256, bases = None if after is None else state_of(after).text_sha256, (former.record.hashes, former.bases)
-        index[str(place)] = Aside(file, sha256, *bases, beside if key in chosen else {}, key in settled.asked)
+        index[str(place)] = Aside(file, sha256, *bases, beside if key in chosen else {})
         texts[file] = former.text
     return index, texts
 

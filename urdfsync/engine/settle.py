@@ -56,8 +56,6 @@ class Settled(msgspec.Struct):
     """New names by old ones, before the choices."""
     keys: set[str] = msgspec.field(default_factory=set)
     """Keys of the choices that were applied."""
-    asked: set[str] = msgspec.field(default_factory=set)
-    """The keys of files that an answer about parts has changed."""
 
     def add(
         self, inputs: Inputs, action: Action, content: bytes | None, record: FileRecord, reason: Reason, choice: Choice
@@ -68,7 +66,6 @@ class Settled(msgspec.Struct):
         if mine is not None and (choice is not Choice.UNDO or content != mine):  # else there is nothing to bring back
             self.before[key] = Former(mine, former, inputs.last.bases(former))
         self.contents[key], self.bases[key] = content, record
-        self.asked |= {key} if action.reason is Reason.ASKED or choice is Choice.MOVED else set()
         changes = {"path": key, "origin": None, "reason": reason, "choice": choice, "is_waiting": False}
         self.actions[key] = msgspec.structs.replace(action, **changes)
 
@@ -102,10 +99,6 @@ def _settle(generation: Generation, decision: Decision, action: Action, chosen: 
         aside = inputs.last.aside.get(inputs.folder.path(key))
         if aside is None or action.role is Role.IMPORT or inputs.files.hash(key, action.role) != aside.after:
             return False
-        if aside.is_asked:
-            saved = inputs.store.aside_file(inputs.robot.name).parent / aside.file
-            message, hint = "an answer about parts can't be undone", f"take what you want from {shown(saved)}"
-            raise OutputError.of("no-undo", message, shown(inputs.files.path(key)), hint=hint)
         content, reason = inputs.last.aside_text(aside.file), Reason.UNDO
         if content is None:
             return False

@@ -54,8 +54,6 @@ class Aside(msgspec.Struct, frozen=True, omit_defaults=True):
     """The known texts of these bases, by hash."""
     beside: Mapping[str, str] = {}
     """The texts of unedited models that were deleted with it, by path below the package."""
-    is_asked: bool = False
-    """Whether the text was replaced by an answer about parts, after which nobody would ask again."""
 
 
 class Store:
