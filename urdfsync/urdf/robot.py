@@ -196,12 +196,18 @@ class Dynamics(msgspec.Struct, frozen=True, gc=False):
 
 
 class Transmission(msgspec.Struct, frozen=True, gc=False):
-    """The gear of a drive: position of the motor = `reduction` · (position of the joint - `offset`)."""
+    """The gear of a drive.
+
+    Position of the motor = `reduction` · (position of the joint - `offset`) + `joint_reduction` · position of `joint`.
+    """
 
     reduction: Annotated[float, Unit("", "rad/m")] = 1.0
     offset: Annotated[float, _POSITION] = 0.0
     rotor_inertia: Annotated[float | None, _INERTIA] = None
     """Inertia of the motor, on its own side of the gear."""
+    joint: str | None = None
+    """Another joint that the motor moves, as in a differential; None for the motor of one joint."""
+    joint_reduction: float = 0.0
 
 
 class Mimic(msgspec.Struct, frozen=True, gc=False):
