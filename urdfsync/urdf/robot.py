@@ -286,7 +286,7 @@ def reflected_inertia(joint: Joint) -> float | None:
     rotor = joint.transmission.rotor_inertia if joint.transmission else None
     if joint.transmission is None or rotor is None:
         return armature
-    return (armature or 0.0) + rotor * joint.transmission.reduction**2
+    return (armature or 0.0) + rotor * joint.transmission.reduction * joint.transmission.reduction
 
 
 def effective(joint: Joint) -> Joint:

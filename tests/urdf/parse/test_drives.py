@@ -27,6 +27,10 @@ def actuated(reading: RobotReading) -> list[str]:
     return sorted(joint.name for joint in reading.robot.joints if joint.actuated)
 
 
+def coupled(kind: str, *parts: str, within: str = "type") -> str:
+    return f'<transmission name="t"><{within}>transmission_interface/{kind}</{within}>{"".join(parts)}</transmission>'
+
+
 FORMS = {
     "with an interface": ("""<transmission name="t"><type>transmission_interface/SimpleTransmission</type>
             <joint name="elbow"><hardwareInterface>EffortJointInterface</hardwareInterface></joint>
@@ -35,6 +39,7 @@ FORMS = {
     "as for the PR2": ("""<transmission name="t" type="pr2_mechanism_model/SimpleTransmission"><actuator name="m"/>
             <joint name="elbow"/><mechanicalReduction>1</mechanicalReduction></transmission>""",
         ["elbow"]),
+    "a coupling of no joint": (coupled("DifferentialTransmission", "<actuator name='m'/>"), []),
     "no joint": ("<transmission><joint/><actuator name='elbow'/></transmission>", []),
     "not its own joint": ("<transmission><group><joint name='elbow'/></group></transmission>", []),
     "ros2_control, with a joint that is measured only": (
@@ -152,10 +157,6 @@ def test_of_two_gears_the_first_counts() -> None:
     assert elbow(reading).transmission == Transmission(5.0)
 
 
-def coupled(kind: str, *parts: str, within: str = "type") -> str:
-    return f'<transmission name="t"><{within}>transmission_interface/{kind}</{within}>{"".join(parts)}</transmission>'
-
-
 def part(tag: str, role: str, reduction: float, inside: str = "") -> str:
     """A joint or an actuator of ROS 1."""
     name = {"joint1": "elbow", "joint2": "roll"}.get(role, role)
@@ -205,15 +206,17 @@ ROLES = "needs two joints and two actuators, with the roles joint1, joint2, actu
 
 @pytest.mark.parametrize(("element", "names", "words"), [
     (GRIPPER, ["elbow"],
-     "transmission grip (pr2_mechanism_model/PR2GripperTransmission) couples elbow, roll "
+     "transmission grip (pr2_mechanism_model/PR2GripperTransmission) moves elbow, roll "
      f"{MOVES_BY_ITSELF}; {BY_HAND}"),
     ('<transmission><joint1 name="elbow"/><joint2 name="roll"/></transmission>', ["elbow", "roll"],
-     f"transmission number 1 (without a type) couples elbow, roll {MOVES_BY_ITSELF}; {BY_HAND}"),
+     f"transmission number 1 (without a type) moves elbow, roll {MOVES_BY_ITSELF}; {BY_HAND}"),
     (coupled("DifferentialTransmission", *JOINTS, ACTUATORS[0]), ["elbow", "roll"],
-     f"transmission t (transmission_interface/DifferentialTransmission) couples elbow, roll {MOVES_BY_ITSELF}; "
+     f"transmission t (transmission_interface/DifferentialTransmission) moves elbow, roll {MOVES_BY_ITSELF}; "
      f"a transmission_interface/DifferentialTransmission {ROLES}"),
     (coupled("DifferentialTransmission", *JOINTS, *(text.replace("tor1", "tor3") for text in ACTUATORS)),
      ["elbow", "roll"], f"a transmission_interface/DifferentialTransmission {ROLES}"),
+    (coupled("DifferentialTransmission", *JOINTS, JOINTS[1].replace("roll", "drive wheel"), *ACTUATORS), ["drive wheel", "elbow", "roll"],
+     f"a transmission_interface/DifferentialTransmission {ROLES}"),
     (coupled("DifferentialTransmission", *JOINTS, *ACTUATORS).replace(">10<", ">1e-300<").replace(">2<", ">1e-300<"),
      ["elbow", "roll"], MOVES_BY_ITSELF),
 ])  # fmt: skip

@@ -126,7 +126,7 @@ def _read_gears(
     for part in (element, *joints, *actuators):
         if law or part.tag in ("transmission", "joint", "actuator"):
             reader.expect(part, path, ("name", "type", "role", *(("mechanicalReduction", "offset") if law else ())))
-    if not law and [joint.tag for joint in joints] in ([], ["joint"]):
+    if not joints or (not law and [joint.tag for joint in joints] == ["joint"]):
         return [_read_gear(reader, element, path) for _ in joints]
     if law and (gears := _read_coupled_gears(reader, path, law, joints, actuators)):
         reader.used.update(part for part in element if part.tag in ("type", "plugin"))
@@ -134,7 +134,7 @@ def _read_gears(
     # Franka's simulator has such transmissions for handles of the whole arm; they couple nothing
     if not kind.endswith("Interface"):
         names = ", ".join(dict.fromkeys(joint.get("name", "") for joint in joints))
-        message = f"{path} ({kind or 'without a type'}) couples {names} in a way that is not modelled: "
+        message = f"{path} ({kind or 'without a type'}) moves {names} in a way that is not modelled: "
         hint = (
             f"a {kind} needs two joints and two actuators, with the roles {', '.join(_ROLES.values())}" if law else ""
         )
@@ -149,10 +149,10 @@ def _read_coupled_gears(
     parts = dict[str, Element]()
     for kind, elements in (("joint", joints), ("actuator", actuators)):
         for number, part in enumerate(elements, 1):
-            stated = part.get("role") or (part.findtext("role") or "").strip() or _ROLES.get(part.tag)
-            parts[stated or f"{kind}{number}"] = part
+            role = part.get("role") or (part.findtext("role") or "").strip() or _ROLES.get(part.tag, f"{kind}{number}")
+            parts[role if role.startswith(kind) else ""] = part
     names = {joint.get("name") for joint in joints}
-    if parts.keys() != {*_ROLES.values()} or len(names) + len(actuators) != len(_ROLES):
+    if parts.keys() != {*_ROLES.values()} or not len(joints) == len(names) == len(actuators) == 2:
         return None
     reader.used.update(part for holder in parts.values() for part in (holder, *holder.findall("role")))
     holders = [parts[role] for role in _ROLES.values()]

@@ -112,43 +112,47 @@ def read_gears(root: Element) -> dict[str, Gear]:
         if joint.get("type") in ("revolute", "continuous") and joint.find("mimic") is None
     }
     for element in (*root.findall("transmission"), *root.findall("ros2_control/transmission")):
-        joints = element.findall("joint")
-        numbers = _numbers(*joints, *element.findall("actuator"), element)
-        gear = Gear(_reduction(numbers), numbers.get("offset", 0.0), numbers.get("rotorinertia", 0.0))
-        is_simple = len(joints) == 1 and gear != Gear()
-        found = {joints[0].get("name", ""): gear} if is_simple else _shared_gears(element)
-        for name, each in found.items():
+        kind = (element.findtext("type") or element.findtext("plugin") or element.get("type") or "").strip()
+        joints = [part for part in element if part.tag.rstrip("12").lower().endswith("joint") and part.get("name")]
+        found = _shared_gears(element, kind.rpartition("/")[2])
+        if found is None and [joint.tag for joint in joints] == ["joint"]:
+            numbers = _numbers(*joints, *element.findall("actuator"), element)
+            gear = Gear(_reduction(numbers), numbers.get("offset", 0.0), numbers.get("rotorinertia", 0.0))
+            found = {joints[0].get("name", ""): gear}
+        for name, each in (found or {}).items():
             if each != Gear() and (not each.joint or {name, each.joint} <= turning):
                 gears.setdefault(name, each)
     return gears
 
 
-def _shared_gears(element: Element) -> dict[str, Gear]:
-    """Return the gears of a differential, a four-bar linkage or the PR2's wrist, by documented positions of joints."""
-    kind = (element.findtext("type") or element.findtext("plugin") or element.get("type") or "").strip()
+def _shared_gears(element: Element, kind: str) -> dict[str, Gear] | None:
+    """Return the gears of two joints by the documented positions of joints; None for another kind of transmission."""
     roles = {"flexJoint": "joint1", "rollJoint": "joint2", "rightActuator": "actuator1", "leftActuator": "actuator2"}
     parts = dict[str, Element]()
     for ending in ("joint", "actuator"):
-        for k, part in enumerate((part for part in element if part.tag.lower().endswith(ending)), 1):
-            role = part.get("role") or part.findtext("role", "").strip()
-            parts[role or roles.get(part.tag, f"{ending}{k}")] = part
-    if parts.keys() != {*roles.values()}:
-        return {}
-    numbers = [_numbers(parts[role], with_attributes=True) for role in roles.values()]
+        for k, part in enumerate((part for part in element if part.tag.rstrip("12").lower().endswith(ending)), 1):
+            role = part.get("role") or part.findtext("role", "").strip() or roles.get(part.tag, f"{ending}{k}")
+            parts[role if role.startswith(ending) else ""] = part
+    holders = [parts.get(role, Element(role)) for role in roles.values()]
+    numbers, names = [_numbers(part, with_attributes=True) for part in holders], [part.get("name") for part in holders]
     reductions, offsets = [_reduction(found) for found in numbers], [found.get("offset", 0.0) for found in numbers[:2]]
     ways = {
         "DifferentialTransmission": [[0.5, 0.5], [0.5, -0.5]],
         "WristTransmission": [[0.5, -0.5], [-0.5, -0.5]],
         "FourBarLinkageTransmission": [[1, 0], [-1 / reductions[0], 1]],
-    }.get(kind.rpartition("/")[2])
-    joints = np.array(ways) / np.outer(reductions[:2], reductions[2:]) if ways else np.zeros((2, 2))
-    if not np.isfinite(joints).all() or not np.linalg.det(joints):
+    }.get(kind)
+    if ways is None:
+        return None
+    joints = np.array(ways) / np.outer(reductions[:2], reductions[2:])
+    is_whole = parts.keys() == {*roles.values()} and len({*names[:2]}) == 2
+    if not is_whole or not np.isfinite(joints).all() or not np.linalg.det(joints):
         return {}
-    motors, names, gears = np.linalg.inv(joints), [parts[role].get("name", "") for role in roles.values()], {}
+    motors, gears = np.linalg.inv(joints), dict[str, Gear]()
     for k, row in enumerate(motors):
-        other = names[1 - k] if row[1 - k] else ""
-        rotor = numbers[2 + k].get("rotorinertia", 0.0)
-        gears[names[k]] = Gear(float(row[k]), float(row @ offsets / row[k]), rotor, other, float(row[1 - k]))
+        other, rotor = names[1 - k] if row[1 - k] else "", numbers[2 + k].get("rotorinertia", 0.0)
+        gears[names[k] or ""] = Gear(
+            float(row[k]), float(row @ offsets / row[k]), rotor, other or "", float(row[1 - k])
+        )
     return gears
 
 
