@@ -207,7 +207,7 @@ class Transmission(msgspec.Struct, frozen=True, gc=False):
     """Inertia of the motor, on its own side of the gear."""
     joint: str | None = None
     """Another joint that the motor moves, as in a differential; None for the motor of one joint."""
-    joint_reduction: float = 0.0
+    joint_reduction: float | None = None
 
 
 class Mimic(msgspec.Struct, frozen=True, gc=False):

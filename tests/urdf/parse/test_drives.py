@@ -215,8 +215,8 @@ ROLES = "needs two joints and two actuators, with the roles joint1, joint2, actu
      f"a transmission_interface/DifferentialTransmission {ROLES}"),
     (coupled("DifferentialTransmission", *JOINTS, *(text.replace("tor1", "tor3") for text in ACTUATORS)),
      ["elbow", "roll"], f"a transmission_interface/DifferentialTransmission {ROLES}"),
-    (coupled("DifferentialTransmission", *JOINTS, JOINTS[1].replace("roll", "drive wheel"), *ACTUATORS), ["drive wheel", "elbow", "roll"],
-     f"a transmission_interface/DifferentialTransmission {ROLES}"),
+    (coupled("DifferentialTransmission", *JOINTS, JOINTS[1].replace("roll", "drive wheel"), *ACTUATORS),
+     ["drive wheel", "elbow", "roll"], f"a transmission_interface/DifferentialTransmission {ROLES}"),
     (coupled("DifferentialTransmission", *JOINTS, *ACTUATORS).replace(">10<", ">1e-300<").replace(">2<", ">1e-300<"),
      ["elbow", "roll"], MOVES_BY_ITSELF),
 ])  # fmt: skip

@@ -71,7 +71,7 @@ def test_both_readers_find_the_same_gears_of_two_joints(kind: str, joint_type: s
     assert bool(own) == ((joint_type == "continuous" and "Unknown" not in kind) or "FourBar" in kind)
     for name, gear in own.items():
         assert read[name].joint == (gear.joint or "")
-        numbers = (gear.reduction, gear.offset, gear.rotor_inertia or 0.0, gear.joint_reduction)
+        numbers = (gear.reduction, gear.offset, gear.rotor_inertia or 0.0, gear.joint_reduction or 0.0)
         found = read[name]
         assert (*found[:3], found.joint_reduction) == pytest.approx(numbers, rel=1e-14)
 

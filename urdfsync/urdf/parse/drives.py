@@ -165,7 +165,7 @@ def _read_coupled_gears(
         if not own or not all(map(math.isfinite, (own, shared, offset))):
             return None
         rotor = _number(reader, holders[2 + k], ("drake:rotor_inertia",), path)
-        gear = Transmission(own, offset, rotor, holders[1 - k].get("name") if shared else None, shared + 0.0)
+        gear = Transmission(own, offset, rotor, holders[1 - k].get("name") if shared else None, shared or None)
         gears.append(None if gear == Transmission() else gear)
     return gears if holders[0] is joints[0] else gears[::-1]
 
