@@ -65,6 +65,7 @@ def library_artifacts() -> Iterator[Artifact | Order]:
         data |= {
             "inertia": facts.motion is not None,
             "motor": False,
+            "sharing": None,
             "friction": "smooth",
             "elastic": False,
             "saturated": False,

@@ -81,12 +81,28 @@ HELD = robot(
 )
 """Joints that follow one that never moves stay at their offsets."""
 
+WRIST = robot(
+    *links(base=4.0, flex=1.5, roll=0.7),
+    joint("flex", "revolute", "base", "flex", axis="0 1 0", inside=[dynamics(0.5, 0.3), limit(effort=30)]),
+    joint("roll", "continuous", "flex", "roll", axis="1 0 0"),
+    """<transmission name="wrist"><type>transmission_interface/DifferentialTransmission</type>
+         <joint name="flex"><role>joint1</role><offset>0.2</offset></joint>
+         <joint name="roll"><role>joint2</role><mechanicalReduction>1.5</mechanicalReduction></joint>""",
+    *(
+        f"<actuator name='m'><role>actuator{k}</role><mechanicalReduction>{reduction}</mechanicalReduction>"
+        f"<drake:rotor_inertia value='{rotor}'/></actuator>"
+        for k, (reduction, rotor) in enumerate([(90, 2e-4), (-80, 1e-4)], 1)
+    ),
+    "</transmission>",
+)
+"""A differential: each of its two rotors moves with both joints."""
 
-DRIVEN = {"geared": GEARED, "massless": BARE, "gripper": GRIPPER, "chain": CHAIN, "held": HELD}
+
+DRIVEN = {"geared": GEARED, "massless": BARE, "gripper": GRIPPER, "chain": CHAIN, "held": HELD, "wrist": WRIST}
 """Robots in which every joint has an axis."""
 
 
-@pytest.mark.parametrize("names", sampled([("chain", "held"), ("geared", "massless", "gripper")], 2))
+@pytest.mark.parametrize("names", sampled([("chain", "held", "wrist"), ("geared", "massless", "gripper")], 2))
 def test_joints_move_and_push_as_pinocchio_says(names: Sequence[str], modelica_library: Path, tmp_path: Path) -> None:
     """Some in one process of the compiler. One joint of each type, and free motion, is in test_seen_faults."""
     cases = [physics.prepare(DRIVEN[name].encode(), name.capitalize()).only("motion") for name in names]

@@ -15,7 +15,7 @@ ELBOW = Axis(
     "joint elbow",
     Signal("elbow.phi", "rad", ("elbow.lower", "elbow.upper")),
     Signal("elbow.w", "rad/s", ("elbow.fastest",)),
-    Signal("elbowAxis.tau", "N·m", ("elbow.strongest",), ("elbow.ratio", "elbowMotor.tau")),
+    Signal("elbowAxis.tau", "N·m", ("elbow.strongest",), (("elbow.ratio", "elbowMotor.tau"),)),
 )
 WRIST = Axis("joint wrist", Signal("wrist.phi", "rad"), Signal("wrist.w", "rad/s"))
 PIN = LoopSignals("loop pin", "pin.gap", *(tuple(f"pin.{name}[{i}]" for i in (1, 2, 3)) for name in ("f", "t")))

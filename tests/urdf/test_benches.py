@@ -61,7 +61,22 @@ def test_a_motor_behind_a_gear_drives_as_well() -> None:
     assert found is not None
     wheel = found.layouts[0][2].effort
     assert wheel is not None
-    assert wheel.added == ("wheel_joint.parameters.transmission.reduction", "wheel_jointMotor.tau")
+    assert wheel.added == (("wheel_joint.parameters.transmission.reduction", "wheel_jointMotor.tau"),)
+
+
+def test_two_motors_push_each_joint_of_a_differential() -> None:
+    robot = tree(
+        Joint("flex", "revolute", "base", "hand", transmission=Transmission(60.0, joint="roll")),
+        Joint("roll", "revolute", "hand", "tip", transmission=Transmission(-60.0, joint="flex")),
+    )
+    found = bench(robot, TARGET, Options(drives="motor"))
+    assert found is not None
+    flex = found.layouts[0][0].effort
+    assert flex is not None
+    assert flex.added == (
+        ("flex.parameters.transmission.reduction", "flexMotor.tau"),
+        ("roll.parameters.transmission.otherReduction", "rollMotor.tau"),
+    )
 
 
 def test_a_robot_in_one_record_is_told_by_the_numbers_of_its_axes() -> None:

@@ -69,6 +69,21 @@ def test_a_motor_has_a_flange_where_a_joint_that_can_be_driven_has_a_gear() -> N
     assert connector_options(robot, Options())["elbowMotor_2"] == 'drives = "motor"'
 
 
+def test_a_motor_of_two_joints_has_a_gear_in_the_robot_if_it_has_a_flange_or_a_rotor() -> None:
+    robot = tree(
+        Joint("flex", "revolute", "base", "hand", transmission=Transmission(60.0, joint="roll")),
+        Joint("roll", "revolute", "hand", "rollGear", transmission=Transmission(60.0, 0.0, 1e-4, "flex", 50.0)),
+    )
+    gears = {
+        drives: [(drive.gear, drive.other) for drive in connector_names(robot, Options(drives=drives)).drives.values()]
+        for drives in ("joint", "motor")
+    }
+    assert gears == {
+        "joint": [(None, None), ("rollGear_2", "flex")],
+        "motor": [("flexGear", "roll"), ("rollGear_2", "flex")],
+    }
+
+
 @given(robots())
 def test_no_two_components_have_one_name(robot: Robot) -> None:
     skeleton = KinematicTree.of(robot)

@@ -37,7 +37,7 @@ LIGHT = urdfs.robot(
 FEATHER = urdfs.robot(
     urdfs.link("base"), urdfs.link("arm"), urdfs.joint("lift", "continuous", "base", "arm", axis="0 1 0")
 )
-CODES = ("planar-not-generic", "floating-not-generic", "moves-no-mass")
+CODES = ("shared-rotor-not-in-record", "planar-not-generic", "floating-not-generic", "moves-no-mass")
 
 
 def warnings(urdf: str, *approach: str) -> list[str]:
@@ -60,6 +60,14 @@ RODS = urdfs.robot(
     urdfs.joint("fasten", "fixed", "pivot", "other"),
 )
 """All the mass is on an axis, as exporters write it; it turns about another one."""
+WRIST = urdfs.robot(
+    *urdfs.links(base=1, hand=1, tip=1),
+    urdfs.joint("flex", "continuous", "base", "hand", axis="0 1 0"),
+    urdfs.joint("roll", "continuous", "hand", "tip", axis="1 0 0"),
+    '<transmission name="t" type="t/DifferentialTransmission"><joint name="flex"/><joint name="roll"/>'
+    '<actuator name="m"/><actuator name="n"><drake:rotor_inertia value="1e-4"/></actuator></transmission>',
+)
+"""One of two motors has a rotor, which moves with both joints."""
 NOTHING = (
     "moves no inertia about its axis, or only one that is behind another joint on the same axis, so the generic "
     "robot can move it by position only; give the link right behind it an <inertial>, or make it a fixed joint"
@@ -75,6 +83,8 @@ WARNINGS = [
     (RODS, RECORD, f"6: warning: joint 'spin' {NOTHING} [moves-no-mass]"),
     (FEATHER, RECORD, "2: warning: no link has a mass, so the joints of the generic robot can be moved by position "
      "only; give the links an <inertial> [moves-no-mass]"),
+    (WRIST, RECORD, "7: warning: the motor of joint 'roll' moves another joint, too, but in the record its rotor does "
+     "not; generate a package for it [shared-rotor-not-in-record]"),
 ]  # fmt: skip
 
 
@@ -87,7 +97,7 @@ def test_what_can_not_be_simulated_is_named_with_its_line_and_what_to_do(
     assert found.startswith(f"own.urdf:{words}")
 
 
-@pytest.mark.parametrize("urdf", [PLANAR, FREE_INSIDE, STATUE, LIGHT, FEATHER])
+@pytest.mark.parametrize("urdf", [PLANAR, FREE_INSIDE, STATUE, LIGHT, FEATHER, WRIST])
 def test_the_package_approach_has_no_reason_to_warn(urdf: str) -> None:
     assert warnings(urdf, *PACKAGE) == []
 

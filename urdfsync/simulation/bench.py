@@ -16,8 +16,8 @@ class Signal(msgspec.Struct, frozen=True):
     unit: str
     limits: tuple[str, ...] = ()
     """Parameters: the lower and the upper limit, one alone for a limit of the absolute value, none for no limit."""
-    added: tuple[str, str] | None = None
-    """A parameter and a variable whose product is a part of the quantity."""
+    added: tuple[tuple[str, str], ...] = ()
+    """Parameters and variables whose products are parts of the quantity."""
 
 
 class Axis(msgspec.Struct, frozen=True):

@@ -85,19 +85,20 @@ def _signals(axis: Axis) -> Iterator[tuple[str, Signal]]:
 
 
 def _names(signal: Signal) -> Iterator[str]:
-    yield from (signal.variable, *signal.limits, *(signal.added or ()))
+    yield from (signal.variable, *signal.limits, *(name for pair in signal.added for name in pair))
 
 
 def _values(signal: Signal, place: str, series: Series, parameters: Mapping[str, float]) -> Any:
     """Return the numbers of a signal as an array; None if the model lacks it."""
-    name, *added = (_below(place, name) for name in (signal.variable, *(signal.added or ())))
+    name = _below(place, signal.variable)
     if name not in series:
         return None
     import numpy as np  # 100 ms; with a plot, while the compiler is busy
 
     values = np.array(series[name])
-    if added and added[0] in parameters and added[1] in series:
-        values += parameters[added[0]] * np.array(series[added[1]])
+    for factor, variable in ((_below(place, a), _below(place, b)) for a, b in signal.added):
+        if factor in parameters and variable in series:
+            values += parameters[factor] * np.array(series[variable])
     return values
 
 

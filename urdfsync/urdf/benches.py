@@ -74,14 +74,17 @@ def _axes(tree: KinematicTree, options: Options, dependent: frozenset[str]) -> I
             position, velocity, effort, acceleration = _VARIABLES[motion]
             units, limits = _UNITS[motion], f"{name}.parameters.limits"
             range_ = (f"{limits}.lower", f"{limits}.upper") if JOINT_KINDS[joint.type].has_limits else ()
-            motor = (
-                (f"{name}.parameters.transmission.reduction", f"{drive.motor}.tau") if drive and drive.motor else None
+            motors = tuple(
+                (f"{tree.joint(at).component}.parameters.transmission.{factor}", f"{other.motor}.tau")
+                for at, other in drives.items()
+                for moved, factor in ((at, "reduction"), (other.other, "otherReduction"))
+                if other.motor and moved == joint.name
             )
             yield Axis(
                 f"joint {joint.name}",
                 Signal(f"{name}.{position}", units[0], range_),
                 Signal(f"{name}.{velocity}", units[1], (f"{limits}.velocity",)),
-                Signal(f"{drive.axis}.{effort}", units[2], (f"{limits}.effort",), motor) if drive else None,
+                Signal(f"{drive.axis}.{effort}", units[2], (f"{limits}.effort",), motors) if drive else None,
                 _acceleration(joint, f"{name}.{acceleration}", limits),
                 joint.name in dependent,
             )

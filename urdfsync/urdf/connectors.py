@@ -10,7 +10,7 @@ from collections.abc import Iterable, Mapping, Sequence
 
 import msgspec
 
-from urdfsync.urdf.drives import assembly, can_be_driven, has_motor
+from urdfsync.urdf.drives import assembly, can_be_driven, has_motor, sharing_joint
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.names import GENERATED, Identifier, identify
 from urdfsync.urdf.options import Options
@@ -47,6 +47,10 @@ class Drive(msgspec.Struct, frozen=True):
     """Likewise."""
     effort: str | None
     """Likewise."""
+    gear: str | None = None
+    """Component of a gear whose motor moves another joint, too."""
+    other: str | None = None
+    """URDF name of that other joint."""
 
 
 class Connectors(msgspec.Struct, frozen=True):
@@ -96,9 +100,12 @@ def connector_names(tree: KinematicTree, options: Options) -> Connectors:
                 for variable, ending in _VARIABLES[motion].items()
             ),
         )
+        if other := sharing_joint(joint, options.drives):
+            gear = free_name(identifier, "Gear", taken)
+            drives[joint.name] = msgspec.structs.replace(drives[joint.name], gear=gear, other=other)
     frames = {link.name: free_name(tree.link(link.name), "Frame", taken) for link in tree.links if link.name in framed}
     couplings = {joint.name: free_name(tree.joint(joint.name), "Mimic", taken) for joint, _ in tree.followers()}
-    flanges = (flange for drive in drives.values() for flange in (drive.axis, drive.support, drive.motor))
+    flanges = (flange for drive in drives.values() for flange in (drive.axis, drive.support, drive.motor, drive.gear))
     used = {name.lower() for name in (*frames.values(), *couplings.values(), *filter(None, flanges))}
     # Sensors are named last, and their frames after them: a new sensor renames only sensors.
     sensors = identify([("sensor", sensor.name) for sensor in tree.sensors], used | taken)

@@ -66,6 +66,12 @@ def has_motor(joint: Joint, options: Options) -> bool:
     return options.drives == "motor" and joint.transmission is not None and can_be_driven(joint)
 
 
+def sharing_joint(joint: Joint, drives: str) -> str | None:
+    """Return the other joint that the motor of a joint moves; None if it has neither flange nor rotor, and no gear."""
+    gear = joint.transmission
+    return gear.joint if gear and (drives == "motor" or gear.rotor_inertia is not None) else None
+
+
 def friction_law(joint: Joint, options: Options) -> FrictionLaw | None:
     """Return the law of the losses of a joint with one axis; None without losses.
 

@@ -231,12 +231,18 @@ class Dynamics(msgspec.Struct, frozen=True, gc=False):
 
 
 class Transmission(msgspec.Struct, frozen=True, gc=False):
-    """The gear of a drive: position of the motor = `reduction` · (position of the joint - `offset`)."""
+    """The gear of a drive.
+
+    Position of the motor = `reduction` · (position of the joint - `offset`) + `joint_reduction` · position of `joint`.
+    """
 
     reduction: Annotated[float, Unit("", "rad/m")] = 1.0
     offset: Annotated[float, _POSITION] = 0.0
     rotor_inertia: Annotated[float | None, _INERTIA] = None
     """Inertia of the motor, on its own side of the gear."""
+    joint: str | None = None
+    """Another joint that the motor moves, as in a differential; None for the motor of one joint."""
+    joint_reduction: float | None = None
 
 
 class Mimic(msgspec.Struct, frozen=True, gc=False):
@@ -315,7 +321,7 @@ def reflected_inertia(joint: Joint) -> float | None:
     rotor = joint.transmission.rotor_inertia if joint.transmission else None
     if joint.transmission is None or rotor is None:
         return armature
-    return (armature or 0.0) + rotor * joint.transmission.reduction**2
+    return (armature or 0.0) + rotor * joint.transmission.reduction * joint.transmission.reduction
 
 
 def effective(joint: Joint) -> Joint:

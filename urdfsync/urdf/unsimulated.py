@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from urdfsync.urdf.drives import can_be_driven
+from urdfsync.urdf.drives import can_be_driven, sharing_joint
 from urdfsync.urdf.kinematics.loops import Assembly
 from urdfsync.urdf.kinematics.massless import find_massless_joints
 from urdfsync.urdf.kinematics.tree import KinematicTree
@@ -37,6 +37,9 @@ def out_of_scope(tree: KinematicTree) -> Iterator[Finding]:
     if tree.loops:
         message = "the generic robot has no loops, and is open in the record"
         yield Finding("loops-not-in-record", f"loop {tree.loops[0].name}", message)
+    for name in (joint.name for joint in tree.joints if sharing_joint(joint, "joint")):
+        message = f"the motor of joint '{name}' moves another joint, too, but in the record its rotor does not"
+        yield Finding("shared-rotor-not-in-record", f"joint {name}", message)
     unfit = obstacles(tree.joints)
     for joint in unfit:
         message = (

@@ -163,6 +163,7 @@ _WARNINGS = {
     "passive-moves-no-mass": "give a link behind it an <inertial>, drive it (`driven`), or make it a fixed joint",
     "moves-no-mass": "give the link right behind it an <inertial>, or make it a fixed joint",
     "loops-not-in-record": "generate a package for it",
+    "shared-rotor-not-in-record": "generate a package for it",
     "planar-not-generic": "write it as two prismatic joints and a continuous one, or use the package approach",
     "floating-not-generic": "write it as three prismatic joints and three continuous ones, or use the package "
     'approach; if the root link has no other joint, remove both and set `base = "floating"` in a project',

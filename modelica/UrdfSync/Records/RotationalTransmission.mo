@@ -12,6 +12,9 @@ record RotationalTransmission "Gear and rotor of the drive of a turning joint"
   Modelica.Units.SI.Inertia rotorInertia = 0
     "Inertia of the rotor, on the motor's side of the gear";
 
+  Real otherReduction(unit = "1") = 0
+    "rad of the motor per rad of another joint that it moves, as in a differential";
+
   Modelica.Units.SI.RotationalSpringConstant stiffness = 1e4
     "Stiffness between drive and joint, if the drive is elastic";
 
@@ -20,7 +23,8 @@ record RotationalTransmission "Gear and rotor of the drive of a turning joint"
 
   annotation (Documentation(info="<html>
 <p>
-The numbers of the <code>&lt;transmission&gt;</code> of a joint: position of the motor = reduction * (position of the joint - offset). Stiffness and
+The numbers of the <code>&lt;transmission&gt;</code> of a joint: position of the motor = reduction * (position of the joint - offset). A motor that
+moves another joint, too, turns by <code>otherReduction</code> times the position of that one beside: see <a href=\"modelica://UrdfSync.Drives.SharedGear\">SharedGear</a>. Stiffness and
 damping are no numbers of URDF, and count for drives that the option <code>elastic</code> names.
 </p>
 </html>"));

@@ -31,6 +31,10 @@ def random_names(random_: random.Random, links: int, reach: int, mimics: float) 
     names = [f"l{index}" for index in range(links)]
     robot = random_robot(random_, TYPES, names=names, mimics=mimics, reach=reach)
     geared = [replace(joint, transmission=random_.choice((None, Transmission(50.0)))) for joint in robot.joints]
+    turning = [joint for joint in geared if MOTION_KINDS.get(joint.type) == "rotational" and not joint.mimic]
+    for joint, other in itertools.pairwise(random_.sample(turning, len(turning))):
+        if random_.random() < mimics:
+            geared[geared.index(joint)] = replace(joint, transmission=Transmission(50.0, joint=other.name))
     kinds = random_.choices(KINDS, k=random_.choice((0, 1, 6)) * bool(robot.joints))
     places = [random_.choice(geared).name if kind == "force_torque" else random_.choice(names) for kind in kinds]
     sensors = [Sensor(f"s{number}", kind, at) for number, (kind, at) in enumerate(zip(kinds, places, strict=True))]
@@ -65,7 +69,16 @@ def connections(tree: KinematicTree, names: Connectors) -> set[tuple[str, str]]:
             if joint.mimic.joint in moving:
                 ends |= {(f"{coupling}.leader", f"{joint.mimic.joint}.axis")}
         elif joint.type in MOTION_KINDS:
-            ports = ("axis", "support", "motor") if joint.transmission else ("axis", "support")
+            gear, ports = joint.transmission, ["axis", "support"]
+            if gear and gear.joint:
+                component = f"{joint.name}Gear"
+                ends |= {(f"{component}.flange_a", f"{joint.name}Motor")}
+                ends |= {
+                    (f"{component}.flange_b", f"{joint.name}.axis"),
+                    (f"{component}.flange_c", f"{gear.joint}.axis"),
+                }
+            elif gear:
+                ports.append("motor")
             ends |= {(f"{joint.name}.{end}", f"{joint.name}{end.capitalize()}") for end in ports}
     return ends
 

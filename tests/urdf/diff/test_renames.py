@@ -250,11 +250,13 @@ def test_elements_have_their_new_names_wherever_they_are_mentioned() -> None:
             "robot": {"gazebo": ["<gazebo/>", "<gazebo/>"]},
         },
     }
+    old["joints"]["wrist"]["transmission"] = {"joint": "elbow", "joint_reduction": 2.0}
     names = {("link", "lower"): "fore", ("joint", "elbow"): "bend", ("loop", "rod"): "bar"}
     found = comparable(old, names)
     assert found["links"].keys() == {"base", "upper", "fore", "tip"}
     bend, wrist = found["joints"]["bend"], found["joints"]["wrist"]
     assert (bend["child"], wrist["parent"], wrist["mimic"]["joint"]) == ("fore", "fore", "bend")
+    assert wrist["transmission"]["joint"] == "bend"
     assert (bend["drive"], "drive" in wrist) == ("driven", False)
     assert {name: each["child"] for name, each in found["loops"].items()} == {"bar": "fore"}
     assert {owner: [*tags] for owner, tags in found["extensions"].items()} == {

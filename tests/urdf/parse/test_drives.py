@@ -27,6 +27,10 @@ def actuated(reading: RobotReading) -> list[str]:
     return sorted(joint.name for joint in reading.robot.joints if joint.actuated)
 
 
+def coupled(kind: str, *parts: str, within: str = "type") -> str:
+    return f'<transmission name="t"><{within}>transmission_interface/{kind}</{within}>{"".join(parts)}</transmission>'
+
+
 FORMS = {
     "with an interface": ("""<transmission name="t"><type>transmission_interface/SimpleTransmission</type>
             <joint name="elbow"><hardwareInterface>EffortJointInterface</hardwareInterface></joint>
@@ -35,6 +39,7 @@ FORMS = {
     "as for the PR2": ("""<transmission name="t" type="pr2_mechanism_model/SimpleTransmission"><actuator name="m"/>
             <joint name="elbow"/><mechanicalReduction>1</mechanicalReduction></transmission>""",
         ["elbow"]),
+    "a coupling of no joint": (coupled("DifferentialTransmission", "<actuator name='m'/>"), []),
     "no joint": ("<transmission><joint/><actuator name='elbow'/></transmission>", []),
     "not its own joint": ("<transmission><group><joint name='elbow'/></group></transmission>", []),
     "ros2_control, with a joint that is measured only": (
@@ -152,11 +157,88 @@ def test_of_two_gears_the_first_counts() -> None:
     assert elbow(reading).transmission == Transmission(5.0)
 
 
-def test_a_transmission_of_several_joints_drives_them_without_gears() -> None:
-    gear = "<mechanicalReduction>5</mechanicalReduction>"
-    reading = read(f'<transmission><joint name="elbow">{gear}</joint><joint name="drive wheel"/></transmission>')
-    assert actuated(reading) == ["drive wheel", "elbow"]
-    assert [found.code for found in reading.diagnostics] == ["coupled-transmission"]
+def part(tag: str, role: str, reduction: float, inside: str = "") -> str:
+    """A joint or an actuator of ROS 1."""
+    name = {"joint1": "elbow", "joint2": "roll"}.get(role, role)
+    number = f"<mechanicalReduction>{reduction}</mechanicalReduction>"
+    return f'<{tag} name="{name}"><role>{role}</role>{number}{inside}</{tag}>'
+
+
+JOINTS = part("joint", "joint1", 2, "<offset>0.5</offset>"), part("joint", "joint2", -3, "<offset>0.25</offset>")
+ACTUATORS = part("actuator", "actuator1", 10), part("actuator", "actuator2", 20, ROTOR)
+WRIST = """<transmission type="pr2_mechanism_model/WristTransmission" name="wrist">
+  <rightActuator name="r" mechanicalReduction="60"/><leftActuator name="l" mechanicalReduction="50"/>
+  <flexJoint name="elbow" mechanicalReduction="-1"/><rollJoint name="roll" mechanicalReduction="2" offset="0.5"/>
+  </transmission>"""
+CONTROLLED = """<plugin>transmission_interface/DifferentialTransmission</plugin><actuator name="m"/><actuator name="n"/>
+  <joint name="elbow"><mechanical_reduction>4</mechanical_reduction></joint><joint name="roll"/>"""
+COUPLED = {
+    "a differential": (coupled("DifferentialTransmission", *JOINTS, *ACTUATORS),
+        Transmission(20.0, 0.125, None, "roll", -30.0), Transmission(60.0, 0.25 + 0.5 * 2 / 3, 1e-4, "elbow", 40.0)),
+    "in another order": (coupled("DifferentialTransmission", *ACTUATORS[::-1], *JOINTS[::-1]),
+        Transmission(20.0, 0.125, None, "roll", -30.0), Transmission(60.0, 0.25 + 0.5 * 2 / 3, 1e-4, "elbow", 40.0)),
+    "a four-bar linkage": (coupled("FourBarLinkageTransmission", *JOINTS, *ACTUATORS),
+        Transmission(20.0, 0.5), Transmission(-60.0, 0.25 - 0.5 / 3, 1e-4, "elbow", 20.0)),
+    "the PR2's wrist": (WRIST,
+        Transmission(-60.0, 1.0, None, "roll", -120.0), Transmission(-100.0, 0.5, None, "elbow", 50.0)),
+    "of ros2_control, without roles": (control(f'<transmission name="t">{CONTROLLED}</transmission>'),
+        Transmission(4.0, 0.0, None, "roll", 1.0), Transmission(-1.0, 0.0, None, "elbow", 4.0)),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("element", "first", "second"), COUPLED.values(), ids=COUPLED)
+def test_motors_of_two_joints(element: str, first: Transmission, second: Transmission) -> None:
+    """By hand: the position of each motor as a function of both joints' positions."""
+    reading = read(element)
+    assert reading.robot is not None
+    gears = {joint.name: joint.transmission for joint in reading.robot.joints}
+    assert (gears["elbow"], gears["roll"]) == (first, second)
+    assert (actuated(reading), reading.diagnostics, reading.unmodelled) == (["elbow", "roll"], (), ())
+
+
+GRIPPER = """<transmission name="grip" type="pr2_mechanism_model/PR2GripperTransmission"><actuator name="m"/>
+  <gap_joint name="elbow" mechanical_reduction="1" gear_ratio="40.1" L0="0.03"/><passive_joint name="roll"/>
+  </transmission>"""
+MOVES_BY_ITSELF = "in a way that is not modelled: each moves by itself, without gears"
+BY_HAND = "model the coupling by hand, or write a transmission for each joint"
+ROLES = "needs two joints and two actuators, with the roles joint1, joint2, actuator1, actuator2"
+
+
+@pytest.mark.parametrize(("element", "names", "words"), [
+    (GRIPPER, ["elbow"],
+     "transmission grip (pr2_mechanism_model/PR2GripperTransmission) moves elbow, roll "
+     f"{MOVES_BY_ITSELF}; {BY_HAND}"),
+    ('<transmission><joint1 name="elbow"/><joint2 name="roll"/></transmission>', ["elbow", "roll"],
+     f"transmission number 1 (without a type) moves elbow, roll {MOVES_BY_ITSELF}; {BY_HAND}"),
+    (coupled("DifferentialTransmission", *JOINTS, ACTUATORS[0]), ["elbow", "roll"],
+     f"transmission t (transmission_interface/DifferentialTransmission) moves elbow, roll {MOVES_BY_ITSELF}; "
+     f"a transmission_interface/DifferentialTransmission {ROLES}"),
+    (coupled("DifferentialTransmission", *JOINTS, *(text.replace("tor1", "tor3") for text in ACTUATORS)),
+     ["elbow", "roll"], f"a transmission_interface/DifferentialTransmission {ROLES}"),
+    (coupled("DifferentialTransmission", *JOINTS, JOINTS[1].replace("roll", "drive wheel"), *ACTUATORS),
+     ["drive wheel", "elbow", "roll"], f"a transmission_interface/DifferentialTransmission {ROLES}"),
+    (coupled("DifferentialTransmission", *JOINTS, *ACTUATORS).replace(">10<", ">1e-300<").replace(">2<", ">1e-300<"),
+     ["elbow", "roll"], MOVES_BY_ITSELF),
+])  # fmt: skip
+def test_joints_that_are_coupled_in_another_way_are_driven_and_told(element: str, names: list[str], words: str) -> None:
+    reading = read(element)
+    assert reading.robot is not None
+    assert actuated(reading) == names
+    assert [(found.code, found.line) for found in reading.diagnostics] == [("coupled-transmission", 10)]
+    assert words in str(reading.diagnostics[0])
+    assert not any(joint.transmission for joint in reading.robot.joints)
+
+
+@pytest.mark.parametrize("other", [
+    urdfs.joint("roll", "fixed", "base", "caster"), urdfs.joint("roll", "prismatic", "base", "caster"),
+    urdfs.joint("roll", "continuous", "base", "caster", inside=[urdfs.mimic("drive wheel")]),
+])  # fmt: skip
+def test_a_motor_moves_two_joints_that_turn_by_themselves(other: str) -> None:
+    reading = read_robot(urdfs.robot(*BASE[:-1], other, WRIST).encode(), "own.urdf")
+    assert [str(found) for found in reading.diagnostics] == [
+        "own.urdf:12: warning: transmission wrist couples elbow and roll, which do not both turn by themselves: "
+        f"they have no gears; {BY_HAND} [coupled-transmission]"
+    ]
     assert elbow(reading).transmission is None
 
 

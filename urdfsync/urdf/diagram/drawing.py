@@ -104,6 +104,7 @@ def _parts(tree: KinematicTree, names: Connectors) -> Iterator[tuple[str, _Part]
     for joint, mimic in tree.followers():
         ratio = f"× {_rounded(mimic.multiplier)}" if types[mimic.joint] in MOTION_KINDS else "held"
         yield names.couplings[joint.name], _Part("coupling", ratio)
+    yield from ((drive.gear, _Part("coupling", "gear")) for drive in names.drives.values() if drive.gear)
     yield from ((component, _Part("sensor")) for component in names.sensors.values())
     yield from ((tree.loop(loop.name).component, _Part("loop")) for loop in tree.loops)
 

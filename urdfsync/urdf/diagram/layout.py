@@ -20,8 +20,8 @@ crossings: a chain may run between another one and the link that this starts at.
 A link hangs on a short trunk at the left of its column. The lines to chains and sensors below it run down in the gap
 between two columns, on a track that no other line has there. Above a joint that can be driven stand the connectors of
 its axis and its support. A mimic coupling stands above its follower; the line from its leader runs on such a track,
-too. A joint that closes a loop stands below all rows, in the column of its parent; the lines from its links run down to
-it on tracks.
+too. So does the gear of a motor that moves two joints: it stands above the first of them. A joint that closes a loop
+stands below all rows, in the column of its parent; the lines from its links run down to it on tracks.
 
 Lines consist of axis-parallel segments. All coordinates are even, y points upwards.
 """
@@ -56,6 +56,9 @@ PORTS: Mapping[str, Point] = {
     "motor": (80, 100),
     "leader": (-100, 0),
     "follower": (100, 0),
+    "flange_a": (0, -100),
+    "flange_b": (100, 0),
+    "flange_c": (-100, 0),
 }
 """Connectors of components, in the coordinates of their icons, -100 to 100 both ways."""
 
@@ -126,7 +129,7 @@ class _Grid(NamedTuple):
     sensors: Mapping[str, Point]
     """Likewise, of the link that carries the sensor."""
     couplings: Mapping[str, Point]
-    """Middles of the couplings, by follower."""
+    """Middles of the couplings, by follower, and of gears, by joint."""
     detours: Mapping[str, Point]
     """Points, by follower, at which the line to its leader leaves the gap between columns for the leader's row."""
     loops: Mapping[str, Point]
@@ -184,6 +187,8 @@ def _grid(tree: KinematicTree, names: Connectors) -> _Grid:
     # Tracks above each row and left of each column. A leader that does not move has no line.
     moving = {joint.name for joint in tree.joints if joint.type in MOTION_KINDS}
     leaders = {joint.name: mimic.joint for joint, mimic in tree.followers() if mimic.joint in moving}
+    gears = {name: drive.other for name, drive in names.drives.items() if drive.gear and drive.other}
+    leaders |= gears
     spans_above, spans_left = (defaultdict[int, _Spans](lambda: defaultdict(list)) for _ in range(2))
     for link, row in cells.below:
         spans_left[links[link][1]][link, "below"] += links[link][0], row
@@ -202,7 +207,7 @@ def _grid(tree: KinematicTree, names: Connectors) -> _Grid:
     parents = {joint.parent for joint in tree.joints}
     above = _TRACK * max(map(_count, tracks_above)) + _NAME + _SIZE // 2 + (_CONNECTOR + _TRACK)
     above += (_CONNECTOR + _TRACK) * any(drive.motor for drive in names.drives.values())
-    above += (_NAME + _SIZE) * bool(names.couplings)
+    above += (_NAME + _SIZE) * bool(names.couplings or gears)
     below = _BELOW + (_CONNECTOR + _TRACK) * (not parents.isdisjoint(names.frames))
     spines = [FRAME_A[1] - (above + below) * row for row in range(last_row + 1)]
     bottom = spines[-1] - below
@@ -215,7 +220,7 @@ def _grid(tree: KinematicTree, names: Connectors) -> _Grid:
         return trunks[cell[1]], spines[cell[0]]
 
     couplings, detours = {}, {}
-    for name in names.couplings:
+    for name in (*names.couplings, *gears):
         row, column = joints[name]
         y_coupling = spines[row] + above - _TRACK * max(map(_count, tracks_above)) - _NAME - _SIZE // 2
         couplings[name] = trunks[column] + _LINK_X, y_coupling
@@ -328,7 +333,8 @@ def _placements(tree: KinematicTree, names: Connectors, grid: _Grid) -> dict[str
         placements[drive.axis] = Placement.around((x, y + _ABOVE), _CONNECTOR)
         placements[drive.support] = Placement.around((support_x - _ASIDE, y + _ABOVE), _CONNECTOR)
         if drive.motor:
-            placements[drive.motor] = Placement.around((x, y + _ABOVE + _CONNECTOR + _TRACK), _CONNECTOR)
+            motor_x = grid.couplings[name][0] if drive.gear else x
+            placements[drive.motor] = Placement.around((motor_x, y + _ABOVE + _CONNECTOR + _TRACK), _CONNECTOR)
     leaves = {leaf.name for leaf in tree.leaves()}
     for name, frame in names.frames.items():
         if name in leaves:
@@ -347,7 +353,8 @@ def _placements(tree: KinematicTree, names: Connectors, grid: _Grid) -> dict[str
     placements |= {tree.link(name).component: place for name, place in links.items()}
     placements |= {tree.joint(name).component: place for name, place in joints.items()}
     placements |= {tree.loop(name).component: Placement.around(middle) for name, middle in grid.loops.items()}
-    return placements | {names.couplings[name]: Placement.around(middle) for name, middle in grid.couplings.items()}
+    couplings = names.couplings | {name: drive.gear for name, drive in names.drives.items() if drive.gear}
+    return placements | {couplings[name]: Placement.around(middle) for name, middle in grid.couplings.items()}
 
 
 def _lines(
@@ -403,20 +410,29 @@ def _lines(
         route(drive.motion, axis, drive.axis)
         x, y = place(support)
         route(drive.motion, support, drive.support, (x, y + 2), (place(drive.support)[0], y + 2))
-        if drive.motor:  # its connector stands above the axis's: the line passes it
+        if drive.motor and drive.gear:
+            route("rotational", f"{drive.gear}.flange_a", drive.motor)
+        elif drive.motor:  # its connector stands above the axis's: the line passes it
             route("rotational", motor, drive.motor, (place(motor)[0], place(drive.motor)[1]))
-    for joint, mimic in tree.followers():
-        coupling, leader = names.couplings[joint.name], mimic.joint
-        start, axis = f"{coupling}.follower", f"{tree.joint(joint.name).component}.axis"
-        route(motions[joint.name], start, axis, (place(axis)[0], place(start)[1]))
-        if joint.name in grid.detours:
-            start, axis, (x, y) = f"{coupling}.leader", f"{tree.joint(leader).component}.axis", grid.detours[joint.name]
-            end_x, end_y = place(axis)
-            bends = [(end_x, y)]
-            if leader in names.drives:  # its connector stands above the axis: pass it, and the line of its motor
-                aside = end_x + _ASIDE + (_TRACK if names.drives[leader].motor else 0)
-                bends = [(aside, y), (aside, end_y + 2), (end_x, end_y + 2)]
-            route(motions[leader], start, axis, (x, place(start)[1]), (x, y), *bends)
+
+    def route_axis(start: str, joint: str, *bends: Point) -> None:
+        """Lead a line to the axis of a joint, down from the height of its last bend or its start."""
+        axis, y = f"{tree.joint(joint).component}.axis", (place(start), *bends)[-1][1]
+        x, end_y = place(axis)
+        down: list[Point] = [(x, y)]
+        if joint in names.drives:  # its connector stands above the axis: pass it, and the line of its motor
+            aside = x + _ASIDE + (_TRACK if names.drives[joint].motor else 0)
+            down = [(aside, y), (aside, end_y + 2), (x, end_y + 2)]
+        route(motions[joint], start, axis, *bends, *down)
+
+    couplings = [(j.name, m.joint, names.couplings[j.name], "follower", "leader") for j, m in tree.followers()]
+    gears = ((name, drive.other, drive.gear) for name, drive in names.drives.items())
+    couplings += [(name, other, gear, "flange_b", "flange_c") for name, other, gear in gears if other and gear]
+    for joint_name, leader, coupling, near, far in couplings:
+        route_axis(f"{coupling}.{near}", joint_name)
+        if joint_name in grid.detours:
+            start, (x, y) = f"{coupling}.{far}", grid.detours[joint_name]
+            route_axis(start, leader, (x, place(start)[1]), (x, y))
     return lines
 
 

@@ -23,6 +23,7 @@ _Said: TypeAlias = tuple[Any, Mapping[str, str]]
 _KINDS = ("links", "joints", "sensors", "loops")
 _ENDS = {"parent": "link", "child": "link", "joint": "joint"}
 """Fields that name another element, and its kind."""
+_MENTIONING = ("mimic", "transmission")
 _LEFT_OUT = frozenset({"name", "actuated", "measured"})
 _PLACE = frozenset({"type", "kind", "origin", "child_origin", "axis", "child_axis"})
 
@@ -83,7 +84,7 @@ def renamed(robot: Robot, renames: Mapping[ElementKey, str]) -> Robot:
         robot,
         links=tuple(under_new_names("link", robot.links)),
         joints=tuple(
-            replace(joint, mimic=joint.mimic and mentioning(joint.mimic))
+            replace(joint, **{part: mentioning(getattr(joint, part)) for part in _MENTIONING if getattr(joint, part)})
             for joint in under_new_names("joint", robot.joints)
         ),
         sensors=tuple(replace(one, at=new(SENSOR_KINDS[one.kind].at, one.at)) for one in robot.sensors),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from urdfsync.urdf.drives import friction_law, has_motor, is_chosen
+from urdfsync.urdf.drives import friction_law, has_motor, is_chosen, sharing_joint
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Joint, Limit, limits_acceleration, reflected_inertia
 
@@ -19,13 +19,16 @@ def joint_model(joint: Joint, options: Options, is_driven: bool) -> dict[str, An
 
     The spring of an elastic drive keeps the limits of effort and velocity, unless Run does.
     """
-    armature, with_motor = joint.dynamics and joint.dynamics.armature, has_motor(joint, options)
-    inertia = armature if with_motor else reflected_inertia(joint)
+    # the robot has the gear and the rotor of a motor that moves another joint, too
+    armature, sharing = joint.dynamics and joint.dynamics.armature, sharing_joint(joint, options.drives)
+    with_motor = has_motor(joint, options) and not sharing
+    inertia = armature if with_motor or sharing else reflected_inertia(joint)
     return {
         "dynamics": joint.dynamics is not None,
         "accelerations": limits_acceleration(joint),
         "inertia": inertia is not None,
         "motor": with_motor,
+        "sharing": sharing,
         "friction": friction_law(joint, options),
         "elastic": is_driven and is_chosen(joint, options.elastic),
         "saturated": is_driven and is_chosen(joint, options.saturated) and joint.command != "effort",

@@ -52,6 +52,12 @@ def robot_data(tree: KinematicTree, names: Connectors, dependent: frozenset[str]
     followers = defaultdict[str | None, list[str]](list)
     for coupling in couplings.values():
         followers[coupling["leader"]].append(coupling["component"])
+    gears = defaultdict[str | None, list[dict[str, Any]]](list)  # those in the robot, by the joints that they move
+    for name, drive in names.drives.items():
+        if drive.gear:
+            gear = {"component": tree.joint(name).component, "motor": drive.motor}
+            gears[name].append(gear | {"factor": "reduction"})
+            gears[drive.other].append(gear | {"factor": "otherReduction"})
     diagram, top, rows = layout(tree, names), _icon_top(names), _frame_rows(names)
     return {
         "frames": [
@@ -71,9 +77,10 @@ def robot_data(tree: KinematicTree, names: Connectors, dependent: frozenset[str]
                 "title": joint_title(joint),
                 "start": joint.start is not None,
                 "axis": names.drives[joint.name].axis if joint.name in names.drives else None,
-                "motor": joint.name in names.drives and names.drives[joint.name].motor is not None,
+                "motor": any(drive.motor and not drive.gear for drive in (names.drives.get(joint.name),) if drive),
                 "follows": couplings.get(joint.name),
                 "followers": followers[tree.joint(joint.name).component],
+                "gears": gears[joint.name],
                 "dependent": joint.name in dependent,
             }
             for joint in tree.joints

@@ -6,10 +6,11 @@ contradiction is a warning, except with the configuration. The `<mimic>` of a jo
 
 from __future__ import annotations
 
+import math
 import re
 from collections import defaultdict
-from collections.abc import Iterable, Iterator, Mapping
-from typing import NamedTuple, get_args
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from typing import NamedTuple, TypeAlias, get_args
 from xml.etree.ElementTree import Element
 
 import msgspec
@@ -29,6 +30,22 @@ _REDUCTIONS = (
     "mechanicalReduction",
 )
 """Elements of a transmission with its reduction; the first existing one counts."""
+_JOINT = re.compile(r"\w*joint\d*", re.IGNORECASE)
+"""Elements of a transmission that name its joints: `joint`, `flexJoint` and `gap_joint` of the PR2, `joint1`."""
+_ROLES = {"flexJoint": "joint1", "rollJoint": "joint2", "rightActuator": "actuator1", "leftActuator": "actuator2"}
+"""Roles in a transmission that couples joints, by the elements of the PR2's wrist."""
+_REDUCTIONS_OF_PARTS = ("drake:gear_ratio", "mechanical_reduction", "mechanicalReduction", "@mechanicalReduction")
+"""Places of the reduction in a joint or an actuator of a transmission that couples joints."""
+_Law: TypeAlias = Callable[[float, float], tuple[tuple[float, float], tuple[float, float]]]
+_COUPLINGS: Mapping[str, _Law] = {
+    "DifferentialTransmission": lambda first, second: ((first, second), (first, -second)),
+    "FourBarLinkageTransmission": lambda first, second: ((first, 0.0), (1.0, second)),
+    "WristTransmission": lambda first, second: ((first, -second), (-first, -second)),
+}
+"""Turns of two motors before their own gears, a row each, per turn of two joints, from the reductions of the joints.
+
+These are the positions that `transmission_interface` of ros_control and `pr2_mechanism_model` document.
+"""
 _COMMANDS: tuple[Command, ...] = get_args(Command)
 """Interfaces of a joint in order: the first existing one counts."""
 _INTERFACES: Mapping[str, Command | None] = {
@@ -67,7 +84,7 @@ class Drive(NamedTuple):
     is_measured: bool = False
     """Whether it only measures the joint."""
     is_coupled: bool = False
-    """Whether the transmission has other joints, too."""
+    """Whether the transmission couples joints in a way that is not modelled."""
 
 
 def read_drives(reader: Reader, element: Element, path: str) -> Iterator[Drive]:
@@ -85,22 +102,72 @@ def read_drives(reader: Reader, element: Element, path: str) -> Iterator[Drive]:
             if name := joint.get("name", ""):
                 yield _read_control(reader, joint, reader.place(joint, f"{path} / joint {name}"), name)
     for transmission in transmissions:
-        for part in (transmission, *transmission.findall("joint"), *transmission.findall("actuator")):
-            reader.expect(part, path, ("name", "type", "role"))
-        joints = transmission.findall("joint")
-        gear = _read_gear(reader, transmission, path) if len(joints) == 1 else None
-        for joint in joints:
-            if name := joint.get("name", ""):
-                place = reader.place(joint, f"{path} / joint {name}")
-                commands = _read_interfaces(reader, transmission, joint, place)
-                drive = Drive(place, name, transmission, gear, next(filter(commands.__contains__, _COMMANDS), None))
-                is_measured = commands == {None}
-                yield drive._replace(is_driven=not is_measured, is_measured=is_measured, is_coupled=len(joints) > 1)
-        # Franka's simulator has such transmissions for handles of the whole arm; they couple nothing
-        is_interface = (transmission.findtext("type") or "").strip().endswith("Interface")
-        if len(joints) > 1 and not is_interface:
-            message = f"{path} couples {len(joints)} joints: they move independently of one another, without gears"
-            reader.add(transmission, "coupled-transmission", message)
+        joints = [part for part in transmission if _JOINT.fullmatch(part.tag) and part.get("name")]
+        gears = _read_gears(reader, transmission, path, joints)
+        for number, joint in enumerate(joints):
+            name = joint.get("name", "")
+            place = reader.place(joint, f"{path} / joint {name}")
+            commands = _read_interfaces(reader, transmission, joint, place)
+            gear = gears[number] if gears else None
+            drive = Drive(place, name, transmission, gear, next(filter(commands.__contains__, _COMMANDS), None))
+            is_measured = commands == {None}
+            # a passive_joint of the PR2's gripper has no motor
+            is_driven = not is_measured and not joint.tag.startswith("passive")
+            yield drive._replace(is_driven=is_driven, is_measured=is_measured, is_coupled=gears is None)
+
+
+def _read_gears(
+    reader: Reader, element: Element, path: str, joints: Sequence[Element]
+) -> Sequence[Transmission | None] | None:
+    """Return the gear of each joint of a transmission; None if it couples them in a way that is not modelled."""
+    kind = (element.findtext("type") or element.findtext("plugin") or element.get("type") or "").strip()
+    law = _COUPLINGS.get(kind.rpartition("/")[2])
+    actuators = [part for part in element if part.tag.lower().endswith("actuator")]
+    for part in (element, *joints, *actuators):
+        if law or part.tag in ("transmission", "joint", "actuator"):
+            reader.expect(part, path, ("name", "type", "role", *(("mechanicalReduction", "offset") if law else ())))
+    if not joints or (not law and [joint.tag for joint in joints] == ["joint"]):
+        return [_read_gear(reader, element, path) for _ in joints]
+    if law and (gears := _read_coupled_gears(reader, path, law, joints, actuators)):
+        reader.used.update(part for part in element if part.tag in ("type", "plugin"))
+        return gears
+    # Franka's simulator has such transmissions for handles of the whole arm; they couple nothing
+    if not kind.endswith("Interface"):
+        names = ", ".join(dict.fromkeys(joint.get("name", "") for joint in joints))
+        message = f"{path} ({kind or 'without a type'}) moves {names} in a way that is not modelled: "
+        hint = (
+            f"a {kind} needs two joints and two actuators, with the roles {', '.join(_ROLES.values())}" if law else ""
+        )
+        reader.add(element, "coupled-transmission", f"{message}each moves by itself, without gears", hint)
+    return None
+
+
+def _read_coupled_gears(
+    reader: Reader, path: str, law: _Law, joints: Sequence[Element], actuators: Sequence[Element]
+) -> Sequence[Transmission | None] | None:
+    """Return the gears of two joints in their order; None if their elements or numbers are not those of the law."""
+    parts = dict[str, Element]()
+    for kind, elements in (("joint", joints), ("actuator", actuators)):
+        for number, part in enumerate(elements, 1):
+            role = part.get("role") or (part.findtext("role") or "").strip() or _ROLES.get(part.tag, f"{kind}{number}")
+            parts[role if role.startswith(kind) else ""] = part
+    names = {joint.get("name") for joint in joints}
+    if parts.keys() != {*_ROLES.values()} or not len(joints) == len(names) == len(actuators) == 2:
+        return None
+    reader.used.update(part for holder in parts.values() for part in (holder, *holder.findall("role")))
+    holders = [parts[role] for role in _ROLES.values()]
+    first, second, *motors = (_read_reduction(reader, part, _REDUCTIONS_OF_PARTS, path) or 1.0 for part in holders)
+    offsets = [_number(reader, joint, ("offset", "@offset"), path) or 0.0 for joint in holders[:2]]
+    gears = list[Transmission | None]()
+    for k, row in enumerate(law(first, second)):
+        own, shared = motors[k] * row[k], motors[k] * row[1 - k]
+        offset = offsets[k] + offsets[1 - k] * (row[1 - k] / row[k])
+        if not own or not all(map(math.isfinite, (own, shared, offset))):
+            return None
+        rotor = _number(reader, holders[2 + k], ("drake:rotor_inertia",), path)
+        gear = Transmission(own, offset, rotor, holders[1 - k].get("name") if shared else None, shared or None)
+        gears.append(None if gear == Transmission() else gear)
+    return gears if holders[0] is joints[0] else gears[::-1]
 
 
 def _read_control(reader: Reader, joint: Element, path: str, name: str) -> Drive:
@@ -193,19 +260,26 @@ def _add_unknown(reader: Reader, element: Element, path: str, name: str, names: 
 
 def _read_gear(reader: Reader, element: Element, path: str) -> Transmission | None:
     """Return reduction, offset and rotor of a transmission; None if it has none of them."""
-
-    def number(*places: str) -> float | None:
-        numbers = reader.numbers(element, places, path, "bad-transmission")
-        return numbers[0] if numbers else None
-
-    reduction = number(*_REDUCTIONS)
-    if reduction == 0:
-        reader.add(element, "bad-transmission", f"{path}: the reduction is 0")
-    gear = Transmission(reduction or 1.0, number("joint/offset") or 0.0, number("actuator/drake:rotor_inertia"))
+    reduction = _read_reduction(reader, element, _REDUCTIONS, path)
+    offset = _number(reader, element, ("joint/offset",), path) or 0.0
+    gear = Transmission(reduction or 1.0, offset, _number(reader, element, ("actuator/drake:rotor_inertia",), path))
     reader.used.update(part for part in element if part.tag in ("joint", "actuator"))
     # a SimpleTransmission drives one joint, and is modelled
     reader.used.update(part for part in element if "SimpleTransmission" in (part.text or ""))
     return None if gear == Transmission() else gear
+
+
+def _number(reader: Reader, element: Element, places: Iterable[str], path: str) -> float | None:
+    numbers = reader.numbers(element, places, path, "bad-transmission")
+    return numbers[0] if numbers else None
+
+
+def _read_reduction(reader: Reader, element: Element, places: Iterable[str], path: str) -> float | None:
+    """Return a reduction; None if there is none or, after a warning, zero."""
+    reduction = _number(reader, element, places, path)
+    if reduction == 0:
+        reader.add(element, "bad-transmission", f"{path}: the reduction is 0")
+    return reduction or None
 
 
 def configured_drives(options: Options) -> Iterator[Drive]:
@@ -225,7 +299,18 @@ def with_drives(reader: Reader, joints: Iterable[Joint], drives: Iterable[Drive]
     driven = [
         _with_drives(reader, joint, by_joint[joint.name]) if joint.name in by_joint else joint for joint in joints
     ]
-    starts = {joint.name: joint.start or 0.0 for joint in driven}
+    starts, loose = {joint.name: joint.start or 0.0 for joint in driven}, dict[str, Finding]()
+    turning = {joint.name for joint in driven if MOTION_KINDS.get(joint.type) == "rotational" and joint.mimic is None}
+    for number, joint in enumerate(driven):
+        gear = joint.transmission
+        if gear and gear.joint is not None and not turning.issuperset((joint.name, gear.joint)):
+            driven[number] = msgspec.structs.replace(joint, transmission=None)
+            path = next(drive.path for drive in by_joint[joint.name] if drive.transmission == gear)
+            name, pair = path.partition(" / ")[0], f"{joint.name} and {gear.joint}"
+            message = f"{name} couples {pair}, which do not both turn by themselves: they have no gears"
+            if gear.joint in starts:  # a joint that does not exist is told elsewhere
+                loose.setdefault(name, Finding("coupled-transmission", path, message))
+    reader.extend(loose.values())
     for joint in driven:
         if joint.mimic and joint.start is not None and joint.mimic.joint in starts:
             position = joint.mimic.multiplier * starts[joint.mimic.joint] + joint.mimic.offset

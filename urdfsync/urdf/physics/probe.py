@@ -14,7 +14,7 @@ from urdfsync.checks.experiment import Probe
 from urdfsync.domain import Target
 from urdfsync.modelica.literals import matrix, vector
 from urdfsync.urdf.connectors import connector_names
-from urdfsync.urdf.kinematics.tree import KinematicTree
+from urdfsync.urdf.drives import sharing_joint
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.physics import motion
 from urdfsync.urdf.physics.motion import Course
@@ -126,9 +126,12 @@ def moving_probe(
         drive = MOTION_KINDS[joint.type].capitalize()
         declarations.append(f"{drive}Drive drive{k}(ways = {matrix(motion.ways(courses), 6)})")
         connections.append(f"drive{k}.flange, {names.flanges[joint.name]}")
+    turning = {joint.name for joint in subject.axes if MOTION_KINDS[joint.type] == "rotational"}
     for k, joint_name in enumerate(gears, 1):
         gear = f"{names.records[joint_name]}.transmission"
-        declarations.append(f"Real gear{k}[3] = {{{gear}.reduction, {gear}.offset, {gear}.rotorInertia}}")
+        # that of a joint that slides moves no other one
+        other = f"{gear}.otherReduction" if joint_name in turning else "0"
+        declarations.append(f"Real gear{k}[4] = {{{gear}.reduction, {gear}.offset, {gear}.rotorInertia, {other}}}")
     for k, loop in enumerate(subject.tree.loops, 1):
         ends = (loop.parent, loop.origin), (loop.child, loop.child_origin)
         parent, child = (_place(f"robot.{subject.tree.link(link).component}", origin) for link, origin in ends)
@@ -194,13 +197,16 @@ def free_course(subject: Subject, number: int) -> Course:
     return course._replace(position=subject.starts[joint.name]) if is_at_start else course
 
 
-def limit_variable(tree: KinematicTree, joint: Joint, ending: str) -> str:
+def limit_variable(subject: Subject, joint: Joint, ending: str) -> str:
     """Return the variable of a warning with the joint's name in its message.
 
-    The robot itself checks the effort of a leader, which carries its followers' load.
+    The robot itself checks the effort of a leader, which carries its followers' load, and of joints that share a motor.
     """
+    tree = subject.tree
     component, name = tree.joint(joint.name).component, "warning_getInstanceName"
-    if ending.endswith("effort_limit") and joint.name in tree.followers_by_leader():
+    shared = ((other.name, sharing_joint(other, subject.options.drives)) for other in tree.joints)
+    checked = {name for names in shared if names[1] for name in names} | tree.followers_by_leader().keys()
+    if ending.endswith("effort_limit") and joint.name in checked:
         return f"robot.{name}_{component}_joint_{component}_parameters_name_{ending}"
     return f"robot.{component}.{name}_joint_parameters_name_{ending}"
 

@@ -98,9 +98,9 @@ def loops(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
 def gears(geared: Sequence[str], read: Mapping[str, Gear]) -> Iterator[Pair]:
     """Yield the numbers of the gears."""
     for k, joint in enumerate(geared, 1):
-        values = tuple(f"gear{k}[{i}]" for i in (1, 2, 3))
-        gear = read.get(joint, Gear())
-        yield Compared(Quantity.GEAR, f"joint {joint}", "", values, (0.0,), Part.LOSSES), [gear]
+        values, gear = tuple(f"gear{k}[{i}]" for i in (1, 2, 3, 4)), read.get(joint, Gear())
+        numbers = [gear.reduction, gear.offset, gear.rotor, gear.joint_reduction]
+        yield Compared(Quantity.GEAR, f"joint {joint}", "", values, (0.0,), Part.LOSSES), [numbers]
 
 
 def sensors(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
@@ -151,7 +151,7 @@ def limits(subject: Subject) -> Iterator[Pair]:
                 if not abs(excess) < _CLEAR * max(1.0, abs(limit) if math.isfinite(limit) else 1.0):
                     passed.setdefault(ending, {})[time] = excess > 0
         for ending, flags in passed.items():
-            variable = probe.limit_variable(subject.tree, joint, ending)
+            variable = probe.limit_variable(subject, joint, ending)
             detail = ending.replace("_", " ")
             compared = Compared(
                 Quantity.WARNING, f"joint {joint.name}", "", (variable,), tuple(flags), Part.LIMITS, detail

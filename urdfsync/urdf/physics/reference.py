@@ -46,6 +46,8 @@ class PinocchioRobot(NamedTuple):
     """Pinocchio's model; its first joint is the free motion of the root link."""
     followers: Mapping[str, Mimic]
     """Mimic relation of each follower, by the names of joints."""
+    rotors: Array
+    """Inertias of the rotors in the mass matrix: Pinocchio's `armature` has none between two joints."""
 
 
 class Gear(NamedTuple):
@@ -54,6 +56,9 @@ class Gear(NamedTuple):
     reduction: float = 1.0
     offset: float = 0.0
     rotor: float = 0.0
+    joint: str = ""
+    """Another joint that the motor turns, by `joint_reduction`."""
+    joint_reduction: float = 0.0
 
 
 def read(content: bytes, file: str, loose: Collection[str] = ()) -> PinocchioRobot:
@@ -83,32 +88,87 @@ def read(content: bytes, file: str, loose: Collection[str] = ()) -> PinocchioRob
         message = f"Pinocchio can't read this file: {str(error).rstrip('.')}"
         hint = "correct the file, or check without --physics"
         raise SourceError(Diagnostic(Severity.ERROR, "pinocchio-refuses", message, file, hint=hint)) from error
-    gears = read_gears(root)
+    gears, rotors = read_gears(root), np.zeros((model.nv, model.nv))
     for joint in root.findall("joint"):
         name, armature = joint.get("name", ""), joint.find("dynamics[@armature]")
         if model.existJointName(name) and (coordinates := model.joints[model.getJointId(name)]).nv == 1:
             gear = gears.get(name, Gear())
             added = 0.0 if armature is None else float(armature.get("armature", "0"))
-            model.armature[coordinates.idx_v] = added + gear.rotor * gear.reduction**2
-    return PinocchioRobot(model, followers)
+            model.armature[coordinates.idx_v] = added
+            ways = np.zeros(model.nv)
+            ways[coordinates.idx_v] = gear.reduction
+            if gear.joint:
+                ways[model.joints[model.getJointId(gear.joint)].idx_v] = gear.joint_reduction
+            rotors += gear.rotor * np.outer(ways, ways)
+    return PinocchioRobot(model, followers, rotors)
 
 
 def read_gears(root: Element) -> dict[str, Gear]:
-    """Return the gears of a URDF by their joints: of transmissions with one joint, by the endings of their tags."""
+    """Return the gears of a URDF by their joints, by the endings of tags and attributes."""
     gears = dict[str, Gear]()
+    turning = {
+        joint.get("name")
+        for joint in root.findall("joint")
+        if joint.get("type") in ("revolute", "continuous") and joint.find("mimic") is None
+    }
     for element in (*root.findall("transmission"), *root.findall("ros2_control/transmission")):
-        numbers = dict[str, float]()
-        for part in (part for where in ("joint/*", "actuator/*", "*") for part in element.findall(where)):
-            tag = part.tag.rpartition(":")[2].replace("_", "").lower()
-            with contextlib.suppress(ValueError):
-                numbers.setdefault(tag, float(part.get("value", part.text or "")))
-        names = ("gearratio", "mechanicalreduction"), ("offset",), ("rotorinertia",)
-        values = [next((numbers[name] for name in some if name in numbers), None) for some in names]
-        if len(joints := element.findall("joint")) == 1 and any(value is not None for value in values):
-            gear = Gear(values[0] or 1.0, values[1] or 0.0, values[2] or 0.0)
-            if gear != Gear():
-                gears.setdefault(joints[0].get("name", ""), gear)
+        kind = (element.findtext("type") or element.findtext("plugin") or element.get("type") or "").strip()
+        joints = [part for part in element if part.tag.rstrip("12").lower().endswith("joint") and part.get("name")]
+        found = _shared_gears(element, kind.rpartition("/")[2])
+        if found is None and [joint.tag for joint in joints] == ["joint"]:
+            numbers = _numbers(*joints, *element.findall("actuator"), element)
+            gear = Gear(_reduction(numbers), numbers.get("offset", 0.0), numbers.get("rotorinertia", 0.0))
+            found = {joints[0].get("name", ""): gear}
+        for name, each in (found or {}).items():
+            if each != Gear() and (not each.joint or {name, each.joint} <= turning):
+                gears.setdefault(name, each)
     return gears
+
+
+def _shared_gears(element: Element, kind: str) -> dict[str, Gear] | None:
+    """Return the gears of two joints by the documented positions of joints; None for another kind of transmission."""
+    roles = {"flexJoint": "joint1", "rollJoint": "joint2", "rightActuator": "actuator1", "leftActuator": "actuator2"}
+    parts = dict[str, Element]()
+    for ending in ("joint", "actuator"):
+        for k, part in enumerate((part for part in element if part.tag.rstrip("12").lower().endswith(ending)), 1):
+            role = part.get("role") or part.findtext("role", "").strip() or roles.get(part.tag, f"{ending}{k}")
+            parts[role if role.startswith(ending) else ""] = part
+    holders = [parts.get(role, Element(role)) for role in roles.values()]
+    numbers, names = [_numbers(part, with_attributes=True) for part in holders], [part.get("name") for part in holders]
+    reductions, offsets = [_reduction(found) for found in numbers], [found.get("offset", 0.0) for found in numbers[:2]]
+    ways = {
+        "DifferentialTransmission": [[0.5, 0.5], [0.5, -0.5]],
+        "WristTransmission": [[0.5, -0.5], [-0.5, -0.5]],
+        "FourBarLinkageTransmission": [[1, 0], [-1 / reductions[0], 1]],
+    }.get(kind)
+    if ways is None:
+        return None
+    joints = np.array(ways) / np.outer(reductions[:2], reductions[2:])
+    is_whole = parts.keys() == {*roles.values()} and len({*names[:2]}) == 2
+    if not is_whole or not np.isfinite(joints).all() or not np.linalg.det(joints):
+        return {}
+    motors, gears = np.linalg.inv(joints), dict[str, Gear]()
+    for k, row in enumerate(motors):
+        other, rotor = names[1 - k] if row[1 - k] else "", numbers[2 + k].get("rotorinertia", 0.0)
+        gears[names[k] or ""] = Gear(
+            float(row[k]), float(row @ offsets / row[k]), rotor, other or "", float(row[1 - k])
+        )
+    return gears
+
+
+def _numbers(*elements: Element, with_attributes: bool = False) -> dict[str, float]:
+    """Return the numbers in some elements by their plain names; the first of each name counts."""
+    numbers = dict[str, float]()
+    for element in elements:
+        texts = [(part.tag, part.get("value", part.text or "")) for part in element]
+        for name, text in (*texts, *(element.attrib.items() if with_attributes else ())):
+            with contextlib.suppress(ValueError):
+                numbers.setdefault(name.rpartition(":")[2].replace("_", "").lower(), float(text))
+    return numbers
+
+
+def _reduction(numbers: Mapping[str, float]) -> float:
+    return numbers.get("gearratio", numbers.get("mechanicalreduction", 1.0)) or 1.0
 
 
 def read_place(root: Element, sensor: Sensor) -> tuple[list[float], list[float]]:
@@ -158,6 +218,7 @@ class Reference:
         self.pin, self.model = pinocchio(), robot.model
         self.model.gravity.linear = np.array([0, 0, -motion.GRAVITY])
         self.axes = tuple(axes)
+        self.rotors = robot.rotors
         self.projection, self._offset = self._mimic(robot, self.axes)
         self.closing: Closing | None = None
         if assembly and assembly.closures:
@@ -227,7 +288,7 @@ class Reference:
         on heavy ones amplify such errors. The base rests, unless `is_free`.
         """
         data, nv = self.model.createData(), self.model.nv
-        load = self.pin.rnea(self.model, data, state.q, state.v, state.drift) + self.losses(state.v)
+        load = self._load(data, state, state.drift)
         ways, drives = state.ways, efforts
         if is_free:
             ways = np.column_stack([np.eye(nv, 6), ways])
@@ -242,7 +303,11 @@ class Reference:
         return gains, float(doubt / max(1.0, np.abs(gains).max()))
 
     def _mass(self, q: Array) -> Array:
-        return np.asarray(self.pin.crba(self.model, self.model.createData(), q))
+        return np.asarray(self.pin.crba(self.model, self.model.createData(), q)) + self.rotors
+
+    def _load(self, data: Any, state: Configuration, a: Array) -> Array:
+        """Return the efforts of all coordinates, losses among them, for a configuration with accelerations `a`."""
+        return np.asarray(self.pin.rnea(self.model, data, state.q, state.v, a) + self.rotors @ a + self.losses(state.v))
 
     @staticmethod
     def _solved(mass: Array, efforts: Array) -> Array:
@@ -269,9 +334,9 @@ class Reference:
         """Return force and torque in the joint of a sensor, below the link `parent`, in the sensor's axes."""
         pin, model = self.pin, self.model
         data, joint = model.createData(), model.getJointId(sensor.at)
-        load = pin.rnea(model, data, state.q, state.v, state.a)
+        load = self._load(data, state, state.a)
         if self.closing:
-            forces = self.closing.forces(state.positions, load + self.losses(state.v))
+            forces = self.closing.forces(state.positions, load)
             pin.rnea(model, data, state.q, state.v, state.a, forces)
         pin.updateFramePlacements(model, data)
         words = next((part for part in root.iter("sensor") if part.get("name") == sensor.name.rpartition("/")[2]), root)
@@ -288,7 +353,7 @@ class Reference:
     def solve(self, state: Configuration) -> Solution:
         """Return poses, and the efforts of base and axes."""
         pin, data = self.pin, self.model.createData()
-        load = pin.rnea(self.model, data, state.q, state.v, state.a) + self.losses(state.v)
+        load = self._load(data, state, state.a)
         pin.framesForwardKinematics(self.model, data, state.q)
         reactions = self.closing.reactions(state.positions, load) if self.closing else []
         reactions = [one._replace(gap=data.oMi[1].rotation @ one.gap) for one in reactions]
