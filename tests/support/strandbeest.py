@@ -1,17 +1,9 @@
-"""Jansen's walking mechanism as a generator of many loops: legs of three loops each on one crankshaft.
-
-As a program, it closes them, and prints their number, the states and the seconds.
-"""
+"""Jansen's walking mechanism as a generator of many loops: legs of three loops each on one crankshaft."""
 
 from __future__ import annotations
 
 import math
-import sys
-import time
 
-from urdfsync.urdf.drives import assembly
-from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import Joint, Link, Loop, Origin, Robot
 
 _Point = tuple[float, float]
@@ -84,9 +76,3 @@ def _meet(a: _Point, to_a: float, b: _Point, to_b: float) -> tuple[_Point, _Poin
         (a[0] + (along * x - side * y) / apart, a[1] + (along * y + side * x) / apart) for side in (across, -across)
     )
     return first, second
-
-
-if __name__ == "__main__":
-    begin = time.thread_time()
-    found = assembly(KinematicTree.of(strandbeest()), Options())
-    sys.stdout.write(f"{len(found.closures)} {' '.join(found.states)} {time.thread_time() - begin}")

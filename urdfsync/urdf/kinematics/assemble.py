@@ -392,50 +392,58 @@ def _motions(count: int, number: int = 4) -> list[Array]:
 def _closed_near(problem: _Problem, drives: Sequence[int]) -> tuple[Array, list[int]]:
     """Return a closed pose near the start, and the joints that stay there exactly.
 
-    All joints with a given start stay if that is possible, else as many as possible of the drives and of these. Raises
-    an error with the loops that cannot be closed.
+    All joints with a given start stay if that is possible, else as many as possible. Other drives stay if the loops can
+    be closed nearby. Raises an error with the loops that cannot be closed.
     """
     q, kept, faults = problem.start.copy(), list[int](), list[Finding]()
-    given = [k for k, joint in enumerate(problem.independent) if joint.start is not None]
     for part, columns in problem.parts(np.zeros(len(q), bool)):
-        own = {k: at for at, k in enumerate(columns.tolist())}
-        wishes = [own[k] for k in dict.fromkeys([*drives, *given]) if k in own]
-        for held in (wishes, [own[k] for k in given if k in own], []):
-            closed, open_parts = _search(part, held)
-            if not open_parts:
-                held, q[columns] = _keep(part, held, wishes, closed)
-                kept += columns[held].tolist()
+        driven = tuple(at for at, k in enumerate(columns.tolist()) if k in drives)
+        given = tuple(at for at, joint in enumerate(part.independent) if joint.start is not None)
+        given = tuple(sorted(given, key=lambda at: at not in driven))
+        both = tuple(dict.fromkeys((*given, *driven)))
+        opened = dict[Sequence[int], list[tuple[_Problem, Array]]]()
+        # a far pose is worse than drives that move, and better than none
+        for held, most in dict.fromkeys(((both, 1), (given, None), (driven, 1), ((), None), (driven, None))):
+            closed, opened[held] = _search(part, held, most)
+            if not opened[held]:
+                stay, q[columns] = _keep(part, held, given, closed)
+                kept += columns[stay].tolist()
                 break
         else:
-            faults += [fault for open_part, best in open_parts for fault in _find_open(open_part, best)]
+            faults += [fault for open_part, best in opened[()] for fault in _find_open(open_part, best)]
     if faults:
         raise _UnclosableError(*faults)
     return q, kept
 
 
-def _keep(part: _Problem, held: list[int], wishes: Sequence[int], closed: Array) -> tuple[list[int], Array]:
-    """Hold as many of the wishes as possible, one after the other; return these and the closed pose with them."""
-    for k in wishes if len(held) < len(wishes) else []:
+def _keep(part: _Problem, held: Sequence[int], given: Sequence[int], closed: Array) -> tuple[list[int], Array]:
+    """Hold also as many of the given joints as possible, one after the other; return all and the closed pose."""
+    kept = [*held]
+    for k in given if not set(given).issubset(held) else []:
         squares, directions = _spectrum(part.jacobian(closed, part.whole))
         freedom = directions[:, squares < _INDEPENDENT**2]
-        if len(_independent([freedom[[*held, k]]])) == len(held) + 1:
-            moved, open_parts = _search(part, [*held, k])
+        if len(kept) == freedom.shape[1]:
+            break
+        if len(_independent([freedom[[*kept, k]]])) == len(kept) + 1:
+            moved, open_parts = _search(part, [*kept, k])
             if not open_parts:
-                held, closed = [*held, k], moved
-    return held, closed
+                kept, closed = [*kept, k], moved
+    return kept, closed
 
 
-def _search(problem: _Problem, held: Sequence[int]) -> tuple[Array, list[tuple[_Problem, Array]]]:
+def _search(
+    problem: _Problem, held: Sequence[int], most: int | None = None
+) -> tuple[Array, list[tuple[_Problem, Array]]]:
     """Return a closed pose within limits with some joints at the start; also the loops that stay open, in their pose.
 
-    Loops that share no other joint are closed one by one.
+    Loops that share no other joint are closed one by one, each from `most` poses.
     """
     q, open_parts = problem.start.copy(), list[tuple[_Problem, Array]]()
     is_held = np.zeros(len(q), bool)
     is_held[list(held)] = True
     for part, columns in problem.parts(is_held):
         free, tried = ~is_held[columns], list[Array]()
-        for near in part.start_poses() if free.any() else [part.start]:
+        for near in itertools.islice(part.start_poses(), most if free.any() else 1):
             tried.append(part.close(np.where(free, near, part.start), part.whole, free))
             if not list(_open_loops(part, tried[-1])):
                 q[columns] = tried[-1]
