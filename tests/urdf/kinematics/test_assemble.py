@@ -274,6 +274,7 @@ def test_each_finger_of_a_hand_is_closed_from_a_pose_of_its_own() -> None:
     starts = start_positions(found.tree)
     assert all(each.limit.lower <= starts[each.name] <= each.limit.upper for each in hand().joints if each.limit)
     assert len(found.states) == 3
+    assert all(starts[name] == round(starts[name], 9) for name in found.driven), "a start that reads well"
 
 
 def test_a_loop_that_stays_open_is_told_without_the_others() -> None:
@@ -443,7 +444,9 @@ def test_a_four_bar_in_line_is_singular() -> None:
     ]
     in_line = tree(joints, Loop("pin", "ball", "b", "c", Origin((0.5, 0, 0)), Origin((-0.1, 0, 0))))
     assert faults(in_line, "crank") == [("loop-singular", "pin")]
-    start = assemble(in_line, frozenset({"crank"}), frozenset({"crank"})).proposed
+    singular = assemble(in_line, frozenset({"crank"}), frozenset({"crank"}))
+    (told,), start = find_loop_findings(singular), singular.proposed
+    assert f'as in `start = {{ "crank" = {start["crank"]:g}, "coupler" = ' in told.hint
     joints = [replace(each, start=start[each.name]) for each in joints]
     found = assembled(replace(in_line, joints=tuple(joints)), "crank")
     assert found.moved == {}, "the proposed start is closed, and no joint of it moves"

@@ -217,6 +217,7 @@ def _assemble(tree: KinematicTree, wanted: frozenset[str], named: frozenset[str]
         if k not in driven:
             raise _singular(tree.loops[np.argmax(problem.moves[:, k])], f"joint {names[k]!r} is at a dead point")
     states = _with_others(freedom, driven)
+    kept += driven  # the start of these has few digits
     exact = _with_others(freedom, [kept[k] for k in _independent([freedom[kept]])])
     free = np.array([k not in exact for k in range(len(names))])
     q = np.where(np.abs(closed - problem.start) > 1e-9, np.round(closed, 9), problem.start)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Iterator, Mapping
 
@@ -81,7 +82,9 @@ class Assembly(msgspec.Struct, frozen=True, kw_only=True):
 
 def find_loop_findings(closed: Assembly) -> Iterator[Finding]:
     """Yield why loops have no model, or else how their model differs from the source."""
-    yield from closed.faults
+    start = ", ".join(f"{json.dumps(name)} = {value:g}" for name, value in closed.proposed.items())
+    hint = f"let its joints start elsewhere, as in `start = {{ {start} }}`" if 0 < len(closed.proposed) < 10 else ""
+    yield from (fault._replace(hint=fault.hint or hint) for fault in closed.faults)
     for name, gap in closed.gaps.items():
         if max(gap.distance, gap.angle) > NOTABLE:
             yield Finding("loop-closed", f"loop {name}", f"loop {name!r} is {gap} open at the start of the source")
