@@ -32,6 +32,8 @@ REPOSITORY = Path(__file__).parents[1]
 NO_CORPUS = "no corpus of robots: set URDFSYNC_CORPUS"
 NO_LIBRARY = "no Modelica Standard Library: set MODELICAPATH"
 
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # as in a build: numpy's threads wait busily for each other
+
 # a busy machine is no reason to fail; who asks for cases gets fresh ones
 settings.register_profile("urdfsync", deadline=None, derandomize=not CASES, max_examples=max(40, CASES))
 settings.load_profile("urdfsync")

@@ -30,7 +30,6 @@ TURTLEBOT = "histories/ROBOTIS-GIT+turtlebot3__turtlebot3_description_urdf_turtl
 SO101 = "histories/TheRobotStudio+SO-ARM100__Simulation_SO101_so101"
 STOMPY = "histories/kscalelabs+sim__sim_stompy_legs_robot"
 FAULTY = {
-    "robots/drake/atlas/urdf/robotiq.urdf": {"loop-open"},
     "robots/random/spot_ros/spot_description/urdf/spot_arm.urdf": {"unknown-parent"},
     f"{TURTLEBOT}_waffle_pi.urdf/003.urdf": {"unknown-child"},
     f"{SO101}_new_calib.urdf/000.urdf": {"duplicate-link", "cycle", "two-parents"},
@@ -97,7 +96,8 @@ def test_models_contain_no_number_of_the_urdf(source: str, corpus: Path) -> None
     for made in map(package, SOURCES[source]):
         other = scaled(made, 1.37)
         for path, text in made.texts.items():
-            if made.roles[path] is not Role.RECORD:
+            # where nothing drives a freedom of a loop, the numbers say which joint is its state
+            if made.roles[path] is not Role.RECORD and not source.startswith(("drake-robotiq", "pollen-robotics")):
                 assert other.texts[path] == text, path
         for suffix in ("Run", "Test"):
             text = code(made.texts[f"Bot{suffix}.mo"]).replace("[3](each unit", "")  # vectors of sensors

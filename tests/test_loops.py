@@ -80,6 +80,14 @@ def test_a_fault_stops_the_build_with_its_line(project: Path, execute: Execute, 
     assert words in execute("build", code=2).err
 
 
+def test_joints_that_start_elsewhere_and_the_chosen_drive_are_told_once(project: Path, execute: Execute) -> None:
+    configure(project, 'output = "modelica"', 'output = "modelica"\nstart = { drive = 0.1, elbow = 2.0 }')
+    said = execute("build").err
+    assert "urdfsync.toml:5: note: robot `bars`: to close the loops, joints move: 'elbow' by " in said
+    assert "Run and Test drive 'drive' (the first free one); if that is wrong" not in said, "it was told before"
+    assert "Angle drive = 0.1\n" in (project / "modelica/Bars/BarsStart.mo").read_text()
+
+
 def test_a_link_that_the_next_export_lacks_is_told(project: Path, execute: Execute) -> None:
     (project / "bars.urdf").write_text(URDF.replace("rocker", "lever"))
     assert "'rocker', which does not exist" in execute("build", code=2).err

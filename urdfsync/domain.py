@@ -213,6 +213,8 @@ class Domain(Protocol):
 
     permissive_options: Any = None
     """The options for sources outside of a project; None for the defaults."""
+    cured: Collection[str] = ()
+    """Codes of errors that `Advice.propose` cures by an option; outside of a project they are warnings."""
 
     # Optional features. Each Protocol stands beside the code that uses it; a module may implement it, too.
     advice: Any = None  # `urdfsync.config.advice.Advice`

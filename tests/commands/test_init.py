@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 from support.commands import Execute, Terminal
 from support.git import NEEDS_GIT, Repository
+from support.urdfs import joint, links, robot
 
 from urdfsync import config
 
@@ -65,6 +66,23 @@ def test_what_a_model_leaves_out_is_allowed(execute: Execute, folder: Path) -> N
     (folder / "leg.urdf").write_text('<robot name="leg"><link name="world"/><inertial/></robot>')
     execute("add", "leg.urdf")
     execute("build")
+
+
+def test_a_start_is_guessed_where_loops_are_at_a_dead_point(execute: Execute, folder: Path) -> None:
+    """A parallelogram in line, in the spelling of Isaac Sim's page."""
+    bars = [joint(name, "continuous", *ends, axis="0 0 1", xyz=xyz, rpy="0 0 0") for name, *ends, xyz in (
+        ("crank", "base", "a", "0 0 0"), ("j 2", "a", "b", "1 0 0"), ("rocker", "base", "c", "2 0 0")
+    )]  # fmt: skip
+    ends = '<link1 link="b" xyz="2 0 0" rpy="0 0 0"/><link1 link="c" xyz="1 0 0" rpy="0 0 0"/>'
+    pin = f'<loop_joint name="pin" type="spherical">{ends}</loop_joint>'
+    (folder / "bars.urdf").write_text(robot(*links(base=1.0, a=1.0, b=1.0, c=1.0), *bars, pin))
+    said = execute("init", "bars.urdf")
+    assert "warning: loop 'pin' is singular at the start" in said.words
+    assert "guessed: with all joints at zero, loops are at a dead point" in said.words
+    start = tomllib.loads((folder / "urdfsync.toml").read_text())["robots"]["bars"]["start"]
+    assert list(start) == ["crank", "j 2", "rocker"]
+    assert "start-moved" not in execute("build").words
+    assert f"Angle crank = {start['crank']}\n" in (folder / "modelica/Bars/BarsStart.mo").read_text()
 
 
 def test_an_existing_file_is_never_overwritten(project: Path, execute: Execute) -> None:

@@ -182,7 +182,7 @@ def robot_table(guess: Guess, domain: Domain) -> str:
     lines = [
         f"[robots.{guess.robot}]",
         _assignment("source", guess.source),
-        *([_inline_table("arguments", guess.arguments)] if guess.arguments else []),
+        *([_assignment("arguments", guess.arguments)] if guess.arguments else []),
         _assignment("package", guess.package)
         + "  # full name, for example Plant.Robots.Arm; its last part names the class",
     ]
@@ -201,14 +201,12 @@ def robot_table(guess: Guess, domain: Domain) -> str:
 
 def _assignment(key: str, value: Any) -> str:
     plain_value = msgspec.to_builtins(value)
+    if isinstance(plain_value, dict):
+        return f"{key} = {{ {', '.join(_assignment(*item) for item in plain_value.items())} }}"
     if isinstance(plain_value, list | tuple):  # tomli_w gives each item a line, which can't be one comment
         items = (tomli_w.dumps({"item": item}).strip().removeprefix("item = ") for item in plain_value)
         return f"{key} = [{', '.join(items)}]"
     return tomli_w.dumps({key: plain_value}).strip()
-
-
-def _inline_table(key: str, values: Mapping[str, str]) -> str:
-    return f"{key} = {{ {', '.join(_assignment(*item) for item in values.items())} }}"
 
 
 @contextlib.contextmanager

@@ -8,7 +8,7 @@ import os
 import re
 import stat
 from bisect import bisect_right
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -316,12 +316,19 @@ def check_options(config: Config, robot: RobotConfig, reading: Reading) -> tuple
     return findings
 
 
-def read(domain: Domain, options: Any, content: bytes, name: str) -> tuple[Snapshot, Reading]:
+def read(
+    domain: Domain, options: Any, content: bytes, name: str, cured: Collection[str] = ()
+) -> tuple[Snapshot, Reading]:
     """Return the model in a source, and its reading; `name` is the source's name in diagnostics.
 
-    Raises SourceError with all its faults.
+    Errors with `cured` codes become warnings. Raises SourceError with all faults.
     """
     reading = _read_model(domain, msgspec.json.encode(options), content, name)  # type: ignore[arg-type] # it is an object
+    mild = {"severity": Severity.WARNING}
+    diagnostics = tuple(
+        msgspec.structs.replace(finding, **mild if finding.code in cured else {}) for finding in reading.diagnostics
+    )
+    reading = msgspec.structs.replace(reading, diagnostics=diagnostics)
     if reading.snapshot is None or any(finding.severity is Severity.ERROR for finding in reading.diagnostics):
         raise SourceError(*reading.diagnostics)
     return reading.snapshot, reading
@@ -330,7 +337,7 @@ def read(domain: Domain, options: Any, content: bytes, name: str) -> tuple[Snaps
 def read_permissively(domain: Domain, text: Source) -> tuple[Snapshot, Reading]:
     """Return what `read` does, of a source outside of a project."""
     with text.locating():
-        return read(domain, domain.permissive_options or domain.options(), text.content, text.name)
+        return read(domain, domain.permissive_options or domain.options(), text.content, text.name, domain.cured)
 
 
 @functools.lru_cache(maxsize=4)

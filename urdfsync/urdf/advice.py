@@ -10,6 +10,7 @@ from urdfsync.config.advice import Proposal
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.domain import Target
 from urdfsync.urdf.connectors import connector_options
+from urdfsync.urdf.drives import assembly
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.names import natural_key
 from urdfsync.urdf.options import LeftOut, Options
@@ -31,11 +32,13 @@ _CAMEL = re.compile(r"(?<=[a-z0-9])(?=[A-Z])")
 
 
 def propose(robot: Robot, diagnostics: Sequence[Diagnostic]) -> Sequence[Proposal]:
-    """Guess whether the robot is mobile; allow the errors about parts that no model has."""
-    base, codes = guess_base(robot), {entry.code for entry in diagnostics}
-    if not (needed := [code for code in get_args(LeftOut) if code in codes]):
-        return (base,)
-    return (base, Proposal("allow", needed, "the model leaves this out, see the warnings"))
+    """Guess the base, and a start if loops are at a dead point; allow the errors about parts that no model has."""
+    proposals, codes = [guess_base(robot)], {entry.code for entry in diagnostics}
+    if "loop-singular" in codes and (start := assembly(KinematicTree.of(robot), Options()).proposed):
+        proposals.append(Proposal("start", start, "with all joints at zero, loops are at a dead point"))
+    if needed := [code for code in get_args(LeftOut) if code in codes]:
+        proposals.append(Proposal("allow", needed, "the model leaves this out, see the warnings"))
+    return proposals
 
 
 def option_for(name: str, robot: Robot, target: Target, options: Options) -> str:

@@ -55,6 +55,7 @@ class UrdfDomain(Domain):
     model = Robot
     options = Options
     permissive_options = Options(allow=get_args(LeftOut))
+    cured = ("loop-singular",)
     advice, effects, checks = _Module("advice"), _Module("diff.effects"), _Module("benches")
     beside, imports = _Module("parse.beside"), _Module("meshes.lookup")
     simulation, pictures = _Module("benches"), _Module("scene")
@@ -76,16 +77,18 @@ class UrdfDomain(Domain):
         tree = KinematicTree.of(robot)
         closed = assembly(tree, options)
         about_options = list(option_names.check_options(tree, closed, options))
-        stated, of_source = {f"loop {loop.name}": loop.name for loop in options.loops}, list[Finding]()
+        stated = {f"loop {loop.name}": f"loops.{loop.name}" for loop in options.loops}
+        stated |= {f"joint {name}": f"start.{name}" for name in options.start}
+        of_source = list[Finding]()
         for finding in find_loop_findings(closed):
-            if name := stated.get(finding.path):
-                about_options.append((f"loops.{name}", diagnostic(finding.code, finding.message, 0, finding.hint)))
+            if option := stated.get(finding.path):
+                about_options.append((option, diagnostic(finding.code, finding.message, 0, finding.hint)))
             else:
                 of_source.append(finding)
         diagnostics += located(find_implausible(tree), file, lines) + unmodelled + located(of_source, file, lines)
         if not closed.faults:
             diagnostics += located(find_unsimulated(tree, closed, options), file, lines)
-        is_wrong = any(entry.severity is Severity.ERROR for entry in diagnostics)
+        is_wrong = any(entry.severity is Severity.ERROR and entry.code not in self.cured for entry in diagnostics)
         return Reading(None if is_wrong else robot.by_name(), diagnostics, lines, tuple(about_options))
 
     def names(self, snapshot: Robot, target: Target) -> Mapping[str, Mapping[str, str]]:

@@ -170,6 +170,8 @@ _WARNINGS = {
 }
 _NOTES = {
     "loop-by-name": "state it as `loops` in the configuration if it is of another kind",
+    "loop-drives": "if that is wrong, list all joints to drive in `driven`",
+    "start-moved": "name fewer joints in `start` to choose which of them stay",
     "loop-closed": "the models of a package begin where it is closed",
     "loop-weaker": "nothing to do: the motion is the same",
     "second-reader-failed": "go by the reading of urdfsync alone",

@@ -14,9 +14,10 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from msgspec.structs import replace
 from support import loops
+from support.strandbeest import strandbeest
 
 from urdfsync.urdf.kinematics.assemble import assemble
-from urdfsync.urdf.kinematics.loops import Assembly, Closure
+from urdfsync.urdf.kinematics.loops import Assembly, Closure, find_loop_findings
 from urdfsync.urdf.kinematics.poses import compose, link_poses, pose, start_positions
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.robot import Joint, JointType, Limit, Link, Loop, LoopKind, Mimic, Origin, Robot, Vector
@@ -79,6 +80,37 @@ def test_a_four_bar_has_the_angles_of_its_triangles(crank: float) -> None:
     closure = found.closures["pin"]
     assert (closure.planar, closure.weaker) == (Z, None)
     assert (closure.translations, closure.rotations) == (((1, 0, 0), (0, 1, 0)), ())
+
+
+def test_a_given_start_is_kept_exactly_if_that_is_possible() -> None:
+    bars = tuple(replace(each, start=2.0 if each.name == "rocker" else None) for each in four_bar().joints)
+    found = assembled(replace(four_bar(), joints=bars), "crank")
+    assert (start_positions(found.tree)["rocker"], found.moved, found.driven) == (2.0, {}, frozenset({"crank"}))
+    assert distances(found.tree, found) == pytest.approx([0], abs=1e-11)
+    crossed = assembled(four_bar(crank=1.0, coupler=0.0, rocker=1.5), "crank")
+    assert start_positions(crossed.tree)["crank"] == 1.0
+    assert list(crossed.moved) == ["coupler", "rocker"]
+    (note,) = (found for found in find_loop_findings(crossed) if found.code == "start-moved")
+    assert (note.path, "'coupler' by 0.525 rad, 'rocker' by 0.19 rad" in note.message) == ("joint coupler", True)
+    far = assembled(four_bar(rocker=0.5))
+    assert start_positions(far.tree)["crank"] == 0.5, "the rocker never comes there"
+
+
+def test_drives_are_chosen_by_names_and_efforts_and_told_with_the_reason() -> None:
+    def chosen(**changes: Any) -> Mapping[str, str]:
+        joints = [replace(each, **changes.get(each.name, {})) for each in loops.FIVE_BAR.joints]
+        names = {each.name: changes.get(each.name, {}).get("name", each.name) for each in joints}
+        bare = [replace(each, name=names[each.name], actuated=False) for each in joints]
+        return assembled(KinematicTree.of(replace(loops.FIVE_BAR, joints=tuple(bare)))).choices
+
+    first = "the first free one"
+    assert chosen() == {"left_pivot": first, "left_pin": first}
+    assert chosen(right_pin={"name": "motor_2"}) == {"left_pivot": first, "motor_2": "by its name"}
+    assert chosen(right_pivot={"limit": Limit(effort=5.0)})["right_pivot"] == "by its limit of effort"
+    assert chosen(left_pivot={"name": "passive1"}) == {"left_pin": first, "right_pivot": first}
+    (told,) = find_loop_findings(replace(assembled(four_bar()), gaps={}, moved={}))
+    assert (told.code, told.message) == ("loop-drives", "Run and Test drive 'crank' (the first free one)")
+    assert assembled(FIVE_BAR, "left_pivot").choices == {}, "a source that names drives chooses"
 
 
 def test_a_slider_crank_starts_where_its_rod_reaches() -> None:
@@ -213,8 +245,59 @@ def test_limits_that_keep_a_loop_open_are_named() -> None:
     assert "'rocker'" in result.faults[0].hint
 
 
+FINGERS = (
+    ((0.5, 0.3, 0.4, 0.6), ((-1.4, 1.0), (-0.2, 2.4), (-1.5, 1.1))),
+    ((0.6, 0.2, 0.7, 0.8), ((-1.2, 1.6), (-1.0, 0.8), (-0.2, 2.6))),
+    ((0.2, 0.8, 0.5, 0.8), ((1.2, 4.1), (1.4, 4.2), (0.8, 3.4))),
+)
+"""Lengths of crank, coupler, rocker and base of four-bars, and the limits of their joints.
+
+None closes from the start; they close from different poses: the first one near it, the last one from others only.
+"""
+
+
+def hand(fingers: Sequence[Any] = FINGERS) -> KinematicTree:
+    joints, pins = list[Joint](), list[Loop]()
+    for k, ((crank, coupler, rocker, base), limits) in enumerate(fingers):
+        ends = ((f"crank{k}", "palm", f"a{k}", 0.0), (f"coupler{k}", f"a{k}", f"b{k}", crank))
+        for (name, parent, child, x), (lower, upper) in zip(
+            (*ends, (f"rocker{k}", "palm", f"c{k}", base)), limits, strict=True
+        ):
+            joints.append(joint(name, "revolute", parent, child, (x, 0, 0), limit=Limit(lower, upper)))
+        pins.append(Loop(f"pin{k}", "revolute", f"b{k}", f"c{k}", Origin((coupler, 0, 0)), Origin((rocker, 0, 0)), Z))
+    return tree(joints, *pins)
+
+
+def test_each_finger_of_a_hand_is_closed_from_a_pose_of_its_own() -> None:
+    found = assembled(hand())
+    assert distances(hand(), found) == pytest.approx([0, 0, 0], abs=1e-11)
+    starts = start_positions(found.tree)
+    assert all(each.limit.lower <= starts[each.name] <= each.limit.upper for each in hand().joints if each.limit)
+    assert len(found.states) == 3
+    assert all(starts[name] == round(starts[name], 9) for name in found.driven), "a start that reads well"
+
+
+def test_a_loop_that_stays_open_is_told_without_the_others() -> None:
+    bad = ((0.2, 0.5, 0.4, 0.6), ((-3.0, 3.0), (-3.0, 3.0), (2.9, 3.0)))
+    (fault,) = assemble(hand((*FINGERS, bad)), frozenset(), frozenset()).faults
+    assert (fault.code, fault.path) == ("loop-open", "loop pin3")
+    assert fault.hint == "it closes beyond the limits of 'rocker3': correct these, or its frames"
+
+
+def test_loops_that_close_only_alone_are_told_so() -> None:
+    """Two pins hold one bar at places on the ground that are too far apart."""
+    joints = [
+        joint("swing", "continuous", "base", "a"),
+        joint("turn", "continuous", "a", "b", (0.2, 0, 0)),
+        joint("end", "continuous", "b", "c", (0.5, 0, 0)),
+    ]
+    pins = [Loop(f"pin{x:g}", "ball", "base", link, Origin((x, 0, 0))) for x, link in ((0.6, "c"), (0.2, "b"))]
+    found = assemble(tree(joints, *pins), frozenset(), frozenset()).faults
+    assert {(fault.code, "only without the other loops" in fault.hint) for fault in found} == {("loop-open", True)}
+
+
 def test_test_moves_a_rocker_as_far_as_its_loop_allows() -> None:
-    found = assembled(four_bar(), "rocker")
+    found = assembled(four_bar(rocker=2.0), "rocker")
     (reach,) = found.reach.values()
     assert 0 < reach < 1
     crank, coupler, rocker = start_positions(found.tree).values()
@@ -242,12 +325,14 @@ def test_loops_that_have_no_model_are_faults() -> None:
     (pin,) = four_bar().loops
     twice = replace(four_bar(), loops=(pin, replace(pin, name="same")))
     assert faults(twice) == [("loop-redundant", "same")]
+    thrice = replace(twice, loops=(*twice.loops, replace(pin, name="still")))
+    assert faults(thrice) == [("loop-redundant", "same"), ("loop-redundant", "still")]
     far = replace(four_bar(), loops=(replace(pin, origin=Origin((1e200, 0, 0))),))
     assert faults(far) == [("loop-open", "pin")]
 
 
 def test_rounding_changes_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
-    robots = [four_bar(), FIVE_BAR, SPATIAL, delta()]
+    robots = [four_bar(), FIVE_BAR, SPATIAL, delta(), hand()]
     before = [assembled(robot) for robot in robots]
     noise, exact = np.random.default_rng(0), np.linalg.eigh
 
@@ -329,6 +414,14 @@ def row_of_four_bars(count: int) -> KinematicTree:
     return tree(joints, *loops)
 
 
+def test_the_36_loops_of_a_strandbeest_are_closed_in_two_seconds() -> None:
+    robot, begin = KinematicTree.of(strandbeest()), time.thread_time()
+    found = assembled(robot, "crank")
+    assert time.thread_time() - begin < 2
+    assert found.states == ("crank",)
+    assert distances(robot, found) == pytest.approx([0] * 36, abs=1e-11)
+
+
 @pytest.mark.slow
 def test_many_loops_are_closed_in_seconds() -> None:
     robot, begin = row_of_four_bars(110), time.thread_time()
@@ -351,3 +444,12 @@ def test_a_four_bar_in_line_is_singular() -> None:
     ]
     in_line = tree(joints, Loop("pin", "ball", "b", "c", Origin((0.5, 0, 0)), Origin((-0.1, 0, 0))))
     assert faults(in_line, "crank") == [("loop-singular", "pin")]
+    singular = assemble(in_line, frozenset({"crank"}), frozenset({"crank"}))
+    (told,), start = find_loop_findings(singular), singular.proposed
+    assert f'as in `start = {{ "crank" = {start["crank"]:g}, "coupler" = ' in told.hint
+    joints = [replace(each, start=start[each.name]) for each in joints]
+    found = assembled(replace(in_line, joints=tuple(joints)), "crank")
+    assert found.moved == {}, "the proposed start is closed, and no joint of it moves"
+    finger = hand()
+    both = replace(finger, joints=(*finger.joints, *in_line.joints), loops=(*finger.loops, *in_line.loops))
+    assert assemble(both, frozenset(), frozenset()).proposed.keys() == start.keys(), "no joint of another loop"

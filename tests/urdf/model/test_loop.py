@@ -41,7 +41,7 @@ def test_run_and_test_drive_what_the_loop_leaves_free() -> None:
     for robot, driven, free in (
         (FIVE_BAR, ["left_pivot", "right_pivot"], []),
         (undriven, ["left_pivot", "left_pin"], []),
-        (replace(FIVE_BAR, joints=tuple(one)), ["left_pivot"], ["left_pin"]),
+        (replace(FIVE_BAR, joints=tuple(one)), ["left_pivot"], ["right_pivot"]),
     ):
         made = texts(robot)
         assert re.findall(r"RealInput (\w+)_phi", made["OwnRun.mo"]) == driven

@@ -7,6 +7,7 @@ from support.urdfs import joint, link, robot
 
 from urdfsync.diagnostics import Severity
 from urdfsync.urdf.options import LoopFrame, LoopOption, Options
+from urdfsync.urdf.parse.second_reader import cross_check
 from urdfsync.urdf.parse.source import RobotReading, read_robot
 from urdfsync.urdf.robot import Loop, Origin
 
@@ -48,9 +49,40 @@ def test_a_loop_joint_has_a_frame_on_each_link() -> None:
     assert read(LOOP_JOINT).lines["loop closing"] == 10
 
 
+ENDS = """<loop_joint name="closing" type="revolute"><parent link="rod"/><child link="rocker"/>
+<parent_origin xyz="0.4 0.2 0"/><child_origin xyz="0.2 0.3 0"/><world_origin xyz="1 2 3" frame="root"/>
+<axis xyz="0 0 1" frame="parent"/></loop_joint>"""
+"""As an exporter of Fusion 360 writes it."""
+
+
+@pytest.mark.parametrize(("source", "origin", "child_origin"), [
+    (LOOP_JOINT.replace("link2", "link1"), Origin((0.4, 0.2, 0.0), (0.0, 0.0, 1.0)), Origin((0.2, 0.3, 0.0))),
+    # the rocker is turned by 0.5 rad where all joints are at zero
+    (ENDS, Origin((0.4, 0.2, 0.0)), Origin((0.2, 0.3, 0.0), (0.0, 0.0, -0.5))),
+    (ENDS.replace("0.3 0", '0.3 0" rpy="0 0 2'), Origin((0.4, 0.2, 0.0)), Origin((0.2, 0.3, 0.0), (0.0, 0.0, 2.0))),
+    (ENDS.replace("parent_origin", "origin").replace("child_origin", "world_origin"),
+     Origin((0.4, 0.2, 0.0)), Origin()),
+    (ENDS.replace("parent_origin", "world_origin").replace("child_origin", "world_origin")
+     .replace('"rod"', '"rod" xyz="0.4 0.2 0"'), Origin((0.4, 0.2, 0.0)), Origin()),
+])  # fmt: skip
+def test_exporters_write_the_ends_of_a_loop_joint_in_several_ways(
+    source: str, origin: Origin, child_origin: Origin
+) -> None:
+    reading = read(source)
+    assert reading.robot is not None
+    assert reading.diagnostics == ()
+    assert reading.robot.loops == (Loop("closing", "revolute", "rod", "rocker", origin, child_origin, (0.0, 0.0, 1.0)),)
+    assert cross_check(robot(*BARS, source).encode(), "a.urdf") == ()
+
+
 def test_a_ball_of_drake_is_a_point_on_each_body() -> None:
     (loop,) = loops(DRAKE)
     assert (loop.kind, loop.origin, loop.child_origin) == ("ball", Origin((0.4, 0.2, 0.0)), Origin())
+
+
+def test_limits_of_a_loop_are_told() -> None:
+    (finding,) = read(ENDS.replace("</loop", '<limit lower="-1" upper="1"/></loop')).diagnostics
+    assert (finding.code, finding.hint) == ("unknown-element", "correct its name, or remove it")
 
 
 def test_a_joint_of_sdf_is_closed_where_all_joints_are_at_zero() -> None:
@@ -143,6 +175,10 @@ def test_two_configured_loops_of_one_name_are_one_error() -> None:
     (LOOP_JOINT.replace("0 0 2", "0 0 0"), "loop-axis", "give the axes directions"),
     (LOOP_JOINT.replace("revolute", "prismatic"), "loop-joint", "ball, revolute, universal or fixed"),
     (LOOP_JOINT.replace("0.4 0.2 0", "0.4 0.2"), "bad-number", "decimal numbers"),
+    (LOOP_JOINT.replace("<link2", "<child"), "missing-element", "add it"),
+    (ENDS.replace('"parent"', '"root"'), "loop-joint", 'write it in that of the parent, frame="parent"'),
+    (ENDS.replace('"rocker"', '"rockr"'), "loop-of-no-link", "perhaps 'rocker' is meant"),
+    (ENDS.replace("0.2 0.3 0", "0.2 x 0"), "bad-number", "decimal numbers"),
     (DRAKE.replace("body_B", "body_C"), "missing-element", "add it"),
     (GAZEBO.replace("<parent>rod</parent>", ""), "missing-element", "add it"),
     (GAZEBO.replace("<child>rocker</child>", "<child>rockr</child>"), "loop-of-no-link", "perhaps 'rocker' is meant"),

@@ -15,6 +15,7 @@ from support.urdfs import joint, links, mimic, parsed, robot
 from urdfsync.diagnostics import Severity
 from urdfsync.urdf.parse.respelling import with_attributes
 from urdfsync.urdf.parse.second_reader import compare_readers, cross_check
+from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.robot import Joint, Link, Origin, Robot
 
 TREE = '<link name="a"/><link name="b"/><joint name="j" type="fixed"><parent link="a"/><child link="b"/></joint>'
@@ -47,6 +48,22 @@ def test_disagreement_is_told(changes: dict[str, Any], message: str) -> None:
     (finding,) = compare_readers(URDF.encode(), msgspec.structs.replace(ROBOT, **changes))
     assert finding.code == "second-reader-differs"
     assert finding.message.endswith(message)
+
+
+@pytest.mark.parametrize(("changes", "message"), [
+    ({"parent": "b"}, "has another parent"),
+    ({"origin": Origin((2.0, 0.0, 0.0))}, "has another parent"),
+    ({"child_origin": Origin((0.0, 3.0, 0.0))}, "is turned otherwise with all joints at zero"),
+])  # fmt: skip
+def test_loops_are_read_twice(changes: dict[str, Any], message: str) -> None:
+    ends = '<parent link="a"/><child link="b"/><parent_origin xyz="1 0 0"/><child_origin xyz="0 3 0"/>'
+    loop = f'<loop_joint name="pin" type="fixed">{ends}</loop_joint>'
+    source = URDF.replace("</joint>", f'<origin rpy="0 0 1"/></joint>{loop}').encode()
+    found = read_robot(source, "a.urdf").robot
+    assert found is not None
+    assert list(compare_readers(source, found)) == []
+    changed = msgspec.structs.replace(found, loops=(msgspec.structs.replace(found.loops[0], **changes),))
+    assert f"loop 'pin' {message}" in [finding.message for finding in compare_readers(source, changed)]
 
 
 TEXTS = robot(

@@ -10,13 +10,14 @@ from __future__ import annotations
 import functools
 import itertools
 import math
+import re
 from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 from msgspec.structs import replace
 
 from urdfsync.spelling import counted
-from urdfsync.urdf.kinematics.loops import Assembly, Closure, Gap
+from urdfsync.urdf.kinematics.loops import NOTABLE, Assembly, Closure, Gap
 from urdfsync.urdf.kinematics.mechanism import (
     AXES,
     ORIGIN,
@@ -50,6 +51,8 @@ _STEPS = 16
 _SWEEP = {"rotational": 1.0, "translational": 0.1}
 """Longest way of a sweep in the library, in rad and m."""
 _SWEEP_MARGIN, _SWEEP_PERIOD = 0.9, 10.0
+_PASSIVE = re.compile("passive|unactuated|undriven", re.IGNORECASE)
+_MOTOR = re.compile("motor|actuat|servo|drive(?!n)", re.IGNORECASE)
 _MOST_LOOPS, _MOST_JOINTS = 200, 1000
 _MOST_WORK = 6 * 10**10
 """The most multiplications to close all loops: ten seconds. 110 four-bars take 10¹⁰."""
@@ -60,6 +63,7 @@ class _Problem(Mechanism):
 
     def __init__(self, tree: KinematicTree) -> None:
         super().__init__(tree)
+        self.tree = tree
         ranges = position_ranges(tree)
         limits = [_given_limits(ranges[joint.name]) for joint in self.independent]
         lower, upper = np.array(limits).reshape(-1, 2).T
@@ -102,7 +106,7 @@ class _Problem(Mechanism):
             while True:  # repeat without the joints that would leave their limits
                 self.work += work
                 if self.work > _MOST_WORK:
-                    raise _too_many(len(self.loops), len(self.joints), self.loops[0])
+                    raise _UnclosableError
                 step = np.zeros(len(q))
                 squares, directions = _spectrum(jacobian[:, movable])
                 factors = (squares > least) / np.maximum(squares + caution * (gaps @ gaps), least)
@@ -126,9 +130,33 @@ class _Problem(Mechanism):
         """Return the largest residual of the equations of the kinds."""
         return float(np.abs(self.scaled(q, self.whole)[0]).max())
 
+    def parts(self, held: Array) -> Iterator[tuple[_Problem, Array]]:
+        """Yield the loops that share joints which are not held, as problems of their own with the columns of joints."""
+        labels, names = np.arange(len(self.loops)), [joint.name for joint in self.independent]
+        for shared in self.moves[:, ~held].T:
+            labels[np.isin(labels, labels[shared])] = labels[shared].min(initial=len(labels))
+        if not labels.any():
+            yield self, np.arange(len(names))
+            return
+        for label in sorted({*labels.tolist()}):
+            part = _Problem(replace(self.tree, loops=tuple(itertools.compress(self.loops, labels == label))))
+            part.work = self.work
+            yield part, np.array([names.index(joint.name) for joint in part.independent], int)
+            self.work = part.work
+
+    def start_poses(self) -> Iterator[Array]:
+        """Yield poses within limits: the start, some around it, the middle of the limits, and some anywhere."""
+        motions = _motions(len(self.start), 12)
+        lower = np.maximum(self.lower, self.start - math.pi * self.units)
+        upper = np.minimum(self.upper, self.start + math.pi * self.units)
+        yield self.start
+        yield from (np.clip(self.start + 0.8 * motion * self.units, self.lower, self.upper) for motion in motions[:4])
+        yield (lower + upper) / 2
+        yield from ((lower + upper + (upper - lower) * motion) / 2 for motion in motions[4:])
+
 
 class _UnclosableError(Exception):
-    """Stops an assembly."""
+    """Stops an assembly; without faults, it would take too long."""
 
     def __init__(self, *faults: Finding) -> None:
         self.faults = faults
@@ -140,52 +168,64 @@ def assemble(tree: KinematicTree, wanted: frozenset[str], named: frozenset[str])
     """Close all loops of a robot near its start, or report why that is impossible.
 
     `wanted` joints shall be driven; the source or the options name `named` of them as drives. If none of these is in a
-    loop, the first independent wanted ones are driven.
+    loop, independent wanted ones are driven: first those whose names say so, then those with a limit of effort.
     """
     try:
         with np.errstate(all="ignore"):  # huge numbers overflow, and NaN counts as not closed
-            return _assemble(tree, wanted, named)
-    except _UnclosableError as error:
-        faults = error.faults
+            try:
+                return _assemble(tree, wanted, named)
+            except _UnclosableError as error:
+                faults, proposed = error.faults or (_too_many(tree),), dict[str, float]()
+                if faults[0].code == "loop-singular":
+                    proposed = _find_regular_start(tree, wanted, named)
+                return Assembly(tree=tree, driven=wanted, faults=faults, proposed=proposed)
     except np.linalg.LinAlgError:
         name = tree.loops[0].name
-        faults = (Finding("loop-open", f"loop {name}", f"loop {name!r} has numbers that are too large"),)
-    return Assembly(tree=tree, driven=wanted, faults=faults)
+        fault = Finding("loop-open", f"loop {name}", f"loop {name!r} has numbers that are too large")
+        return Assembly(tree=tree, driven=wanted, faults=(fault,))
 
 
 def _assemble(tree: KinematicTree, wanted: frozenset[str], named: frozenset[str]) -> Assembly:
-    count = len(joints_of_loops(tree))
-    if len(tree.loops) > _MOST_LOOPS or count > _MOST_JOINTS:
-        raise _too_many(len(tree.loops), count, tree.loops[0])
+    if len(tree.loops) > _MOST_LOOPS or len(joints_of_loops(tree)) > _MOST_JOINTS:
+        raise _UnclosableError
     problem = _Problem(tree)
     _check_joints(problem)
     names = [joint.name for joint in problem.independent]
-    closed = _closed_near(problem, np.array([name in named for name in names]))
+    drives = [k for k, name in enumerate(names) if name in named]
+    closed, kept = _closed_near(problem, drives)
     generic = _generic_poses(problem, closed)
     normals = [_normal(problem, k) for k in range(len(tree.loops))]
     candidates = Rows.of(map(_equations, tree.loops, normals))
     rows = candidates.take(_independent([problem.jacobian(q, candidates) for q in generic]))
+    if idle := [loop.name for k, loop in enumerate(tree.loops) if k not in rows.loops]:
+        reason = "is redundant: other loops and joints hold the same"
+        raise _UnclosableError(*(Finding("loop-redundant", f"loop {name}", f"loop {name!r} {reason}") for name in idle))
     closures = {loop.name: _closure(loop, candidates, rows, k, normals[k]) for k, loop in enumerate(tree.loops)}
     at_start = problem.jacobian(closed, rows)
     for k, row in enumerate([*_independent([at_start]), -1][: len(rows.loops)]):
         if row != k:
             raise _singular(tree.loops[rows.loops[k]], "its equations depend on each other, though not elsewhere")
     freedom = _null_space(at_start)
-    drives = [k for k, name in enumerate(names) if name in named]
     if drives:
         spaces = [_null_space(problem.jacobian(q, rows)) for q in generic]
         drives = [drives[k] for k in _independent([space[drives] for space in spaces])]
-    driven = drives or [k for k, name in enumerate(names) if name in wanted]
+    ranks = {k: _rank(joint) for k, joint in enumerate(problem.independent) if joint.name in wanted}
+    best = min(ranks.values(), default=0)
+    driven = drives or sorted((k for k in ranks if ranks[k] < len(_REASONS) or ranks[k] == best), key=ranks.__getitem__)
     driven = [driven[k] for k in _independent([freedom[driven]])]
     for k in drives:
         if k not in driven:
             raise _singular(tree.loops[np.argmax(problem.moves[:, k])], f"joint {names[k]!r} is at a dead point")
     states = _with_others(freedom, driven)
-    free = np.array([k not in states for k in range(len(names))])
+    kept += driven  # the start of these has few digits
+    exact = _with_others(freedom, [kept[k] for k in _independent([freedom[kept]])])
+    free = np.array([k not in exact for k in range(len(names))])
     q = np.where(np.abs(closed - problem.start) > 1e-9, np.round(closed, 9), problem.start)
     q = problem.close(np.where(free, closed, np.clip(q, problem.lower, problem.upper)), rows, free)
     q = np.clip(_refine(tree, problem, q, rows, free), problem.lower, problem.upper)
-    _check_closed(problem, q)
+    free = np.array([k not in states for k in range(len(names))])
+    if list(_open_loops(problem, q)):
+        raise _UnclosableError(*_find_open(problem, q))
     in_loops = {j.name for k, j in enumerate(problem.joints) if problem.signs[:, k].any()} | set(names)
     moved = {names[k] for k in driven}
     starts = dict(zip(names, map(float, q), strict=True))
@@ -198,6 +238,12 @@ def _assemble(tree: KinematicTree, wanted: frozenset[str], named: frozenset[str]
         excess=tuple(name for name in names if name in named - moved),
         reach=_reach(problem, q, rows, driven, free),
         closures=closures,
+        moved={
+            joint.name: f"by {abs(value - joint.start):.3g} {'m' if joint.type == 'prismatic' else 'rad'}"
+            for joint, value in zip(problem.independent, map(float, q), strict=True)
+            if joint.start is not None and abs(value - joint.start) > NOTABLE
+        },
+        choices={names[k]: _reason(ranks, k) for k in sorted(driven) if not drives},
         gaps={loop.name: gap for loop, gap in zip(tree.loops, problem.gaps(problem.start), strict=True)},
     )
 
@@ -291,35 +337,121 @@ def _closure(loop: Loop, candidates: Rows, rows: Rows, k: int, normal: Vector | 
     weaker = None
     if len(mine) < whole and not (is_planar and len(rotations) == (loop.kind == "fixed")):
         weaker = f"closed by {len(mine)} of {whole} equations: the others follow from these and the rest of the robot"
-    if not mine:
-        message = f"loop {loop.name!r} is redundant: other loops and joints hold the same"
-        raise _UnclosableError(Finding("loop-redundant", f"loop {loop.name}", message))
     return Closure(translations, rotations, normal if is_planar and not rotations else None, weaker)
 
 
-def _motions(count: int) -> list[Array]:
+_REASONS = ("by its name", "by its limit of effort", "the first free one")
+"""Reasons to drive a joint, the best first."""
+
+
+def _rank(joint: Joint) -> int:
+    """Return the number of the reason to drive a joint; a greater one if its name says that nothing drives it."""
+    if _PASSIVE.search(joint.name):
+        return len(_REASONS)
+    if _MOTOR.search(joint.name):
+        return 0
+    return 1 if joint.limit is not None and joint.limit.effort else 2
+
+
+def _reason(ranks: Mapping[int, int], k: int) -> str:
+    """Return the reason to drive a joint; what holds for all joints is none."""
+    return _REASONS[ranks[k] if ranks[k] < max(ranks.values()) else -1]
+
+
+def _find_regular_start(tree: KinematicTree, wanted: frozenset[str], named: frozenset[str]) -> dict[str, float]:
+    """Return positions of joints, not far away, where loops are regular that are singular at the start.
+
+    Only joints of singular loops move. Empty if a few poses do not have such loops.
+    """
+    problem, start = _Problem(tree), dict[str, float]()
+    names = [joint.name for joint in problem.independent]
+    for motion in (size * motion for size in _AMPLITUDES[:2] for motion in _motions(len(names))):
+        joints = tuple(replace(joint, start=start.get(joint.name, joint.start)) for joint in tree.joints)
+        try:
+            closed = _assemble(replace(tree, joints=joints), wanted, named).tree
+        except _UnclosableError as error:
+            near = np.clip(np.round(problem.start + motion * problem.units, 3), problem.lower, problem.upper)
+            paths = {fault.path for fault in error.faults}
+            if not paths:  # it takes too long
+                break
+            for part, columns in problem.parts(np.zeros(len(names), bool)):
+                if any(f"loop {loop.name}" in paths for loop in part.loops):
+                    start |= {names[k]: float(near[k]) for k in columns}
+        else:
+            q = np.array([joint.start for joint in closed.joints if joint.name in names])
+            q = np.clip(np.round(q, 6), problem.lower, problem.upper)
+            return {name: value for name, value in zip(names, q.tolist(), strict=True) if name in start}
+    return {}
+
+
+def _motions(count: int, number: int = 4) -> list[Array]:
     """Return some motions of all joints, between -1 and 1, without pattern and the same on every machine."""
     index = np.arange(1, count + 1)
-    return [2 * ((index * 0.6180339887498949 + k * index * 0.4142135623730951) % 1) - 1 for k in range(1, 5)]
+    return [2 * ((index * 0.6180339887498949 + k * index * 0.4142135623730951) % 1) - 1 for k in range(1, number + 1)]
 
 
-def _closed_near(problem: _Problem, held: Array) -> Array:
-    """Return a closed pose near the start. If possible, some joints stay there."""
-    start, tried, whole = problem.start, list[Array](), problem.whole
-    for motion in (np.zeros(len(start)), *_motions(len(start))):
-        near = np.clip(start + 0.8 * motion * problem.units, problem.lower, problem.upper)
-        for free in (~held, np.full(len(start), fill_value=True)):
-            tried.append(problem.close(np.where(free, near, start), whole, free))
-            if not list(_open_loops(problem, tried[-1])):
-                return tried[-1]
-    beyond, hint = problem.close(start, whole, bounded=False), ""
-    if not list(_open_loops(problem, beyond)):
-        is_outside = (beyond < problem.lower) | (beyond > problem.upper)
-        names = [repr(j.name) for j, outside in zip(problem.independent, is_outside, strict=True) if outside]
-        hint = f"it closes beyond the limits of {', '.join(names)}: correct these, or its frames"
-    best = min(tried, key=problem.openness)
-    _check_closed(problem, best, hint)
-    return best
+def _closed_near(problem: _Problem, drives: Sequence[int]) -> tuple[Array, list[int]]:
+    """Return a closed pose near the start, and the joints that stay there exactly.
+
+    All joints with a given start stay if that is possible, else as many as possible. Other drives stay if the loops can
+    be closed nearby. Raises an error with the loops that cannot be closed.
+    """
+    q, kept, faults = problem.start.copy(), list[int](), list[Finding]()
+    for part, columns in problem.parts(np.zeros(len(q), bool)):
+        driven = tuple(at for at, k in enumerate(columns.tolist()) if k in drives)
+        given = tuple(at for at, joint in enumerate(part.independent) if joint.start is not None)
+        given = tuple(sorted(given, key=lambda at: at not in driven))
+        both = tuple(dict.fromkeys((*given, *driven)))
+        opened = dict[Sequence[int], list[tuple[_Problem, Array]]]()
+        # a far pose is worse than drives that move, and better than none
+        for held, most in dict.fromkeys(((both, 1), (given, None), (driven, 1), ((), None), (driven, None))):
+            closed, opened[held] = _search(part, held, most)
+            if not opened[held]:
+                stay, q[columns] = _keep(part, held, given, closed)
+                kept += columns[stay].tolist()
+                break
+        else:
+            faults += [fault for open_part, best in opened[()] for fault in _find_open(open_part, best)]
+    if faults:
+        raise _UnclosableError(*faults)
+    return q, kept
+
+
+def _keep(part: _Problem, held: Sequence[int], given: Sequence[int], closed: Array) -> tuple[list[int], Array]:
+    """Hold also as many of the given joints as possible, one after the other; return all and the closed pose."""
+    kept = [*held]
+    for k in given if not set(given).issubset(held) else []:
+        squares, directions = _spectrum(part.jacobian(closed, part.whole))
+        freedom = directions[:, squares < _INDEPENDENT**2]
+        if len(kept) == freedom.shape[1]:
+            break
+        if len(_independent([freedom[[*kept, k]]])) == len(kept) + 1:
+            moved, open_parts = _search(part, [*kept, k])
+            if not open_parts:
+                kept, closed = [*kept, k], moved
+    return kept, closed
+
+
+def _search(
+    problem: _Problem, held: Sequence[int], most: int | None = None
+) -> tuple[Array, list[tuple[_Problem, Array]]]:
+    """Return a closed pose within limits with some joints at the start; also the loops that stay open, in their pose.
+
+    Loops that share no other joint are closed one by one, each from `most` poses.
+    """
+    q, open_parts = problem.start.copy(), list[tuple[_Problem, Array]]()
+    is_held = np.zeros(len(q), bool)
+    is_held[list(held)] = True
+    for part, columns in problem.parts(is_held):
+        free, tried = ~is_held[columns], list[Array]()
+        for near in itertools.islice(part.start_poses(), most if free.any() else 1):
+            tried.append(part.close(np.where(free, near, part.start), part.whole, free))
+            if not list(_open_loops(part, tried[-1])):
+                q[columns] = tried[-1]
+                break
+        else:
+            open_parts.append((part, min(tried, key=part.openness)))
+    return q, open_parts
 
 
 def _generic_poses(problem: _Problem, closed: Array) -> list[Array]:
@@ -404,23 +536,31 @@ def _open_loops(problem: _Problem, q: Array) -> Iterator[tuple[Loop, Gap]]:
             yield loop, gap
 
 
-def _check_closed(problem: _Problem, q: Array, hint: str = "") -> None:
-    """Raise an error for open loops."""
-    faults = []
-    starts = dict(zip(problem.loops, problem.gaps(problem.start), strict=True))
+def _find_open(problem: _Problem, q: Array) -> Iterator[Finding]:
+    """Yield why loops stay open: of several ones, those that no pose closes alone, if there are any."""
+    singles = [_Problem(replace(problem.tree, loops=(loop,))) for loop in problem.loops if len(problem.loops) > 1]
+    if alone := [found for single in singles for found in _search(single, [])[1]]:
+        for part, best in alone:
+            yield from _find_open(part, best)
+        return
+    beyond, starts = problem.close(problem.start, problem.whole, bounded=False), problem.gaps(problem.start)
+    is_outside = ((beyond < problem.lower) | (beyond > problem.upper)) & (not list(_open_loops(problem, beyond)))
     for loop, gap in _open_loops(problem, q):
+        k = problem.loops.index(loop)
         message = (
             f"loop {loop.name!r} cannot be closed: its frames on links {loop.parent!r} and {loop.child!r} stay "
-            f"{gap} apart ({starts[loop]} at the start)"
+            f"{gap} apart ({starts[k]} at the start)"
         )
-        faults.append(Finding("loop-open", f"loop {loop.name}", message, hint))
-    if faults:
-        raise _UnclosableError(*faults)
+        names = [repr(problem.independent[j].name) for j in np.flatnonzero(is_outside & problem.moves[k])]
+        hint = "it closes only without the other loops of its joints: correct its frames, or these" if singles else ""
+        if names:
+            hint = f"it closes beyond the limits of {', '.join(names)}: correct these, or its frames"
+        yield Finding("loop-open", f"loop {loop.name}", message, hint)
 
 
-def _too_many(loops: int, joints: int, first: Loop) -> _UnclosableError:
-    message = f"{counted(loops, 'loop')} with {counted(joints, 'joint')} take too long to close"
-    return _UnclosableError(Finding("loop-limit", f"loop {first.name}", message))
+def _too_many(tree: KinematicTree) -> Finding:
+    counts = f"{counted(len(tree.loops), 'loop')} with {counted(len(joints_of_loops(tree)), 'joint')}"
+    return Finding("loop-limit", f"loop {tree.loops[0].name}", f"{counts} take too long to close")
 
 
 def _singular(loop: Loop, reason: str) -> _UnclosableError:

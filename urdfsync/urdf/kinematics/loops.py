@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Iterator, Mapping
 
@@ -12,8 +13,8 @@ from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.robot import Vector
 from urdfsync.urdf.validate import Finding
 
-_NOTABLE = 1e-5
-"""Least reported gap of the source's start, in m and rad: above rounding in exports."""
+NOTABLE = 1e-5
+"""Least reported gap of the source's start and motion of a joint, in m and rad: above rounding in exports."""
 
 
 class Gap(msgspec.Struct, frozen=True):
@@ -26,7 +27,7 @@ class Gap(msgspec.Struct, frozen=True):
 
     def __str__(self) -> str:
         """Return the gap in words."""
-        return f"{1000 * self.distance:.3g} mm and {math.degrees(self.angle):.3g}°"
+        return f"{1000 * self.distance:.3g} mm and {round(math.degrees(self.angle), 6):.3g}°"
 
 
 class Closure(msgspec.Struct, frozen=True):
@@ -64,8 +65,14 @@ class Assembly(msgspec.Struct, frozen=True, kw_only=True):
     closures: Mapping[str, Closure] = {}
     gaps: Mapping[str, Gap] = {}
     """Of the start of the source."""
+    moved: Mapping[str, str] = {}
+    """Joints with a given start that begin elsewhere, and how far from it they do, in words."""
+    choices: Mapping[str, str] = {}
+    """Of `joints`, the driven ones if neither source nor options name any, with the reason of the choice."""
     faults: tuple[Finding, ...] = ()
     """Why the loops can't be closed: then there are only the unchanged robot and the drives."""
+    proposed: Mapping[str, float] = {}
+    """If the loops are singular at the start, positions of joints where they are not, if there are any nearby."""
 
     @property
     def dependent(self) -> frozenset[str]:
@@ -75,10 +82,18 @@ class Assembly(msgspec.Struct, frozen=True, kw_only=True):
 
 def find_loop_findings(closed: Assembly) -> Iterator[Finding]:
     """Yield why loops have no model, or else how their model differs from the source."""
-    yield from closed.faults
+    start = ", ".join(f"{json.dumps(name)} = {value:g}" for name, value in closed.proposed.items())
+    hint = f"let its joints start elsewhere, as in `start = {{ {start} }}`" if 0 < len(closed.proposed) < 10 else ""
+    yield from (fault._replace(hint=fault.hint or hint) for fault in closed.faults)
     for name, gap in closed.gaps.items():
-        if max(gap.distance, gap.angle) > _NOTABLE:
+        if max(gap.distance, gap.angle) > NOTABLE:
             yield Finding("loop-closed", f"loop {name}", f"loop {name!r} is {gap} open at the start of the source")
+    if closed.moved:
+        moves = ", ".join(f"{name!r} {way}" for name, way in closed.moved.items())
+        yield Finding("start-moved", f"joint {next(iter(closed.moved))}", f"to close the loops, joints move: {moves}")
+    if closed.choices:
+        choices = ", ".join(f"{name!r} ({reason})" for name, reason in closed.choices.items())
+        yield Finding("loop-drives", f"loop {closed.tree.loops[0].name}", f"Run and Test drive {choices}")
     for name, closure in closed.closures.items():
         if closure.weaker:
             yield Finding("loop-weaker", f"loop {name}", f"loop {name!r} is {closure.weaker}")

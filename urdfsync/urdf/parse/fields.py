@@ -157,7 +157,8 @@ class Reader:
             return
         alike = "" if child.tag in _moving_tags() or ":" in child.tag else perhaps(child.tag, tags, 0.8)
         kinds = ((tag, kind) for tag, (kind, _) in _schema(Joint)[1].items() if isinstance(kind, type))
-        meant = next((tag for tag, kind in kinds if _schema(kind)[0].keys() & child.attrib.keys()), "")
+        named = (tag for tag, kind in kinds if _schema(kind)[0].keys() & child.attrib.keys())
+        meant = next((tag for tag in named if tag != child.tag), "")
         is_moving = child.tag in _moving_tags() or any(map(_MASS_WORDS.search, (child.tag, *child.attrib)))
         is_zero = not len(child) and _is_zero(" ".join((*child.attrib.values(), child.text or "")))
         if alike or ((moves or is_moving or (owner and meant)) and child.tag not in _NEUTRAL and not is_zero):

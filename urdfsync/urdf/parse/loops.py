@@ -1,6 +1,7 @@
 """Reads the loops of a robot from a source and the configuration.
 
 - `<loop_joint>`, as Isaac Sim and early Drake write it: `<link1>` and `<link2>`, each with `link`, `xyz` and `rpy`.
+  Isaac Sim's page has `<link1>` twice. Exporters of Fusion 360 write `<parent>` and `<child>`: see `_read_ends`.
 - `<drake:ball_constraint>`: two bodies, each with a point.
 - `<joint>` of SDF within `<gazebo>`: its frame is given in the child; the loop is closed with all joints at zero.
 - Two links `closing_NAME_1` and `closing_NAME_2`, as onshape-to-robot writes them. They have no kind, and count as a
@@ -34,7 +35,10 @@ _BALL = "drake:ball_constraint"
 TAGS = ("loop_joint", _BALL)
 """Elements of a robot that join two links of the tree; gazebo has a <joint> for it."""
 _PARTS: Mapping[str, Sequence[str]] = {
-    "loop_joint": ("link1", "link2", "axis"),
+    "loop_joint": (
+        *("link1", "link2", "axis", "parent", "child", "origin", "parent_origin", "child_origin"),
+        *("world_origin", "world_axis"),  # exporters repeat origin and axis in the frame of the root
+    ),
     _BALL: (f"{_BALL}_body_A", f"{_BALL}_p_AP", f"{_BALL}_body_B", f"{_BALL}_p_BQ"),
 }
 _NO_LOOPS = frozenset({"link", "joint", "material", "transmission", "ros2_control", "sensor", "drake:joint", *TAGS})
@@ -117,18 +121,20 @@ def read_loops(reader: Reader, root: Element, robot: Robot, options: Options) ->
     in_gazebo = {link.get("name") for part in root.iterfind("gazebo") for link in part.iterfind("link")} - links
     for element, name, path in zip(elements, names, validate.element_paths("loop", names), strict=True):
         reader.place(element, path)
+        poses = poses or link_poses(KinematicTree.of(robot), {})
         if element.tag == "joint":
-            poses = poses or link_poses(KinematicTree.of(robot), {})
             loop = _read_joint(reader, element, path, name, poses, in_gazebo)
         else:
             reader.expect(element, path, ("name", "type") if element.tag == "loop_joint" else ("name",))
             for part in element:
                 if part.tag == "axis":
-                    reader.expect(part, f"{path} / axis", ("xyz",))
+                    reader.expect(part, f"{path} / axis", ("xyz", "frame"))
                 elif part.tag not in _PARTS[element.tag]:
                     reader.keep(part, path, _PARTS[element.tag], path, moves=True)
-            read = _read_loop_joint if element.tag == "loop_joint" else _read_ball
-            loop = read(reader, element, path, name)
+            if element.tag == "loop_joint":
+                loop = _read_loop_joint(reader, element, path, name, poses)
+            else:
+                loop = _read_ball(reader, element, path, name)
         if loop is not None and loop.parent and loop.child:  # a missing name is reported already
             loops.append(loop)
     # a frame may be that of a joint, which equals that of its child
@@ -202,15 +208,45 @@ def _kind(reader: Reader, element: Element, path: str) -> LoopKind | None:
     return _KINDS.get(text)
 
 
-def _read_loop_joint(reader: Reader, element: Element, path: str, name: str) -> Loop | None:
+def _read_loop_joint(reader: Reader, element: Element, path: str, name: str, poses: Mapping[str, Pose]) -> Loop | None:
     ends = [child for child in element if child.tag in ("link1", "link2")]  # Isaac Sim's exporter writes link1 twice
     kind = _kind(reader, element, path)
-    if len(ends) != 2:
+    if not ends and {"parent", "child"} <= {part.tag for part in element}:
+        frames = _read_ends(reader, element, path, poses)
+    elif len(ends) == 2:
+        frames = [
+            reader.read(end, f"{path} / link{number}", LoopFrame, path) for number, end in enumerate(ends, start=1)
+        ]
+    else:
         reader.add(element, "missing-element", f"{path} has {len(ends)} of the elements <link1> and <link2>")
         return None
-    frames = [reader.read(end, f"{path} / link{number}", LoopFrame, path) for number, end in enumerate(ends, start=1)]
+    if (frame := element.find("axis[@frame]")) is not None and frame.get("frame") != "parent":
+        message = f"{path} has its <axis> in the frame {quoted(frame.get('frame', ''))}"
+        reader.add(element, "loop-joint", message, 'write it in that of the parent, frame="parent"')
     axis = _vector(reader, element, "axis@xyz", path) or (1.0, 0.0, 0.0)
     return kind and _between(name, kind, frames, axis, _second_axis(axis))
+
+
+def _read_ends(reader: Reader, element: Element, path: str, poses: Mapping[str, Pose]) -> list[LoopFrame]:
+    """Return the frames of `<parent>` and `<child>`.
+
+    Each has a place of its own, or an element `<parent_origin>` or `<child_origin>`; without an orientation there, the
+    child's frame is parallel to the parent's where all joints are at zero, where it was exported. An `<origin>` is that
+    of a URDF joint: the child's frame in the parent's.
+    """
+    frames = list[LoopFrame]()
+    for tag in ("parent", "child"):
+        end = next(element.iter(tag))
+        frames.append(reader.read(end, f"{path} / {tag}", LoopFrame, path))
+        for part in (*element.findall(f"{tag}_origin"), *(element.findall("origin") if tag == "parent" else ())):
+            origin = reader.read(part, f"{path} / {part.tag}", Origin, path)
+            frames[-1] = LoopFrame(frames[-1].link, origin.xyz, origin.rpy)
+    parent, child = frames
+    own = element.find("child_origin")
+    if own is not None and "rpy" not in own.attrib and {parent.link, child.link} <= poses.keys():
+        held = compose(poses[parent.link], pose(Origin(parent.xyz, parent.rpy)))
+        frames[1] = replace(child, rpy=_origin(compose(_inverse(poses[child.link]), held)).rpy)
+    return frames
 
 
 def _read_ball(reader: Reader, element: Element, path: str, name: str) -> Loop | None:

@@ -10,14 +10,16 @@ import io
 import logging
 from collections.abc import Iterator, Mapping
 from typing import Any, get_args
+from xml.etree.ElementTree import Element
 
 import numpy as np
 import yourdfpy
 
 from urdfsync.diagnostics import Diagnostic
-from urdfsync.urdf.kinematics.poses import link_poses
+from urdfsync.urdf.kinematics.poses import link_poses, pose
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import LeftOut, Options
+from urdfsync.urdf.parse import xml
 from urdfsync.urdf.parse.beside import with_plain_joints
 from urdfsync.urdf.parse.fields import located
 from urdfsync.urdf.parse.respelling import with_attributes
@@ -78,6 +80,7 @@ def compare_readers(content: bytes, robot: Robot) -> Iterator[Finding]:
         yield Finding("second-reader-failed", "robot", "poses are not cross-checked: yourdfpy reads no quat_xyzw")
     elif not differs:
         yield from _compare_poses(robot, theirs)
+        yield from _compare_loops(xml.parse(content).root, robot, theirs)
 
 
 def _structure(robot: Any) -> Mapping[str, frozenset[str]]:
@@ -121,6 +124,33 @@ def _compare_poses(robot: Robot, theirs: Any) -> Iterator[Finding]:
                     turned = "" if place != other else ", turned otherwise"
                     yield Finding("second-reader-differs", f"link {name}", f"link {name!r}: {message}{turned}")
                     return
+
+
+def _compare_loops(root: Element, robot: Robot, theirs: Any) -> Iterator[Finding]:
+    """Compare the frames of each `<loop_joint>` with its texts; with all joints at zero, by yourdfpy's poses."""
+    loops = {loop.name: loop for loop in robot.loops}
+    with _silence(), np.errstate(all="ignore"):
+        scene = yourdfpy.URDF(robot=theirs, build_scene_graph=True, load_meshes=False)
+    for element in root.iterfind("loop_joint"):
+        ends = [part for part in element if part.tag in ("link1", "link2", "parent", "child")]
+        loop = loops.get(element.get("name", ""))
+        if loop is None or len(ends) != 2 or {end.get("link") for end in ends} - {link.name for link in robot.links}:
+            continue  # an end may name a joint
+        poses = []
+        for end, link, origin in zip(ends, (loop.parent, loop.child), (loop.origin, loop.child_origin), strict=True):
+            places = [end, *(part for part in element if part.tag == f"{end.tag}_origin")]
+            places += element.findall("origin") if end.tag == "parent" else []
+            texts = ((places[-1].get(name, ""), value) for name, value in (("xyz", origin.xyz), ("rpy", origin.rpy)))
+            is_equal = all(
+                np.allclose([*map(float, text.split())], value, 0, _TOLERANCE) for text, value in texts if text
+            )
+            poses.append(scene.get_transform(link)[:3, :3] @ np.array(pose(origin)[0]))
+            if end.get("link") != link or not is_equal:
+                yield Finding("second-reader-differs", f"loop {loop.name}", f"loop {loop.name!r} has another {end.tag}")
+        is_aligned = any(part.tag == "child_origin" and "rpy" not in part.attrib for part in element)
+        if is_aligned and np.abs(poses[0] - poses[1]).max() > _TOLERANCE:
+            message = f"loop {loop.name!r} is turned otherwise with all joints at zero"
+            yield Finding("second-reader-differs", f"loop {loop.name}", message)
 
 
 @contextlib.contextmanager
