@@ -37,7 +37,7 @@ LIGHT = urdfs.robot(
 FEATHER = urdfs.robot(
     urdfs.link("base"), urdfs.link("arm"), urdfs.joint("lift", "continuous", "base", "arm", axis="0 1 0")
 )
-CODES = ("planar-not-generic", "floating-not-generic", "moves-no-mass")
+CODES = ("planar-not-generic", "floating-not-generic", "ball-not-generic", "moves-no-mass")
 
 
 def warnings(urdf: str, *approach: str) -> list[str]:
@@ -71,6 +71,8 @@ WARNINGS = [
     (FREE_INSIDE, RECORD, "6: warning: joint 'drift' is floating; the generic robot has no such joints, so the record "
      "has no tables; write it as three prismatic joints and three continuous ones, or use the package approach; if the "
      "root link has no other joint, remove both and set `base = \"floating\"` in a project"),
+    (PLANAR.replace("planar", "ball"), RECORD, "6: warning: joint 'glide' is ball; the generic robot has no such "
+     "joints, so the record has no tables; write it as three continuous joints, or use the package approach"),
     (LIGHT, RECORD, f"11: warning: joint 'twist' {NOTHING} [moves-no-mass]"),
     (RODS, RECORD, f"6: warning: joint 'spin' {NOTHING} [moves-no-mass]"),
     (FEATHER, RECORD, "2: warning: no link has a mass, so the joints of the generic robot can be moved by position "
