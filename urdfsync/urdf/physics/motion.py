@@ -131,6 +131,8 @@ TURN_AXIS: Vector = (2 / 7, 3 / 7, -6 / 7)
 """At an angle to all axes of the world, so that gravity and centrifugal forces act along all axes of the root link."""
 
 
+BALL_AXIS = TURN_AXIS
+"""A prescribed ball joint turns about this axis in the joint frame."""
 FREE_START: Mapping[str, Vector] = {
     "r_start": (0.3, -0.2, 1.5),
     "rpy_start": (0.4, -0.3, 0.9),
@@ -195,6 +197,11 @@ def base_courses(depth: float = -GROUND_DEPTH) -> tuple[tuple[Course, ...], ...]
         standing = [Course(place, (*speeds, 0.0)[k], 0.0) for speeds in ON_GROUND.values()]
         every.append((*moving, *resting, *standing))
     return tuple(every)
+
+
+def find_balls(tree: KinematicTree) -> tuple[Joint, ...]:
+    """Return the ball joints."""
+    return tuple(joint for joint in tree.joints if joint.type == "ball")
 
 
 def driven_axes(tree: KinematicTree) -> tuple[Joint, ...]:

@@ -59,8 +59,14 @@ def bodies(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
 def _efforts(
     subject: Subject, names: RobotVariables, solved: Sequence[Solution], times: tuple[float, ...]
 ) -> Iterator[tuple[Compared, Sequence[Sequence[float]]]]:
+    rows = subject.reference.coordinates()
     for joint in subject.tree.joints:
-        if joint.name in subject.reference.axes:
+        if joint.type == "ball":
+            torques = tuple(f"robot.{subject.tree.joint(joint.name).component}Drive_.t[{i}]" for i in (1, 2, 3))
+            row = rows[joint.name]
+            compared = Compared(Quantity.EFFORT, f"joint {joint.name}", "N·m", torques, times)
+            yield compared, [each.load[row : row + 3].tolist() for each in solved]
+        elif joint.name in subject.reference.axes:
             unit, effort = ("N·m", "tau") if MOTION_KINDS[joint.type] == "rotational" else ("N", "f")
             number, value = subject.reference.axes.index(joint.name), (f"{names.flanges[joint.name]}.{effort}",)
             compared = Compared(Quantity.EFFORT, f"joint {joint.name}", unit, value, times)
