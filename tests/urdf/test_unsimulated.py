@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 import pytest
@@ -109,6 +110,9 @@ CLUTCH = urdfs.robot(
     urdfs.joint("second", "continuous", "ring", "arm", axis="0 0 1", xyz="0 0 0.3", rpy="0 0 0"),
 )
 """Two joints on one axis, and nothing between them."""
+BOB = urdfs.robot(*urdfs.links(base=None, bob=1), urdfs.joint("pivot", "ball", "base", "bob"))
+POINT = re.sub(r'\b(i..)="[^"]*"', r'\1="0"', BOB)
+"""A pendulum on a ball, and one whose mass is a point."""
 
 
 def passive_warnings(urdf: str, **options: Any) -> list[Diagnostic]:
@@ -134,6 +138,9 @@ def test_a_caster_without_a_mass_is_named_with_its_line_and_what_to_do() -> None
         (CART, {"driven": ("wheel",)}, ["caster"]),
         (CART, {"approach": RECORD}, []),
         (CART, {"approach": BOTH}, ["caster"]),
+        (BOB, {}, []),
+        (BOB, {"approach": RECORD}, []),
+        (POINT, {}, ["pivot"]),
         (CLUTCH, {"driven": ()}, ["first"]),
         (CLUTCH, {"driven": ("first",)}, []),
         (CLUTCH, {"driven": ("second",)}, []),  # it does not undo the motion of the first one

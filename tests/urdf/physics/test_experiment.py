@@ -107,6 +107,10 @@ def test_a_ball_turns_as_prescribed_and_freely_and_its_whole_torque_is_compared(
     spins = [each for each in free.compared if each.element == "joint elbow"]
     assert [(each.quantity, len(each.values)) for each in spins] == [(Quantity.ACCELERATION, 3)]
     assert "the record, which has no tables with ball joints" in one.unchecked
+    load = '<gazebo reference="elbow"><sensor name="load" type="force_torque"/></gazebo></robot>'
+    sensed = experiment(ball.replace("</robot>", load))
+    assert "sensor load, in a ball: what prescribes the ball acts beside it" in sensed.unchecked
+    assert Part.SENSORS not in {each.part for each in sensed.trials[0].compared}
     options = Options(approach=("record",))
     assert DOMAIN.checks.experiment(Sample(ball.encode(), "robot.urdf", BOT, options, {})) == (
         "joint elbow is ball, and nothing prescribes its motion"

@@ -127,12 +127,10 @@ PATH = (Course(0.4, -0.6, 1.1), Course(-0.3, 0.8, -0.7), Course(0.9, 0.5, 1.6))
 """x, y and z of the root link's frame in the world."""
 TURN = Course(0.7, 0.9, -1.4)
 """Angle of the root link's frame about `TURN_AXIS`."""
-TURN_AXIS: Vector = (2 / 7, 3 / 7, -6 / 7)
+TURN_AXIS: Vector = (2 / 7, 3 / 7, -6 / 7)  # also that of prescribed balls, in the joint frame
 """At an angle to all axes of the world, so that gravity and centrifugal forces act along all axes of the root link."""
 
 
-BALL_AXIS = TURN_AXIS
-"""A prescribed ball joint turns about this axis in the joint frame."""
 FREE_START: Mapping[str, Vector] = {
     "r_start": (0.3, -0.2, 1.5),
     "rpy_start": (0.4, -0.3, 0.9),
@@ -197,11 +195,6 @@ def base_courses(depth: float = -GROUND_DEPTH) -> tuple[tuple[Course, ...], ...]
         standing = [Course(place, (*speeds, 0.0)[k], 0.0) for speeds in ON_GROUND.values()]
         every.append((*moving, *resting, *standing))
     return tuple(every)
-
-
-def find_balls(tree: KinematicTree) -> tuple[Joint, ...]:
-    """Return the ball joints."""
-    return tuple(joint for joint in tree.joints if joint.type == "ball")
 
 
 def driven_axes(tree: KinematicTree) -> tuple[Joint, ...]:

@@ -121,11 +121,9 @@ def moving_probe(
             declarations.append(f"parameter {target.package}.{target.name}Stance stance")
             height = f"{-motion.GROUND_DEPTH!r} - stance.height, load = robot.m*world.g"
         declarations.append(f"inner UrdfSync.Contacts.Ground ground(height = {height})")
-    classes, declaration = list[str](), f"{names.declaration}fixedStart = false)"
-    if balls := motion.find_balls(subject.tree):
-        # only a class that extends the robot may connect drives to the frames of its joints
-        classes = _with_ball_drives(subject, balls)
-        declaration = "Robot robot(animation = false, fixedStart = false)"
+    declaration = f"{names.declaration}fixedStart = false)"
+    if subject.balls:
+        declaration = "Driven_ robot(animation = false, fixedStart = false)"
     declarations += filter(None, [declaration, names.numbers])
     connections = ["base.frame_b, robot.frame_a"]
     for k, (joint, courses) in enumerate(zip(subject.axes, subject.courses, strict=True), 1):
@@ -146,25 +144,30 @@ def moving_probe(
     base = zip(("x", "y", "z", "turn"), subject.base, strict=True)
     tables = ", ".join(f"{name} = {matrix(motion.ways(courses), 6)}" for name, courses in base)
     declarations.append(f"MovingBase base({tables}, axis = {vector(motion.TURN_AXIS)})")
-    source = _text(target, options, "", declarations, connections, classes)
+    source = _text(target, options, "", declarations, connections, _driven_balls(subject))
     last = float(max(motion.Instant))
     # loops are closed by integration: its error appears in accelerations, times the square of its rate of decay
     tolerance = 1e-11 if subject.tree.loops else None
     return Probe(source, "Probe_.Probe", last, step, tuple(values), tuple(optional), tolerance)
 
 
-def _with_ball_drives(subject: Subject, balls: Sequence[Joint]) -> list[str]:
-    """Return the lines of a class that extends the robot, and prescribes the motion of its ball joints."""
-    target, axis = subject.target, vector(motion.BALL_AXIS)
-    components = [subject.tree.joint(ball.name).component for ball in balls]
+def _driven_balls(subject: Subject) -> list[str]:
+    """Return the lines of a class that prescribes the motion of ball joints; none without any.
+
+    It extends the robot, since no other class may connect drives to the frames of its joints.
+    """
+    target, axis = subject.target, vector(motion.TURN_AXIS)
+    components = [subject.tree.joint(ball.name).component for ball in subject.balls]
+    if not components:
+        return []
     modifiers = ", ".join(f"{component}(hasStates = false)" for component in components)
     lines, connections = [f"extends {target.package}.{target.name}({modifiers});"], ["equation"]
-    for component, courses in zip(components, subject.courses[-len(balls) :], strict=True):
+    for component, courses in zip(components, subject.courses[-len(components) :], strict=True):
         drive, ways = f"{component}Drive_", matrix(motion.ways(courses), 6)
         rpy = f"{component}.parameters.origin.rpy"
         lines.append(f"BallDrive {drive}(ways = {ways}, axis = {axis}, rpy = {rpy});")
         connections += (f"connect({component}.{frame}, {drive}.{frame});" for frame in ("frame_a", "frame_b"))
-    return ["model Robot", *lines, *connections, "end Robot;"]
+    return ["model Driven_", *lines, *connections, "end Driven_;"]
 
 
 def free_probe(
@@ -180,8 +183,8 @@ def free_probe(
         component = names.joints.get(joint.name, "").removeprefix("robot.")
         if joint.type == "ball":
             sine, cosine = math.sin(course.position / 2), math.cos(course.position / 2)
-            angles = roll_pitch_yaw((*(sine * part for part in motion.BALL_AXIS), cosine))
-            speeds = [course.speed * part for part in motion.BALL_AXIS]
+            angles = roll_pitch_yaw((*(sine * part for part in motion.TURN_AXIS), cosine))
+            speeds = [course.speed * part for part in motion.TURN_AXIS]
             starts.append(f"{component}(rpy_start = {vector(angles)}, w_start = {vector(speeds)})")
             continue
         is_turning = MOTION_KINDS[joint.type] == "rotational"

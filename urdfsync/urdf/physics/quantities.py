@@ -111,11 +111,14 @@ def gears(geared: Sequence[str], read: Mapping[str, Gear]) -> Iterator[Pair]:
 
 def sensors(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
     """Yield the readings of the sensors that measure motion or forces."""
-    parents = {joint.name: joint.parent for joint in subject.tree.joints}
+    parents, balls = {joint.name: joint.parent for joint in subject.tree.joints}, [ball.name for ball in subject.balls]
     for sensor in subject.tree.sensors:
         if sensor.kind in ("imu", "accelerometer", "gyroscope"):  # all values of the component are compared
             outputs = {"a": "m/s²", "w": "rad/s"}
             rows = [subject.reference.acceleration(subject.states[t], sensor, subject.root) for t in COMPARED]
+        elif sensor.at in balls:
+            subject.unchecked[f"sensor {sensor.name}, in a ball: what prescribes the ball acts beside it"] = None
+            continue
         elif sensor.kind == "force_torque":
             outputs = {"f": "N", "t": "N·m"}
             at = parents[sensor.at]

@@ -62,16 +62,17 @@ def read(content: bytes, file: str, loose: Collection[str] = ()) -> PinocchioRob
     Fixed joints in `loose` stay joints: Pinocchio has no force in joints that it merges. Its reader has no ball joints.
     """
     pin = pinocchio()
-    root, balls = xml.parse(content).root, dict[str, float]()
+    root, balls = xml.parse(content).root, set[str]()
     for joint in root.findall("joint"):
         if joint.get("name") in loose and joint.get("type") == "fixed":
             joint.set("type", "continuous")
         elif joint.get("type") in ("ball", "spherical"):
-            losses = joint.find("dynamics[@damping]")
-            balls[joint.get("name", "")] = 0.0 if losses is None else float(losses.get("damping", ""))
+            balls.add(joint.get("name", ""))
             joint.set("type", "continuous")
-            for part in [part for part in joint if part.tag in ("axis", "limit", "dynamics")]:
+            for part in [part for part in joint if part.tag in ("axis", "limit")]:
                 joint.remove(part)
+            for losses in joint.findall("dynamics"):
+                losses.set("friction", "0")
     if loose or balls:
         content = tostring(root)
     followers = {
@@ -100,8 +101,8 @@ def read(content: bytes, file: str, loose: Collection[str] = ()) -> PinocchioRob
     return PinocchioRobot(model, followers)
 
 
-def _with_balls(pin: Any, model: Any, balls: Mapping[str, float]) -> Any:
-    """Return a model in which some joints turn in all directions, each with its damping."""
+def _with_balls(pin: Any, model: Any, balls: Collection[str]) -> Any:
+    """Return a model in which some hinges turn in all directions; their damping is that about each axis."""
     changed = pin.Model()
     for k in range(1, model.njoints):
         name, old = model.names[k], model.joints[k]
@@ -109,11 +110,8 @@ def _with_balls(pin: Any, model: Any, balls: Mapping[str, float]) -> Any:
         changed.addJoint(model.parents[k], new, model.jointPlacements[k], name)
         changed.appendBodyToJoint(k, model.inertias[k], pin.SE3.Identity())
         start = changed.joints[k].idx_v
-        if name in balls:
-            changed.damping[start:] = balls[name]
-            continue
-        for vector in ("damping", "friction"):
-            getattr(changed, vector)[start:] = getattr(model, vector)[old.idx_v : old.idx_v + old.nv]
+        for numbers in ("damping", "friction"):
+            getattr(changed, numbers)[start : start + new.nv] = getattr(model, numbers)[old.idx_v : old.idx_v + old.nv]
     for frame in model.frames[1:]:
         parts = frame.name, frame.parentJoint, frame.parentFrame, frame.placement, frame.type, frame.inertia
         changed.addFrame(pin.Frame(*parts), append_inertia=False)
@@ -185,7 +183,7 @@ class Reference:
         self.pin, self.model = pinocchio(), robot.model
         self.model.gravity.linear = np.array([0, 0, -motion.GRAVITY])
         self.axes = tuple(axes)
-        """The independent joints, balls last: these turn about `motion.BALL_AXIS`."""
+        """The independent joints, balls last: these turn about `motion.TURN_AXIS`."""
         balls = [joint for joint in self.model.joints if joint.shortname() == "JointModelSpherical"]
         self._balls, self._scalars = [joint.idx_v + k for joint in balls for k in range(3)], len(axes) - len(balls)
         self.projection, self._offset = self._mimic(robot, self.axes)
@@ -340,7 +338,7 @@ class Reference:
             if leader in axes:
                 is_ball = joint.shortname() == "JointModelSpherical"
                 rows = slice(joint.idx_v, joint.idx_v + joint.nv)
-                projection[rows, axes.index(leader)] = motion.BALL_AXIS if is_ball else factor
+                projection[rows, axes.index(leader)] = motion.TURN_AXIS if is_ball else factor
         return projection, offset
 
 

@@ -36,7 +36,8 @@ class Subject:
         self.tree, self.target, self.options = closed.tree, sample.target, options
         self.root: Element = xml.parse(sample.content).root
         driven = (joint for joint in motion.driven_axes(tree) if joint.name not in closed.dependent)
-        self.axes = (*driven, *motion.find_balls(tree))
+        self.balls = tuple(joint for joint in tree.joints if joint.type == "ball")
+        self.axes = (*driven, *self.balls)
         sensed = {sensor.at for sensor in tree.sensors if sensor.kind == "force_torque"}
         names = [joint.name for joint in self.axes]
         self.reference = Reference(read(sample.content, sample.file, sensed), names, closed)
