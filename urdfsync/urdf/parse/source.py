@@ -85,15 +85,16 @@ def read_robot(content: bytes, file: str, options: Options = _DEFAULTS, balls: S
 
 def _balls_in_loops(robot: Robot) -> list[str]:
     """Return the ball joints between the two ends of a loop."""
+    balls = [joint.name for joint in robot.joints if joint.type == "ball"]
     parents, held = {joint.child: joint for joint in robot.joints}, set[str]()
-    for loop in robot.loops:
+    for loop in robot.loops if balls else ():
         ways = [set[str](), set[str]()]
         for way, link in zip(ways, (loop.parent, loop.child), strict=True):
             while link in parents:
                 way.add(parents[link].name)
                 link = parents[link].parent
         held |= ways[0] ^ ways[1]
-    return [joint.name for joint in robot.joints if joint.type == "ball" and joint.name in held]
+    return [name for name in balls if name in held]
 
 
 def _note_unmodelled(reader: Reader) -> Iterator[Diagnostic]:
