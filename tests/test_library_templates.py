@@ -43,6 +43,7 @@ JOINT_NOTES: Mapping[JointType, str] = {
     "prismatic": "Slides within limits.",
     "planar": "Slides in a plane and turns about its normal. It has no flanges: its motion is free.",
     "floating": "Moves freely.",
+    "ball": "Turns in all directions. It has no flanges: its motion is free.",
 }
 RECORD_NOTE = "The numbers are those of the record <code>parameters</code>, which can be redeclared."
 
@@ -61,7 +62,7 @@ def library_artifacts() -> Iterator[Artifact | Order]:
         name, note = joint.capitalize(), f"{JOINT_NOTES[joint]} {RECORD_NOTE}"
         data = named_data("Joints", name, f"UrdfSync.Records.{name}Joint")
         facts = JOINT_KINDS[joint]
-        data |= {"dynamics": facts.has_axis, "accelerations": True, "note": note}
+        data |= {"dynamics": facts.has_axis or joint == "ball", "accelerations": True, "note": note}
         data |= {
             "inertia": facts.motion is not None,
             "motor": False,

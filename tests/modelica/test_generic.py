@@ -214,7 +214,7 @@ def test_benches_of_records_can_be_simulated_at_once_or_say_why_not(modelica_lib
     tasks.append(free("Zoo", "UrdfSync.Robots.GenericRobot", [Run()]))
     folders = [*(package.write(tmp_path) for package in packages), recorded(PUCK, "Zoo", tmp_path)]
     bolted, loose, refused = simulate_all(modelica_library, folders, [*tasks, compile_task("Zoo.ZooParameters")])
-    message = "Bench.robot: robot own has planar or floating joints, so its record has no tables. Use the package"
+    message = "Bench.robot: robot own has planar, floating or ball joints, so its record has no tables. Use the package"
     assert message in refused.error
     height, angle = (bolted.values[name] for name in values)
     assert set(height) == {0.0}

@@ -15,6 +15,7 @@ from support.modelica import DRIVES, Run, Task, bench, simulate
 from support.packages import generate
 from support.urdfs import dynamics, joint, limit, link, links, mimic, robot
 
+from urdfsync.checks.experiment import Quantity
 from urdfsync.domain import Target
 from urdfsync.urdf.physics import motion
 from urdfsync.urdf.physics.motion import Course
@@ -96,6 +97,30 @@ WRIST = robot(
     "</transmission>",
 )
 """A differential: each of its two rotors moves with both joints."""
+PENDULUM = robot(
+    *links(frame=None, bob=1.5),
+    joint("pivot", "spherical", "frame", "bob", inside=['<dynamics damping="0.2"/>']),
+)
+"""A pendulum on a ball."""
+
+SHOULDER = robot(
+    *links(base=4.0, upper=2.5, fore=1.5, camera=0.2),
+    joint("shoulder", "ball", "base", "upper"),
+    joint("elbow", "revolute", "upper", "fore", axis="0 1 0", inside=[dynamics(0.3, 0.2)]),
+    joint("look", "ball", "base", "camera"),
+)
+"""An elbow behind a ball, and a second ball beside it."""
+
+LEG = robot(
+    *links(base=5.0, cylinder=1.0, rod=0.7, platform=3.0),
+    joint("hinge", "revolute", "base", "platform", xyz="-0.5 0 0.6", rpy="0 0 0", axis="0 1 0"),
+    joint("foot", "ball", "base", "cylinder", xyz="0 0 0", rpy="0 0 0", inside=['<dynamics damping="0.3"/>']),
+    joint("stroke", "prismatic", "cylinder", "rod", xyz="0 0 0.3", rpy="0 0 0", axis="0 0 1"),
+    '<transmission name="t"><joint name="stroke"/></transmission>',
+    '<loop_joint name="head" type="ball"><link1 link="rod" xyz="0 0 0.2"/>'
+    '<link2 link="platform" xyz="0.5 0.1 0"/></loop_joint>',
+)
+"""A leg of a Stewart platform, whose platform hangs on a hinge: a ball in the tree and one that closes the loop."""
 
 
 DRIVEN = {"geared": GEARED, "massless": BARE, "gripper": GRIPPER, "chain": CHAIN, "held": HELD, "wrist": WRIST}
@@ -107,6 +132,25 @@ def test_joints_move_and_push_as_pinocchio_says(names: Sequence[str], modelica_l
     """Some in one process of the compiler. One joint of each type, and free motion, is in test_seen_faults."""
     cases = [physics.prepare(DRIVEN[name].encode(), name.capitalize()).only("motion") for name in names]
     assert [physics.fault(found) for found in physics.compare(modelica_library, tmp_path, cases)] == [None] * len(cases)
+
+
+def test_balls_move_as_pinocchio_says(modelica_library: Path, tmp_path: Path) -> None:
+    """Prescribed, free, in a loop; damping has an effect, and a lost origin is found."""
+    cases = [physics.prepare(PENDULUM.encode(), "Pendulum").only("motion")]
+    cases += [physics.prepare(SHOULDER.encode(), "Shoulder"), physics.prepare(LEG.encode(), "Leg").only("motion")]
+    # two faults, each in a pendulum of its own, which moves freely
+    for name, old, new in (("Weak", "damping = 0.2", "damping = 0.1"), ("Turned", "rpy = {0.5", "rpy = {0.6")):
+        case = physics.prepare(PENDULUM.encode(), name).only("free motion")
+        cases.append(case.changed("Joints/PivotParameters.mo", old, new))
+    *right, undamped, turned = physics.compare(modelica_library, tmp_path, cases)
+    for found in right:
+        assert physics.fault(found) is None
+        assert max(each.relative for each in found) < 1e-9
+    faults = [physics.fault(found) for found in (undamped, turned)]
+    assert [fault and (fault.element, fault.quantity) for fault in faults] == [
+        ("joint pivot", Quantity.ACCELERATION),
+        ("link bob", Quantity.ORIENTATION),
+    ]
 
 
 class Flange(NamedTuple):

@@ -212,17 +212,19 @@ def test_a_check_is_drawn_beside_its_reference_with_the_error_on_a_log_scale(
     assert page.problems == []
 
 
-PLANAR = """<robot name="cart"><link name="floor"/><link name="cart"/><link name="drone"/>
+PLANAR = """<robot name="cart"><link name="floor"/><link name="cart"/><link name="drone"/><link name="eye"/>
+<joint name="look" type="ball"><parent link="drone"/><child link="eye"/></joint>
 <joint name="drive" type="planar"><parent link="floor"/><child link="cart"/><origin xyz="0 0 1"/><axis xyz="{0}"/>
 </joint><joint name="fly" type="floating"><parent link="cart"/><child link="drone"/></joint></robot>"""
 
 
-def test_a_planar_joint_has_three_sliders_and_a_floating_one_six(report: Report, chromium: Page) -> None:
+def test_a_planar_joint_and_a_ball_have_three_sliders_and_a_floating_one_six(report: Report, chromium: Page) -> None:
     page = opened(chromium, report(PLANAR.format("0 1 0")))
     names = page.run("[...document.querySelectorAll('[data-axis]')].map((each) => each.dataset.axis)")
     assert names == [
         *(f"joint drive: {way}" for way in ("x", "y", "turn")),
         *(f"joint fly: {way}" for way in ("x", "y", "z", "yaw", "pitch", "roll")),
+        *(f"joint look: {way}" for way in ("yaw", "pitch", "roll")),
     ]
     page.run("move('joint drive: x', 2), move('joint drive: y', 3), move('joint drive: turn', 0.3)")
     # x of the frame is in the plane, y is the cross product of the normal with it

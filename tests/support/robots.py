@@ -38,7 +38,7 @@ from urdfsync.urdf.robot import (
 )
 
 SCALAR: tuple[JointType, ...] = ("continuous", "revolute", "prismatic")
-TYPES: tuple[JointType, ...] = (*SCALAR, "fixed", "planar", "floating")
+TYPES: tuple[JointType, ...] = (*SCALAR, "fixed", "planar", "floating", "ball")
 NAMES = ("arm", "Arm", "ARM", "arm_link", "arm_joint", "wheel", "leg-1", "leg_1", "leg 1", "Links", "m", "x9", "x10")
 """Of links and of joints: most of them meet others once they are identifiers."""
 FILES = ("a.stl", "b.stl", "c.dae")

@@ -28,7 +28,7 @@ from urdfsync.domain import Artifact, Order, Role, Target
 from urdfsync.modelica.parser import parse
 from urdfsync.urdf.artifacts import artifacts
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import Joint, Link, Robot
+from urdfsync.urdf.robot import Dynamics, Joint, Link, Robot
 
 GOLDEN = Path(__file__).resolve().parents[1] / "golden"
 TEMPLATES = Path(__file__).resolve().parents[2] / "templates" / "urdf"
@@ -108,6 +108,7 @@ def test_every_template_is_in_use() -> None:
     begun = Robot("r", (Link("a"), Link("b")), (Joint("a", "continuous", "a", "b", start=0.5),))
     robots = (
         (begun, both),
+        (Robot("r", begun.links, (Joint("a", "ball", "a", "b", dynamics=Dynamics(1.0)),)), both),
         (FOUR_BAR, Options()),
         (menagerie("fixed").robot, both),
         (twig("record").robot, both),

@@ -88,13 +88,13 @@ def test_a_robot_in_one_record_is_told_by_the_numbers_of_its_axes() -> None:
     assert found.layouts[0][0].effort == Signal("rotationalAxis[1].tau", "N·m", ("data.base_joint.limits.effort",))
 
 
-@pytest.mark.parametrize("kind", ["planar", "floating"])
+@pytest.mark.parametrize("kind", ["planar", "floating", "ball"])
 def test_a_record_that_no_generic_robot_reads_has_no_bench(kind: str) -> None:
     loose = tree(Joint("loose", kind, "a", "b"))  # type: ignore[arg-type]
     assert bench(loose, TARGET, Options(approach=("record",))) is None
     assert freedoms(loose, Options(approach=("record",))) is None
     assert bench(loose, TARGET, Options()) == Bench("ArmTest", "ArmRun", ((),))
-    assert freedoms(loose, Options()) == {"planar": 3, "floating": 6}[kind]
+    assert freedoms(loose, Options()) == {"planar": 3, "floating": 6, "ball": 3}[kind]
 
 
 def test_a_robot_of_both_approaches_is_told_either_way() -> None:

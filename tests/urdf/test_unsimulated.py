@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 import pytest
@@ -37,7 +38,13 @@ LIGHT = urdfs.robot(
 FEATHER = urdfs.robot(
     urdfs.link("base"), urdfs.link("arm"), urdfs.joint("lift", "continuous", "base", "arm", axis="0 1 0")
 )
-CODES = ("shared-rotor-not-in-record", "planar-not-generic", "floating-not-generic", "moves-no-mass")
+CODES = (
+    "shared-rotor-not-in-record",
+    "planar-not-generic",
+    "floating-not-generic",
+    "ball-not-generic",
+    "moves-no-mass",
+)
 
 
 def warnings(urdf: str, *approach: str) -> list[str]:
@@ -79,6 +86,8 @@ WARNINGS = [
     (FREE_INSIDE, RECORD, "6: warning: joint 'drift' is floating; the generic robot has no such joints, so the record "
      "has no tables; write it as three prismatic joints and three continuous ones, or use the package approach; if the "
      "root link has no other joint, remove both and set `base = \"floating\"` in a project"),
+    (PLANAR.replace("planar", "ball"), RECORD, "6: warning: joint 'glide' is ball; the generic robot has no such "
+     "joints, so the record has no tables; write it as three continuous joints, or use the package approach"),
     (LIGHT, RECORD, f"11: warning: joint 'twist' {NOTHING} [moves-no-mass]"),
     (RODS, RECORD, f"6: warning: joint 'spin' {NOTHING} [moves-no-mass]"),
     (FEATHER, RECORD, "2: warning: no link has a mass, so the joints of the generic robot can be moved by position "
@@ -117,6 +126,9 @@ CLUTCH = urdfs.robot(
     urdfs.joint("second", "continuous", "ring", "arm", axis="0 0 1", xyz="0 0 0.3", rpy="0 0 0"),
 )
 """Two joints on one axis, and nothing between them."""
+BOB = urdfs.robot(*urdfs.links(base=None, bob=1), urdfs.joint("pivot", "ball", "base", "bob"))
+POINT = re.sub(r'\b(i..)="[^"]*"', r'\1="0"', BOB)
+"""A pendulum on a ball, and one whose mass is a point."""
 
 
 def passive_warnings(urdf: str, **options: Any) -> list[Diagnostic]:
@@ -142,6 +154,9 @@ def test_a_caster_without_a_mass_is_named_with_its_line_and_what_to_do() -> None
         (CART, {"driven": ("wheel",)}, ["caster"]),
         (CART, {"approach": RECORD}, []),
         (CART, {"approach": BOTH}, ["caster"]),
+        (BOB, {}, []),
+        (BOB, {"approach": RECORD}, []),
+        (POINT, {}, ["pivot"]),
         (CLUTCH, {"driven": ()}, ["first"]),
         (CLUTCH, {"driven": ("first",)}, []),
         (CLUTCH, {"driven": ("second",)}, []),  # it does not undo the motion of the first one

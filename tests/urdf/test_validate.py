@@ -101,6 +101,9 @@ NUMBERS = """
     fixed       <dynamics damping="0" friction="0"/>
     fixed       <dynamics damping="-1"/>                                    warning dynamics-without-effect
     floating    <dynamics friction="1"/>                                    warning dynamics-without-effect
+    ball        <dynamics damping="1"/>
+    ball        <dynamics damping="1" friction="1"/>                        warning dynamics-without-effect
+    ball        <limit lower="-1" upper="1" effort="1" velocity="1"/>       warning limit-without-effect
 """
 
 

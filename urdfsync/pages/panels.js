@@ -1,7 +1,7 @@
 "use strict";
 /* Axes, tree, details and diagram: what stands beside the picture. All texts of the data are set as text, never as HTML. */
 
-const SYMBOLS = { rotational: "⟳", translational: "↔", planar: "⬔", floating: "✥", "": "─" };
+const SYMBOLS = { rotational: "⟳", translational: "↔", planar: "⬔", floating: "✥", ball: "◉", "": "─" };
 const DEGREES = 180 / Math.PI;
 
 /* Returns a new HTML element with attributes, a text or children, and listeners. */

@@ -13,9 +13,10 @@ const ALONG = { x: [1, 0, 0], y: [0, 1, 0], z: [0, 0, 1] };
 function waysOf(hinge) {
   const way = (label, axis, turns) => ({ name: label ? `${hinge.element}: ${label}` : hinge.element, label, axis, turns });
   if (hinge.motion in ONE_WAY) return [way("", hinge.axis, ONE_WAY[hinge.motion])];
-  if (hinge.motion === "floating") {
+  if (hinge.motion === "floating" || hinge.motion === "ball") {
     const turns = { yaw: "z", pitch: "y", roll: "x" }; // in this order, each about an axis that the ones before have turned
-    return [...Object.entries(ALONG).map(([label, axis]) => way(label, axis, false)), ...Object.entries(turns).map(([label, axis]) => way(label, ALONG[axis], true))];
+    const slides = hinge.motion === "ball" ? [] : Object.entries(ALONG).map(([label, axis]) => way(label, axis, false));
+    return [...slides, ...Object.entries(turns).map(([label, axis]) => way(label, ALONG[axis], true))];
   }
   if (hinge.motion !== "planar") return [];
   const normal = new THREE.Vector3().fromArray(hinge.axis); // as UrdfSync.Functions.normalTo in the package

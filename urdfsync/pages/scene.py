@@ -60,7 +60,7 @@ class Hinge(msgspec.Struct, frozen=True):
     """Of the axis's frame in the parent's, at position 0."""
     axis: tuple[float, ...]
     motion: str = ""
-    """`rotational` or `translational` along `axis`, `planar` with it as normal, `floating`; empty for a fixed one."""
+    """`rotational` or `translational` along `axis`, `planar` with it as normal, `floating`, `ball`; empty if fixed."""
     start: float = 0.0
     lower: float | None = None
     upper: float | None = None

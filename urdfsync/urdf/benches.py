@@ -33,7 +33,7 @@ _UNITS: Mapping[Motion, tuple[str, str, str, str]] = {
     "translational": ("m", "m/s", "N", "m/s²"),
 }
 
-_FREEDOMS: Mapping[JointType, int] = {"fixed": 0, "planar": 3, "floating": 6}
+_FREEDOMS: Mapping[JointType, int] = {"fixed": 0, "planar": 3, "floating": 6, "ball": 3}
 """Degrees of freedom of joints with none or several."""
 
 

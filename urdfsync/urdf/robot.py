@@ -33,7 +33,7 @@ _LENGTH, _ANGLE, _INERTIA = Unit("m"), Unit("rad"), Unit("kg·m²")
 _POSITION, _LOAD, _LOSS = Unit("rad", "m"), Unit("N·m", "N"), Unit("N·m·s/rad", "N·s/m")
 _ACCELERATION = Unit("rad/s²", "m/s²")
 
-JointType = Literal["fixed", "continuous", "revolute", "prismatic", "planar", "floating"]
+JointType = Literal["fixed", "continuous", "revolute", "prismatic", "planar", "floating", "ball"]
 SensorKind = Literal["imu", "accelerometer", "gyroscope", "force_torque", "camera", "lidar"]
 LoopKind = Literal["ball", "revolute", "universal", "fixed"]
 Command = Literal["position", "velocity", "effort"]
@@ -49,7 +49,7 @@ class JointKind(msgspec.Struct, frozen=True):
     motion: Motion | None = None
     """Kind of motion of a joint with one degree of freedom: only these have flanges, mimic, and are mimicked."""
     has_axis: bool = False
-    """Whether it has an axis: then damping and friction have an effect."""
+    """Whether it has an axis: then damping and friction have an effect; on a ball joint damping alone."""
     has_limits: bool = False
     """Whether its position has limits."""
 
@@ -61,6 +61,7 @@ JOINT_KINDS: Mapping[JointType, JointKind] = {
     "prismatic": JointKind("slides within its limits", "translational", has_axis=True, has_limits=True),
     "planar": JointKind("slides in a plane and turns about its normal", has_axis=True),
     "floating": JointKind("moves freely"),
+    "ball": JointKind("turns in all directions"),
 }
 MOTION_KINDS: Mapping[JointType, Motion] = {name: kind.motion for name, kind in JOINT_KINDS.items() if kind.motion}
 
@@ -330,7 +331,9 @@ def effective(joint: Joint) -> Joint:
     limit, dynamics = joint.limit if kind.motion else None, joint.dynamics if kind.has_axis else None
     if limit is not None and not kind.has_limits:
         limit = replace(limit, lower=0.0, upper=0.0)
-    if dynamics is not None and not kind.motion:
+    if joint.type == "ball" and joint.dynamics:
+        dynamics = Dynamics(joint.dynamics.damping)
+    elif dynamics is not None and not kind.motion:
         dynamics = Dynamics(dynamics.damping, dynamics.friction)
     return replace(
         joint,

@@ -4,14 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from msgspec.structs import replace
+
 from urdfsync.urdf.drives import can_be_driven, sharing_joint
 from urdfsync.urdf.kinematics.loops import Assembly
 from urdfsync.urdf.kinematics.massless import find_massless_joints
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.model.record import obstacles
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import MOTION_KINDS
-from urdfsync.urdf.validate import Finding
+from urdfsync.urdf.robot import MOTION_KINDS, Joint, Vector
+from urdfsync.urdf.validate import Finding, unit_vector
+
+_AXES: tuple[Vector, ...] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 
 
 def find_unsimulated(tree: KinematicTree, closed: Assembly, options: Options) -> Iterator[Finding]:
@@ -30,6 +34,22 @@ def find_unsimulated(tree: KinematicTree, closed: Assembly, options: Options) ->
         if name in passive:
             message = f"joint '{name}' is not driven and moves no mass at its start, so nothing determines its "
             yield Finding("passive-moves-no-mass", f"joint {name}", f"{message}motion in Run and Test")
+    for joint in tree.joints:
+        if joint.type == "ball" and _has_massless_axis(tree, joint):
+            message = f"joint '{joint.name}' is a ball and turns no inertia about an axis, so nothing determines its "
+            hint = "give a link behind it an <inertial> with an inertia about each axis"
+            yield Finding("passive-moves-no-mass", f"joint {joint.name}", f"{message}motion in Run and Test", hint)
+
+
+def _has_massless_axis(tree: KinematicTree, ball: Joint) -> bool:
+    """Return whether a ball turns no inertia about an axis of its frame, or about that through its child's centre."""
+    inertial = next(link.inertial for link in tree.links if link.name == ball.child)
+    for axis in (*_AXES, unit_vector(inertial.origin.xyz if inertial else _AXES[0])):
+        hinge = replace(ball, type="continuous", axis=axis)
+        joints = tuple(hinge if joint is ball else joint for joint in tree.joints)
+        if ball.name in find_massless_joints(replace(tree, joints=joints), {ball.name}):
+            return True
+    return False
 
 
 def out_of_scope(tree: KinematicTree) -> Iterator[Finding]:

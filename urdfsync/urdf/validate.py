@@ -68,7 +68,7 @@ _ERRORS = {
     "bad-number": "write decimal numbers such as -0.5 or 1e-3",
     "bad-version": 'write version="1.2", or leave it out for 1.0',
     "two-orientations": "remove one of them",
-    "unknown-joint-type": "use one of fixed, continuous, revolute, prismatic, planar, floating",
+    "unknown-joint-type": "use one of fixed, continuous, revolute, prismatic, planar, floating, ball",
     # loops
     "duplicate-loop": "rename or remove one loop",
     "loop-of-no-link": "correct the name of the link",
@@ -131,6 +131,7 @@ _WARNINGS = {
     "negative-limit": "write it without sign: all limits but those of position are magnitudes",
     "negative-dynamics": "correct its sign",
     "dynamics-without-effect": "remove what has no effect, or change the type",
+    "limit-without-effect": "remove it; a contact or a spring in a model of your own can hold the joint",
     "mimic-without-effect": "remove the mimic, or change the type",
     "mimic-of-fixed": "make it fixed, or let it mimic a joint that moves",
     "unknown-actuated-joint": "correct its name, or take it out",
@@ -141,6 +142,7 @@ _WARNINGS = {
     "drive-contradiction": "correct one of them",
     "unknown-interface": "correct its name, or take it out",
     "bad-mimic": "write a decimal number; a multiplier is taken as 1, an offset as 0",
+    "ball-not-driven": "drive it in a model of your own, or write it as three continuous joints in one point",
     "bad-start": "correct the position, or set another one by `start` in the configuration",
     "coupled-transmission": "model the coupling by hand, or write a transmission for each joint",
     "gravity-off": "exchange the link in a model of your own, or expect that the joints carry it",
@@ -165,6 +167,7 @@ _WARNINGS = {
     "loops-not-in-record": "generate a package for it",
     "shared-rotor-not-in-record": "generate a package for it",
     "planar-not-generic": "write it as two prismatic joints and a continuous one, or use the package approach",
+    "ball-not-generic": "write it as three continuous joints, or use the package approach",
     "floating-not-generic": "write it as three prismatic joints and three continuous ones, or use the package "
     'approach; if the root link has no other joint, remove both and set `base = "floating"` in a project',
 }
@@ -173,6 +176,7 @@ _NOTES = {
     "loop-drives": "if that is wrong, list all joints to drive in `driven`",
     "start-moved": "name fewer joints in `start` to choose which of them stay",
     "loop-closed": "the models of a package begin where it is closed",
+    "loop-ball": "nothing to do, unless the middle one of them comes near a right angle",
     "loop-weaker": "nothing to do: the motion is the same",
     "second-reader-failed": "go by the reading of urdfsync alone",
     "not-in-record": 'add "package" to `approach` for them',
@@ -422,6 +426,8 @@ def _check_joint(path: str, joint: Joint) -> Iterator[Finding]:
             value = getattr(getattr(effect, block), name, None)
             if value is not None and value < 0:
                 yield Finding(code, f"{path} / {block}", f"{path}: the {name.replace('_', ' ')} {value:g} is negative")
+    if limit and joint.type == "ball":
+        yield Finding("limit-without-effect", f"{path} / limit", f"{path} is a ball: its <limit> has no effect")
     given, acting = joint.dynamics or Dynamics(), effect.dynamics or Dynamics()
     idle = [name for name in Dynamics.__struct_fields__ if getattr(given, name) != getattr(acting, name)]
     if idle:

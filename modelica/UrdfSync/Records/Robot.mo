@@ -219,7 +219,7 @@ carries a joint has a smaller number than what it moves. The tables say which li
 mimic joints each follower names the joint that it follows itself, and has the numbers of its own <code>&lt;mimic&gt;</code> element.
 </p>
 <p>
-A robot with a planar or floating joint has no such tables: they keep the values of a single link.
+A robot with a planar, floating or ball joint has no such tables: they keep the values of a single link.
 </p>
 </html>"));
 end Robot;

@@ -288,7 +288,7 @@ protected
 
 equation
   assert(n == size(data.moveableJoints, 1),
-    getInstanceName() + ": robot " + data.name + " has planar or floating joints, so its record has no tables. Use the package approach, or write in the "
+    getInstanceName() + ": robot " + data.name + " has planar, floating or ball joints, so its record has no tables. Use the package approach, or write in the "
     + "URDF a planar joint as two prismatic joints and a continuous one, and leave out a floating joint at the root: put the robot on a FreeBase");
   for i in 1:n loop
     assert(noEvent(not checkLimits or UrdfSync.Functions.isAtMost(lower[i], q[i])),

@@ -55,7 +55,7 @@ Whatever can be connected has a name of its own, made from the name of its link 
 <li><code>frame_a</code> is the frame of the root link. A link without children has its frame, <code>grasp_pointFrame</code>; so has any other link that the option
 <code>frames</code> asks for. A model that extends the robot can connect to <code>forearm.frame_a</code> of every link.</li>
 <li>A joint that can be driven has its axis and the housing of its drive, <code>elbowAxis</code> and <code>elbowSupport</code>. Joints that follow another one,
-planar and floating joints have none.</li>
+planar, floating and ball joints have none.</li>
 <li>With the option <code>drives = \"motor\"</code> a joint whose URDF has a gear or a rotor has the flange of its motor, too: <code>elbowMotor</code>.</li>
 <li>A sensor of the URDF is a component of <a href=\"modelica://UrdfSync.Sensors\">Sensors</a>, with its numbers in <code>MyRobotSensors</code>, and a camera or laser scanner
 has a frame. Run has what the others measure as outputs.</li>

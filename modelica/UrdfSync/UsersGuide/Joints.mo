@@ -27,6 +27,7 @@ in the joint frame.
 <tr><td>planar</td><td>slides along <code>n_x</code> and <code>axis</code> &times; <code>n_x</code>, then turns about
 <code>axis</code>, the normal of the plane</td><td>two <code>s</code> in m, <code>phi</code> in rad</td></tr>
 <tr><td>floating</td><td>moves freely</td><td>position in m, orientation</td></tr>
+<tr><td>ball</td><td>turns in all directions</td><td>orientation</td></tr>
 </table>
 <p>
 URDF does not say which direction in the plane comes first. Here <code>n_x</code> is the x axis of the joint frame, projected on the plane;
@@ -36,7 +37,7 @@ the y axis, if the normal is close to x (<a href=\"modelica://UrdfSync.Functions
 <p>
 Continuous, revolute and prismatic joints have two flanges. <code>support</code> is the housing of the drive, on the parent's side;
 <code>axis</code> is where the drive acts. A positive torque or force at <code>axis</code> pushes in the direction of positive
-<code>phi</code> or <code>s</code>. An axis to which nothing is connected moves freely. Planar and floating joints have no flanges.
+<code>phi</code> or <code>s</code>. An axis to which nothing is connected moves freely. Planar, floating and ball joints have no flanges.
 </p>
 <h4>Limits</h4>
 <p>
@@ -60,6 +61,7 @@ It acts against the motion. For sliding joints read force for torque and <code>v
 <code>2*f/(1 + exp(-s*w)) - f</code> of Pign&egrave;de and Oldemeyer, written so that no speed makes it overflow. There is no stiction:
 under load an axis creeps. <a href=\"modelica://UrdfSync.Friction\">Other laws</a> hold: redeclare the joint's class <code>FrictionLaw</code>. Damping is in N&middot;m&middot;s/rad for turning and N&middot;s/m for sliding joints, friction in N&middot;m and N.
 A planar joint has one component, with the same two numbers, per direction of motion.
+A <a href=\"modelica://UrdfSync.Friction.Ball\">ball</a> has damping against its relative angular velocity, and no dry friction.
 </p>
 <h4>Mimic</h4>
 <p>

@@ -102,7 +102,7 @@ position, most of the time goes into the differentiation of each of these constr
 </p>
 <h4>Limits</h4>
 <ul>
-<li>A robot with planar or floating joints has a record without tables. <code>urdfsync</code> says so with the line of the URDF, and the models refuse
+<li>A robot with planar, floating or ball joints has a record without tables. <code>urdfsync</code> says so with the line of the URDF, and the models refuse
 it by name when a simulation begins. Use the package approach, or change the URDF: a planar joint can be written as two prismatic joints and a
 continuous one; a floating joint at the root can be left out, and the robot put on a <code>FreeBase</code>.</li>
 <li>A link without mass behind a moving joint usually does no harm if something behind that joint has mass. If the joint has no inertia about or along

@@ -8,7 +8,7 @@ class ReleaseNotes "What changed from version to version"
     Documentation(info="<html>
 <h4>Version 0.1.0</h4>
 <p>
-First version: records, links, six kinds of joints, friction, mimic couplings, ground contact, shapes, robots and benches, examples. Generic robots
+First version: records, links, seven kinds of joints, friction, mimic couplings, ground contact, shapes, robots and benches, examples. Generic robots
 that are read from a record, and functions of their kinematics and dynamics.
 </p>
 </html>"));

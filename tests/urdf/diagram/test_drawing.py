@@ -47,7 +47,9 @@ def test_elements_connectors_masses_and_ratios_can_be_read() -> None:
     assert {"0.7 kg", "1230 kg", "× -2.5", "held"} <= found
     assert "× 7" not in found
     assert {"link, mass", "fixed joint", "mimic coupling, ratio", "rotational joint"} <= found
-    assert "planar or floating joint" not in found, "the legend has the kinds that are there"
+    assert not {"planar or floating joint", "ball joint"} & found, "the legend has the kinds that are there"
+    robot = replace(GRIPPER, joints=tuple(replace(joint, type="ball", mimic=None) for joint in GRIPPER.joints))
+    assert "ball joint" in texts(etree.fromstring(draw(robot, TARGET, Options())))
 
 
 def test_sensors_are_shown_by_their_names() -> None:

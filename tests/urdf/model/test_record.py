@@ -80,6 +80,7 @@ UNLIMITED = ", ".join(
     ("planar", {"translation": LOSSES, "rotation": LOSSES}, {}),
     ("fixed", {}, {}),
     ("floating", {}, {}),
+    ("ball", {}, {}),
 ])  # fmt: skip
 def test_a_joint_has_the_groups_of_its_type(kind: JointType, full: dict[str, str], bare: dict[str, str]) -> None:
     leader = Joint("leader", "revolute", "a", "l")

@@ -445,3 +445,9 @@ def test_a_drive_of_a_joint_that_does_not_exist_is_told_with_its_line() -> None:
 def test_what_a_joint_with_an_error_leaves_out_is_no_second_finding() -> None:
     reading = read('<transmission name="t"><joint name="bad"/></transmission>', '<joint name="bad" type="fixed"/>')
     assert {found.code for found in reading.diagnostics} == {"missing-element"}
+
+
+def test_a_drive_of_a_ball_is_told() -> None:
+    content = urdfs.robot(*BASE, '<transmission name="t"><joint name="elbow"/></transmission>')
+    (warning,) = read_robot(content.replace("continuous", "ball", 1).encode(), "own.urdf").diagnostics
+    assert str(warning).startswith("own.urdf:7: warning: joint 'elbow' is a ball: its drive has no effect; drive it in")

@@ -77,7 +77,7 @@ TEXTS = robot(
 def test_the_spelling_of_sdf_is_read_twice(monkeypatch: pytest.MonkeyPatch) -> None:
     assert cross_check(TEXTS.encode(), "a.urdf") == ()
     wrong = robot(*TEXTS.split("\n")[2:-2]).replace("<mass>2", "<mass>3").encode()
-    monkeypatch.setattr("urdfsync.urdf.parse.second_reader.with_attributes", lambda _: with_attributes(wrong))
+    monkeypatch.setattr("urdfsync.urdf.parse.second_reader.with_attributes", lambda *_: with_attributes(wrong))
     (finding,) = cross_check(TEXTS.encode(), "a.urdf")
     assert (finding.code, finding.message) == ("second-reader-differs", "link b: its texts are read otherwise")
 

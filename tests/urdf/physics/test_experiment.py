@@ -98,6 +98,25 @@ def test_a_robot_with_a_joint_that_nothing_drives_is_not_compared(kind: str, app
     )
 
 
+def test_a_ball_turns_as_prescribed_and_freely_and_its_whole_torque_is_compared() -> None:
+    ball = ARM.replace('type="revolute"', 'type="ball"')
+    one = experiment(ball, approach=("package", "record"))
+    motion, free = one.trials
+    torques = [each for each in motion.compared if each.element == "joint elbow" and each.quantity is Quantity.EFFORT]
+    assert [len(each.values) for each in torques] == [3, 3]
+    spins = [each for each in free.compared if each.element == "joint elbow"]
+    assert [(each.quantity, len(each.values)) for each in spins] == [(Quantity.ACCELERATION, 3)]
+    assert "the record, which has no tables with ball joints" in one.unchecked
+    load = '<gazebo reference="elbow"><sensor name="load" type="force_torque"/></gazebo></robot>'
+    sensed = experiment(ball.replace("</robot>", load))
+    assert "sensor load, in a ball: what prescribes the ball acts beside it" in sensed.unchecked
+    assert Part.SENSORS not in {each.part for each in sensed.trials[0].compared}
+    options = Options(approach=("record",))
+    assert DOMAIN.checks.experiment(Sample(ball.encode(), "robot.urdf", BOT, options, {})) == (
+        "joint elbow is ball, and nothing prescribes its motion"
+    )
+
+
 def test_no_acceleration_follows_from_an_effort_on_no_mass() -> None:
     """The arm weighs something, but all of it is on the axis: a compiler may give any acceleration."""
     point = ELBOW.replace('value="2.5"', 'value="1"')

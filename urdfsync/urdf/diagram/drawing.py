@@ -15,9 +15,9 @@ from urdfsync.urdf.connectors import Connectors, connector_names
 from urdfsync.urdf.diagram.layout import Diagram, LineKind, Path, Point, layout
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import MOTION_KINDS, Robot
+from urdfsync.urdf.robot import MOTION_KINDS, JointType, Robot
 
-Kind: TypeAlias = Literal["link", "fixed", "rotational", "translational", "free", "coupling", "sensor", "loop"]
+Kind: TypeAlias = Literal["link", "fixed", "rotational", "translational", "free", "ball", "coupling", "sensor", "loop"]
 _Entry: TypeAlias = tuple[Kind, str, float, int, float]
 """Entry of the legend: the kind of its icon, its text, its place (x, y), and its width."""
 
@@ -37,10 +37,12 @@ _LEGENDS: Mapping[Kind, str] = {
     "rotational": "rotational joint",
     "translational": "translational joint",
     "free": "planar or floating joint",
+    "ball": "ball joint",
     "coupling": "mimic coupling, ratio",
     "sensor": "sensor",
     "loop": "joint that closes a loop",
 }
+_OTHERS: Mapping[JointType, Kind] = {"fixed": "fixed", "ball": "ball"}
 
 
 class _Part(NamedTuple):
@@ -99,7 +101,7 @@ def _parts(tree: KinematicTree, names: Connectors) -> Iterator[tuple[str, _Part]
         )
     types = {joint.name: joint.type for joint in tree.joints}
     for joint in tree.joints:
-        kind: Kind = MOTION_KINDS.get(joint.type) or ("fixed" if joint.type == "fixed" else "free")
+        kind: Kind = MOTION_KINDS.get(joint.type) or _OTHERS.get(joint.type, "free")
         yield tree.joint(joint.name).component, _Part(kind, is_driven=joint.name in names.drives)
     for joint, mimic in tree.followers():
         ratio = f"× {_rounded(mimic.multiplier)}" if types[mimic.joint] in MOTION_KINDS else "held"

@@ -120,7 +120,7 @@ class Tables(msgspec.Struct, frozen=True):
 
 
 def obstacles(joints: Iterable[Joint]) -> list[Joint]:
-    """Return the planar and floating joints: the generic robot lacks these, and with one there are no tables."""
+    """Return the planar, floating and ball joints: the generic robot lacks these, and with one there are no tables."""
     return [joint for joint in joints if joint.type not in MOTION_KINDS and joint.type != "fixed"]
 
 

@@ -13,7 +13,7 @@ becomes a chain.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import Any
 from xml.etree.ElementTree import SubElement
 
@@ -38,6 +38,11 @@ _DEEPEST = 50
 _MOST = 10_000_000
 """The most characters of all elements: aliases may repeat a long name 10,000 times."""
 _DIRECTIONS = {"x": "1 0 0", "y": "0 1 0", "z": "0 0 1"}
+_DRAKE = {"ball": "", "planar": "", "universal": "xy"}
+"""Types of `<drake:joint>` with the axes of their chains.
+
+By Drake's parser of URDF and its class UniversalJoint, which turns about x of the parent's frame, then about y.
+"""
 
 
 def join(content: bytes, other: bytes, file: str) -> tuple[bytes, Sequence[tuple[int, int]]]:
@@ -168,21 +173,29 @@ def _elements(document: Any) -> Iterator[tuple[str, int]]:
         yield f'<{AXES} joint={quoteattr(joint.value)} axes="{_TYPES[kind.value]}"/>', joint.start_mark.line + 1
 
 
-def split_joints(document: xml.Document) -> xml.Document:
+def split_joints(document: xml.Document, balls: Collection[str] = ()) -> xml.Document:
     """Return the document with a chain for each joint of several axes, and a fixed joint for each of none.
 
-    The source only measures the joints of a chain. Elements with an unknown joint or axes stay.
+    The source only measures the joints of a chain. Elements with an unknown joint or axes stay. Joints of Drake become
+    plain ones or chains, and the named `balls` chains: each joint of these has the damping.
     """
-    root = document.root
-    if not (elements := root.findall(AXES)):
-        return document
-    lines, joints = dict(document.lines), {joint.get("name", ""): joint for joint in root.findall("joint")}
-    for element in elements:
-        name, letters = element.get("joint", ""), element.get("axes", "")
-        if name not in joints or not _DIRECTIONS.keys() >= set(letters):
-            continue
-        root.remove(element)
-        chain = [joints[name]]
+    root, places = document.root, document.lines
+    own = {
+        part: _DRAKE[kind] for part in root if part.tag == "drake:joint" and (kind := part.get("type", "")) in _DRAKE
+    }
+    for joint in own:
+        joint.tag = "joint"
+    own |= {joint: "xyz" for joint in root.findall("joint") if joint.get("name") in balls}
+    chains = [(joint, axes, places[joint], joint.find("dynamics[@damping]")) for joint, axes in own.items() if axes]
+    joints = {joint.get("name", ""): joint for joint in root.findall("joint")}
+    for element in root.findall(AXES):
+        name, axes = element.get("joint", ""), element.get("axes", "")
+        if name in joints and _DIRECTIONS.keys() >= set(axes):
+            root.remove(element)
+            chains.append((joints[name], axes, places[element], None))
+    lines = dict(places) if chains else {}
+    for first, letters, line, damping in chains:
+        name, chain = first.get("name", ""), [first]
         for part in [part for part in chain[0] if part.tag in ("axis", "limit", "dynamics")]:
             chain[0].remove(part)
         if not letters:
@@ -201,7 +214,9 @@ def split_joints(document: xml.Document) -> xml.Document:
             for old in joint.findall("child"):
                 joint.remove(old)
             SubElement(joint, "child", link=child)
+            if damping is not None:
+                SubElement(joint, "dynamics", damping=damping.get("damping", ""))
             SubElement(SubElement(control, "joint", name=new), "state_interface", name="position")
         for part in (*chain, *links, control):
-            lines |= dict.fromkeys(part.iter(), lines[element])
-    return document._replace(lines=lines)
+            lines |= dict.fromkeys(part.iter(), line)
+    return document._replace(lines=lines or places)

@@ -323,6 +323,9 @@ def with_drives(reader: Reader, joints: Iterable[Joint], drives: Iterable[Drive]
 def _with_drives(reader: Reader, joint: Joint, drives: list[Drive]) -> Joint:
     is_driven = any(drive.is_driven for drive in drives)
     if joint.type not in MOTION_KINDS:
+        if is_driven and joint.type == "ball":
+            message = f"joint {joint.name!r} is a ball: its drive has no effect"
+            reader.extend([Finding("ball-not-driven", f"joint {joint.name}", message)])
         return msgspec.structs.replace(joint, actuated=is_driven or None)
     reader.used.update(drive.element for drive in drives if drive.element is not None and not drive.is_coupled)
 

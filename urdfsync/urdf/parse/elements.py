@@ -148,8 +148,9 @@ def resolve_materials(
 def read_joint(reader: Reader, element: Element, path: str) -> Joint | None:
     """Read a joint with its written axis; return None, after an error, if it connects nothing.
 
-    A joint of unknown type becomes a plain fixed one. SDFormat has limits and losses inside of the axis. Drake has
-    `drake:acceleration` among the limits (its page on parsing models for multibody dynamics).
+    A joint of unknown type becomes a plain fixed one. Isaac Sim's `spherical` is a ball. SDFormat has limits and losses
+    inside of the axis. Drake has `drake:acceleration` among the limits (its page on parsing models for multibody
+    dynamics).
     """
     axis = element.find("axis")
     if axis is not None:
@@ -163,6 +164,8 @@ def read_joint(reader: Reader, element: Element, path: str) -> Joint | None:
         reader.drop_newer(limit, f"{path} / limit", ("acceleration", "deceleration", "jerk"), (1, 2))
         if acceleration := limit.attrib.pop("drake:acceleration", ""):
             limit.attrib.setdefault("acceleration", acceleration)
+    if element.get("type") == "spherical":
+        element.set("type", "ball")
     joint = reader.read(element, path, Joint, f"joint {element.get('name', '')}")
     if joint.type not in JOINT_KINDS:
         if joint.type:

@@ -44,10 +44,11 @@ def cross_check(content: bytes, file: str) -> tuple[Diagnostic, ...]:
     reading = read_robot(content, file, options)
     if reading.robot is None:
         return ()
-    respelled = with_attributes(content)
+    respelled = with_attributes(content, {joint.name for joint in reading.robot.joints})
     findings = list(compare_readers(respelled, reading.robot))
     if respelled != content and (other := read_robot(respelled, file, options).robot):
-        for ours, theirs in zip(reading.robot.links + reading.robot.joints, other.links + other.joints, strict=True):
+        pairs = ((*robot.links, *robot.joints) for robot in (reading.robot.by_name(), other.by_name()))
+        for ours, theirs in zip(*pairs, strict=True):
             if ours != theirs:
                 path = f"{type(ours).__name__.lower()} {ours.name}"
                 findings.append(Finding("second-reader-differs", path, f"{path}: its texts are read otherwise"))
@@ -101,6 +102,7 @@ def _compare_poses(robot: Robot, theirs: Any) -> Iterator[Finding]:
         link.visuals.clear()  # else visuals would be nodes among the links
     for joint in theirs.joints:
         joint.mimic = None
+        joint.type = "fixed" if joint.type == "ball" else joint.type  # yourdfpy has no coordinates for a ball
         if joint.type in MOTION_KINDS:
             axes[joint.name] = 1.0 if MOTION_KINDS[joint.type] == "rotational" else float(np.linalg.norm(joint.axis))
     parents = {joint.child: joint.parent for joint in robot.joints}

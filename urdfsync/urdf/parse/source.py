@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 from xml.etree.ElementTree import Element
 
@@ -56,15 +56,16 @@ class RobotReading(NamedTuple):
     """The note on unmodelled elements, if any."""
 
 
-def read_robot(content: bytes, file: str, options: Options = _DEFAULTS) -> RobotReading:
+def read_robot(content: bytes, file: str, options: Options = _DEFAULTS, balls: Sequence[str] = ()) -> RobotReading:
     """Read a URDF; `file` is its name in diagnostics.
 
-    Raises nothing for bad input. The options choose the parts that may be left out, and the drives.
+    Raises nothing for bad input. The options choose the parts that may be left out, and the drives. A chain of three
+    joints stands for each of the `balls`, which are those that loops hold.
 
     All faults of the model are reported, but only the first fault of the XML.
     """
     try:
-        document = split_joints(xml.parse(content))
+        document = split_joints(xml.parse(content), balls)
     except xml.ParseError as error:
         return RobotReading(None, summary([error.diagnostic], file), {})
     reader = Reader(document.lines, options.allow)
@@ -72,7 +73,28 @@ def read_robot(content: bytes, file: str, options: Options = _DEFAULTS) -> Robot
     diagnostics = summary([*document.warnings, *reader.diagnostics], file)
     if robot is None or reader.failed:
         return RobotReading(None, diagnostics, reader.lines)
+    if held := [] if balls else _balls_in_loops(robot):
+        reading = read_robot(content, file, options, held)  # only the loops tell which balls they hold
+        told = [entry for entry in diagnostics if entry.code in ("limit-without-effect", "dynamics-without-effect")]
+        for name in held:
+            message = f"joint {name!r} is a ball in a loop: three continuous joints stand for it"
+            told.append(validate.diagnostic("loop-ball", message, reader.lines[f"joint {name}"]))
+        return reading._replace(diagnostics=summary([*told, *reading.diagnostics], file))
     return RobotReading(robot, diagnostics, reader.lines, summary(_note_unmodelled(reader), file))
+
+
+def _balls_in_loops(robot: Robot) -> list[str]:
+    """Return the ball joints between the two ends of a loop."""
+    balls = [joint.name for joint in robot.joints if joint.type == "ball"]
+    parents, held = {joint.child: joint for joint in robot.joints}, set[str]()
+    for loop in robot.loops if balls else ():
+        ways = [set[str](), set[str]()]
+        for way, link in zip(ways, (loop.parent, loop.child), strict=True):
+            while link in parents:
+                way.add(parents[link].name)
+                link = parents[link].parent
+        held |= ways[0] ^ ways[1]
+    return [name for name in balls if name in held]
 
 
 def _note_unmodelled(reader: Reader) -> Iterator[Diagnostic]:

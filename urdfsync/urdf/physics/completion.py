@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import contextlib
 import random
+from collections.abc import Collection
 from typing import NamedTuple
 from xml.etree.ElementTree import Element, SubElement, tostring
 
@@ -38,9 +39,12 @@ class CompletedSource(NamedTuple):
     notes: tuple[str, ...] = ()
 
 
-def completed_for_pinocchio(content: bytes) -> CompletedSource:
-    """Return the URDF in UTF-8, with the elements and attributes that Pinocchio's reader requires."""
-    document = xml.parse(content := with_attributes(content))
+def completed_for_pinocchio(content: bytes, joints: Collection[str] | None = None) -> CompletedSource:
+    """Return the URDF in UTF-8, with the elements and attributes that Pinocchio's reader requires.
+
+    `joints` are those of our reading, see `with_attributes`.
+    """
+    document = xml.parse(content := with_attributes(content, joints))
     added = set() if document.root.get("name") else {"the robot's name"}
     added |= {"joints of several axes"} if document.root.find(AXES) is not None else set()
     root = split_joints(document).root

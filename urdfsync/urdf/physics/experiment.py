@@ -39,14 +39,17 @@ def experiment(sample: Sample, step: float | None = None) -> Experiment | str:
     if left_out := [entry.message for entry in reading.diagnostics if entry.code in options.allow]:
         return left_out[0]
     robot = _robot(reading)
-    if loose := obstacles(robot.joints):
+    has_package = "package" in options.approach
+    if loose := [joint for joint in obstacles(robot.joints) if joint.type != "ball" or not has_package]:
         return f"joint {loose[0].name} is {loose[0].type}, and nothing prescribes its motion"
-    completed, notes = completion.completed_for_pinocchio(sample.content)
+    completed, notes = completion.completed_for_pinocchio(sample.content, {joint.name for joint in robot.joints})
     completed, made_up = completion.with_inertias(completed, KinematicTree.of(robot))
     tree = KinematicTree.of(_robot(read_robot(completed, file, options)), (sample.target.name,))
     trials = list[Trial]()
     # the record has a warning then
-    has_record = not (tree.loops or any(sharing_joint(joint, "joint") for joint in tree.joints))
+    has_record = not (
+        tree.loops or obstacles(tree.joints) or any(sharing_joint(joint, "joint") for joint in tree.joints)
+    )
     # the reference has the smooth law and rigid drives, and the embedded compiler starts no two joints that slide
     simplified = msgspec.structs.replace(options, friction="smooth", elastic="none", saturated="none")
     with np.errstate(all="ignore"):  # infinite numbers in the source
@@ -114,9 +117,10 @@ def _free(subject: Subject, names: RobotVariables, name: str) -> Iterator[Trial]
     pairs = list(quantities.poses(subject, names, [reference.solve(state)], time, Part.FREE_MOTION))
     rows = reference.coordinates()
     for k, joint in enumerate(subject.axes, 1):
-        unit = "rad/s²" if MOTION_KINDS[joint.type] == "rotational" else "m/s²"
-        what = Quantity.ACCELERATION, f"joint {joint.name}", unit, (f"push{k}.a",), time, Part.FREE_MOTION
-        pairs.append((Compared(*what, least_tolerance=doubt), [[float(gains[rows[joint.name]])]]))
+        unit, row = "m/s²" if MOTION_KINDS.get(joint.type) == "translational" else "rad/s²", rows[joint.name]
+        read = tuple(f"gain{k}[{i}]" for i in (1, 2, 3)) if joint.type == "ball" else (f"push{k}.a",)
+        what = Quantity.ACCELERATION, f"joint {joint.name}", unit, read, time, Part.FREE_MOTION
+        pairs.append((Compared(*what, least_tolerance=doubt), [gains[row : row + len(read)].tolist()]))
     if is_free:
         gained = tuple(f"base.freeMotion.a_rel_a[{i}]" for i in (1, 2, 3))
         root = f"link {subject.tree.links[0].name}"
@@ -156,6 +160,8 @@ def _not_compared(subject: Subject) -> Iterator[str]:
         yield f"free motion of more than {_MOST_AXES} axes, which takes a compiler too much memory"
     if "record" in options.approach and subject.tree.loops:
         yield "the record, which has no loops"
+    elif "record" in options.approach and obstacles(subject.tree.joints):
+        yield "the record, which has no tables with ball joints"
     elif "record" in options.approach:
         yield "limits, sensors and contacts of the generic robot"
 

@@ -127,7 +127,7 @@ PATH = (Course(0.4, -0.6, 1.1), Course(-0.3, 0.8, -0.7), Course(0.9, 0.5, 1.6))
 """x, y and z of the root link's frame in the world."""
 TURN = Course(0.7, 0.9, -1.4)
 """Angle of the root link's frame about `TURN_AXIS`."""
-TURN_AXIS: Vector = (2 / 7, 3 / 7, -6 / 7)
+TURN_AXIS: Vector = (2 / 7, 3 / 7, -6 / 7)  # also that of prescribed balls, in the joint frame
 """At an angle to all axes of the world, so that gravity and centrifugal forces act along all axes of the root link."""
 
 

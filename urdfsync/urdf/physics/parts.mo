@@ -72,6 +72,28 @@
     flange.f = -effort;
   end TranslationalPush;
 
+  model BallDrive "Turns frame_b about an axis of a joint's frame"
+    extends Modelica.Mechanics.MultiBody.Interfaces.PartialTwoFrames;
+    parameter Real ways[:, 6];
+    parameter Real axis[3];
+    parameter Real rpy[3] "Of the joint's frame in frame_a";
+    Modelica.Units.SI.Angle phi;
+    Modelica.Units.SI.AngularVelocity w;
+    Modelica.Mechanics.MultiBody.Frames.Orientation R;
+    Real t[3] = -frame_b.t;
+  equation
+    Connections.branch(frame_a.R, frame_b.R);
+    phi = place(time, ways);
+    w = der(phi);
+    R = Modelica.Mechanics.MultiBody.Frames.absoluteRotation(
+      Modelica.Mechanics.MultiBody.Frames.axesRotations({3, 2, 1}, {rpy[3], rpy[2], rpy[1]}, zeros(3)),
+      Modelica.Mechanics.MultiBody.Frames.planarRotation(axis, phi, w));
+    frame_b.R = Modelica.Mechanics.MultiBody.Frames.absoluteRotation(frame_a.R, R);
+    frame_a.f = zeros(3);
+    frame_b.f = zeros(3);
+    frame_a.t = -Modelica.Mechanics.MultiBody.Frames.resolve1(R, frame_b.t);
+  end BallDrive;
+
   model MovingBase "Moves and turns a frame"
     parameter Real x[:, 6];
     parameter Real y[:, 6];

@@ -5,6 +5,7 @@ It uses little of the package, so that packages may be edited: the variables bel
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
@@ -15,6 +16,7 @@ from urdfsync.domain import Target
 from urdfsync.modelica.literals import matrix, vector
 from urdfsync.urdf.connectors import connector_names
 from urdfsync.urdf.drives import sharing_joint
+from urdfsync.urdf.kinematics.poses import roll_pitch_yaw
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.physics import motion
 from urdfsync.urdf.physics.motion import Course
@@ -119,10 +121,14 @@ def moving_probe(
             declarations.append(f"parameter {target.package}.{target.name}Stance stance")
             height = f"{-motion.GROUND_DEPTH!r} - stance.height, load = robot.m*world.g"
         declarations.append(f"inner UrdfSync.Contacts.Ground ground(height = {height})")
-    declarations.append(f"{names.declaration}fixedStart = false)")
-    declarations += filter(None, [names.numbers])
+    declaration = f"{names.declaration}fixedStart = false)"
+    if subject.balls:
+        declaration = "Driven_ robot(animation = false, fixedStart = false)"
+    declarations += filter(None, [declaration, names.numbers])
     connections = ["base.frame_b, robot.frame_a"]
     for k, (joint, courses) in enumerate(zip(subject.axes, subject.courses, strict=True), 1):
+        if joint.type == "ball":
+            continue
         drive = MOTION_KINDS[joint.type].capitalize()
         declarations.append(f"{drive}Drive drive{k}(ways = {matrix(motion.ways(courses), 6)})")
         connections.append(f"drive{k}.flange, {names.flanges[joint.name]}")
@@ -141,11 +147,30 @@ def moving_probe(
     base = zip(("x", "y", "z", "turn"), subject.base, strict=True)
     tables = ", ".join(f"{name} = {matrix(motion.ways(courses), 6)}" for name, courses in base)
     declarations.append(f"MovingBase base({tables}, axis = {vector(motion.TURN_AXIS)})")
-    source = _text(target, options, "", declarations, connections)
+    source = _text(target, options, "", declarations, connections, _driven_balls(subject))
     last = float(max(motion.Instant))
     # loops are closed by integration: its error appears in accelerations, times the square of its rate of decay
     tolerance = 1e-11 if subject.tree.loops else None
     return Probe(source, "Probe_.Probe", last, step, tuple(values), tuple(optional), tolerance)
+
+
+def _driven_balls(subject: Subject) -> list[str]:
+    """Return the lines of a class that prescribes the motion of ball joints; none without any.
+
+    It extends the robot, since no other class may connect drives to the frames of its joints.
+    """
+    target, axis = subject.target, vector(motion.TURN_AXIS)
+    components = [subject.tree.joint(ball.name).component for ball in subject.balls]
+    if not components:
+        return []
+    modifiers = ", ".join(f"{component}(hasStates = false)" for component in components)
+    lines, connections = [f"extends {target.package}.{target.name}({modifiers});"], ["equation"]
+    for component, courses in zip(components, subject.courses[-len(components) :], strict=True):
+        drive, ways = f"{component}Drive_", matrix(motion.ways(courses), 6)
+        rpy = f"{component}.parameters.origin.rpy"
+        lines.append(f"BallDrive {drive}(ways = {ways}, axis = {axis}, rpy = {rpy});")
+        connections += (f"connect({component}.{frame}, {drive}.{frame});" for frame in ("frame_a", "frame_b"))
+    return ["model Driven_", *lines, *connections, "end Driven_;"]
 
 
 def free_probe(
@@ -158,11 +183,17 @@ def free_probe(
     starts, turning, sliding = list[str](), dict[str, tuple[float, float]](), dict[str, tuple[float, float]]()
     axes, options = subject.axes, subject.options
     for joint, course in zip(axes, courses, strict=True):
+        component = names.joints.get(joint.name, "").removeprefix("robot.")
+        if joint.type == "ball":
+            sine, cosine = math.sin(course.position / 2), math.cos(course.position / 2)
+            angles = roll_pitch_yaw((*(sine * part for part in motion.TURN_AXIS), cosine))
+            speeds = [course.speed * part for part in motion.TURN_AXIS]
+            starts.append(f"{component}(rpy_start = {vector(angles)}, w_start = {vector(speeds)})")
+            continue
         is_turning = MOTION_KINDS[joint.type] == "rotational"
         (turning if is_turning else sliding)[joint.name] = course.position, course.speed
         q, v = ("phi", "w") if is_turning else ("s", "v")
         place = f"{q}_start = {course.position!r}, " if course.position != subject.starts[joint.name] else ""
-        component = names.joints.get(joint.name, "").removeprefix("robot.")
         starts.append(f"{component}({place}{v}_start = {course.speed!r})")
     if not names.joints and starts:
         starts = [
@@ -180,6 +211,11 @@ def free_probe(
         ground = f"ground(height = {_FAR_GROUND!r}, animation = false)"
         bench = f"UrdfSync.Robots.PartialMobileBench({start}, world(enableAnimation = false), {ground})"
     for k, (joint, effort) in enumerate(zip(axes, efforts, strict=True), 1):
+        if joint.type == "ball":
+            ends = [f"{names.joints[joint.name]}.frame_{end}.R" for end in "ab"]
+            carried = f"Modelica.Mechanics.MultiBody.Frames.resolveRelative({ends[0]}.w, {', '.join(ends)})"
+            declarations += [f"Real spin{k}[3] = {ends[1]}.w - {carried}", f"Real gain{k}[3] = der(spin{k})"]
+            continue
         declarations.append(f"{MOTION_KINDS[joint.type].capitalize()}Push push{k}(effort = {effort!r})")
         connections.append(f"push{k}.flange, {names.flanges[joint.name]}")
     source = _text(subject.target, options, bench, declarations, connections)
@@ -189,11 +225,11 @@ def free_probe(
 def free_course(subject: Subject, number: int) -> Course:
     """Return position and speed at which the axis with this number, from 0, begins to move freely, and a gain.
 
-    An axis in a loop begins in the closed pose.
+    An axis in a loop begins in the closed pose, a ball never at zero.
     """
     joint = subject.axes[number]
     course = motion.axis_course(joint)
-    is_at_start = subject.is_in_loop(joint) or number % 2 == 0
+    is_at_start = subject.is_in_loop(joint) or (number % 2 == 0 and joint.type != "ball")
     return course._replace(position=subject.starts[joint.name]) if is_at_start else course
 
 
@@ -223,14 +259,16 @@ def _text(
     bench: str,
     declarations: Iterable[str],
     connections: Iterable[str],
+    classes: Iterable[str] = (),
 ) -> str:
-    """Return the package `Probe_`, whose model `Probe` may extend a bench."""
+    """Return the package `Probe_`, whose model `Probe` may extend a bench; `classes` are lines of further ones."""
     libraries = [name for name, _ in options.uses]
     imports = dict.fromkeys([*libraries, target.package.partition(".")[0]])  # rumoca loads no others
     lines = [
         "package Probe_",
         *(f"  import {library};" for library in imports),
         _PARTS,
+        *(f"  {line}" for line in classes),
         "  model Probe",
         *([f"    extends {bench};"] if bench else []),
         *(f"    {declaration};" for declaration in declarations),

@@ -59,8 +59,14 @@ def bodies(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
 def _efforts(
     subject: Subject, names: RobotVariables, solved: Sequence[Solution], times: tuple[float, ...]
 ) -> Iterator[tuple[Compared, Sequence[Sequence[float]]]]:
+    rows = subject.reference.coordinates()
     for joint in subject.tree.joints:
-        if joint.name in subject.reference.axes:
+        if joint.type == "ball":
+            torques = tuple(f"robot.{subject.tree.joint(joint.name).component}Drive_.t[{i}]" for i in (1, 2, 3))
+            row = rows[joint.name]
+            compared = Compared(Quantity.EFFORT, f"joint {joint.name}", "N·m", torques, times)
+            yield compared, [each.load[row : row + 3].tolist() for each in solved]
+        elif joint.name in subject.reference.axes:
             unit, effort = ("N·m", "tau") if MOTION_KINDS[joint.type] == "rotational" else ("N", "f")
             number, value = subject.reference.axes.index(joint.name), (f"{names.flanges[joint.name]}.{effort}",)
             compared = Compared(Quantity.EFFORT, f"joint {joint.name}", unit, value, times)
@@ -105,11 +111,14 @@ def gears(geared: Sequence[str], read: Mapping[str, Gear]) -> Iterator[Pair]:
 
 def sensors(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
     """Yield the readings of the sensors that measure motion or forces."""
-    parents = {joint.name: joint.parent for joint in subject.tree.joints}
+    parents, balls = {joint.name: joint.parent for joint in subject.tree.joints}, [ball.name for ball in subject.balls]
     for sensor in subject.tree.sensors:
         if SENSOR_KINDS[sensor.kind].name == "Imu":
             outputs = SENSOR_KINDS["imu"].outputs  # all values of the component are compared
             rows = [subject.reference.acceleration(subject.states[t], sensor, subject.root) for t in COMPARED]
+        elif sensor.at in balls:
+            subject.unchecked[f"sensor {sensor.name}, in a ball: what prescribes the ball acts beside it"] = None
+            continue
         elif sensor.is_in_joint:
             outputs = SENSOR_KINDS[sensor.kind].outputs
             at = parents[sensor.at]

@@ -64,14 +64,21 @@ class Gear(NamedTuple):
 def read(content: bytes, file: str, loose: Collection[str] = ()) -> PinocchioRobot:
     """Read a URDF with Pinocchio. Raises SourceError if Pinocchio is not installed or refuses the file.
 
-    Fixed joints in `loose` stay joints: Pinocchio has no force in joints that it merges.
+    Fixed joints in `loose` stay joints: Pinocchio has no force in joints that it merges. Its reader has no ball joints.
     """
     pin = pinocchio()
-    root = xml.parse(content).root
-    if loose:
-        for joint in root.findall("joint"):
-            if joint.get("name") in loose and joint.get("type") == "fixed":
-                joint.set("type", "continuous")
+    root, balls = xml.parse(content).root, set[str]()
+    for joint in root.findall("joint"):
+        if joint.get("name") in loose and joint.get("type") == "fixed":
+            joint.set("type", "continuous")
+        elif joint.get("type") in ("ball", "spherical"):
+            balls.add(joint.get("name", ""))
+            joint.set("type", "continuous")
+            for part in [part for part in joint if part.tag in ("axis", "limit")]:
+                joint.remove(part)
+            for losses in joint.findall("dynamics"):
+                losses.set("friction", "0")
+    if loose or balls:
         content = tostring(root)
     followers = {
         joint.get("name", ""): Mimic(
@@ -88,6 +95,7 @@ def read(content: bytes, file: str, loose: Collection[str] = ()) -> PinocchioRob
         message = f"Pinocchio can't read this file: {str(error).rstrip('.')}"
         hint = "correct the file, or check without --physics"
         raise SourceError(Diagnostic(Severity.ERROR, "pinocchio-refuses", message, file, hint=hint)) from error
+    model = _with_balls(pin, model, balls) if balls else model
     gears, rotors = read_gears(root), np.zeros((model.nv, model.nv))
     for joint in root.findall("joint"):
         name, armature = joint.get("name", ""), joint.find("dynamics[@armature]")
@@ -101,6 +109,23 @@ def read(content: bytes, file: str, loose: Collection[str] = ()) -> PinocchioRob
                 ways[model.joints[model.getJointId(gear.joint)].idx_v] = gear.joint_reduction
             rotors += gear.rotor * np.outer(ways, ways)
     return PinocchioRobot(model, followers, rotors)
+
+
+def _with_balls(pin: Any, model: Any, balls: Collection[str]) -> Any:
+    """Return a model in which some hinges turn in all directions; their damping is that about each axis."""
+    changed = pin.Model()
+    for k in range(1, model.njoints):
+        name, old = model.names[k], model.joints[k]
+        new = pin.JointModelSpherical() if name in balls else old
+        changed.addJoint(model.parents[k], new, model.jointPlacements[k], name)
+        changed.appendBodyToJoint(k, model.inertias[k], pin.SE3.Identity())
+        start = changed.joints[k].idx_v
+        for numbers in ("damping", "friction"):
+            getattr(changed, numbers)[start : start + new.nv] = getattr(model, numbers)[old.idx_v : old.idx_v + old.nv]
+    for frame in model.frames[1:]:
+        parts = frame.name, frame.parentJoint, frame.parentFrame, frame.placement, frame.type, frame.inertia
+        changed.addFrame(pin.Frame(*parts), append_inertia=False)
+    return changed
 
 
 def read_gears(root: Element) -> dict[str, Gear]:
@@ -218,7 +243,10 @@ class Reference:
         self.pin, self.model = pinocchio(), robot.model
         self.model.gravity.linear = np.array([0, 0, -motion.GRAVITY])
         self.axes = tuple(axes)
+        """The independent joints, balls last: these turn about `motion.TURN_AXIS`."""
         self.rotors = robot.rotors
+        balls = [joint for joint in self.model.joints if joint.shortname() == "JointModelSpherical"]
+        self._balls, self._scalars = [joint.idx_v + k for joint in balls for k in range(3)], len(axes) - len(balls)
         self.projection, self._offset = self._mimic(robot, self.axes)
         self.closing: Closing | None = None
         if assembly and assembly.closures:
@@ -285,14 +313,13 @@ class Reference:
         """Return the accelerations of all coordinates from the efforts of the axes; None if none follow.
 
         Return also their relative uncertainty, since poses are closed only to `closing.CLOSED`: light joints that hang
-        on heavy ones amplify such errors. The base rests, unless `is_free`.
+        on heavy ones amplify such errors. The base rests, unless `is_free`. Balls turn in all directions.
         """
         data, nv = self.model.createData(), self.model.nv
         load = self._load(data, state, state.drift)
-        ways, drives = state.ways, efforts
-        if is_free:
-            ways = np.column_stack([np.eye(nv, 6), ways])
-            drives = np.concatenate([np.zeros(6), drives])
+        loose = [*(range(6) if is_free else ()), *self._balls]
+        ways = np.column_stack([np.eye(nv)[:, loose], state.ways[:, : self._scalars]])
+        drives = np.concatenate([np.zeros(len(loose)), efforts[: self._scalars]])
         mass = ways.T @ self._mass(state.q) @ ways
         if len(mass) and not (np.isfinite(mass).all() and np.linalg.cond(mass) < _GREATEST_CONDITION):
             return None
@@ -357,7 +384,7 @@ class Reference:
         pin.framesForwardKinematics(self.model, data, state.q)
         reactions = self.closing.reactions(state.positions, load) if self.closing else []
         reactions = [one._replace(gap=data.oMi[1].rotation @ one.gap) for one in reactions]
-        return Solution(self, data, state.q, load[:3], load[3:6], state.ways.T @ load, reactions)
+        return Solution(self, data, state.q, load, load[:3], load[3:6], state.ways.T @ load, reactions)
 
     def losses(self, v: Array) -> Array:
         """Return efforts of damping and dry friction at velocity v."""
@@ -374,7 +401,9 @@ class Reference:
                 offset[joint.idx_v] += factor * follower.offset
                 factor, leader = factor * follower.multiplier, follower.joint
             if leader in axes:
-                projection[joint.idx_v, axes.index(leader)] = factor
+                is_ball = joint.shortname() == "JointModelSpherical"
+                rows = slice(joint.idx_v, joint.idx_v + joint.nv)
+                projection[rows, axes.index(leader)] = motion.TURN_AXIS if is_ball else factor
         return projection, offset
 
 
@@ -385,6 +414,8 @@ class Solution(msgspec.Struct, frozen=True):
     data: Any
     """Pinocchio's data, with the poses of all frames."""
     q: Array
+    load: Array
+    """Efforts of all coordinates."""
     force: Array
     """Force on the root link, in its frame."""
     torque: Array

@@ -35,7 +35,9 @@ class Subject:
         self.assembly = closed = assembly(tree, options)
         self.tree, self.target, self.options = closed.tree, sample.target, options
         self.root: Element = xml.parse(sample.content).root
-        self.axes = tuple(joint for joint in motion.driven_axes(tree) if joint.name not in closed.dependent)
+        driven = (joint for joint in motion.driven_axes(tree) if joint.name not in closed.dependent)
+        self.balls = tuple(joint for joint in tree.joints if joint.type == "ball")
+        self.axes = (*driven, *self.balls)
         sensed = {sensor.at for sensor in tree.sensors if sensor.is_in_joint}
         names = [joint.name for joint in self.axes]
         self.reference = Reference(read(sample.content, sample.file, sensed), names, closed)
