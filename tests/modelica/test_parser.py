@@ -161,6 +161,7 @@ def test_what_is_taken_away_from_a_base_class() -> None:
 
 FAULTS = {
     "unbalanced": ("body.frame_b)", "body.frame_b", "lacks `)` before `annotation` (line 32)"),
+    "modifier of a global name": ("(each min = 0)", "(each .min = 0)", "lacks a name before `.` (line 9)"),
     "crossing": ("(each min = 0)", "(each min = 0]", "lacks `,` or `)` before `]` (line 9)"),
     "braces": ("{1, 1}}", "{1, 1}", "lacks `,` or `}` before `)` (line 32)"),
     "string": ('"Masses"', '"Masses', "has a string without an end (line 57)"),

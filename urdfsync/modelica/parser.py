@@ -659,6 +659,8 @@ class Parser(Lexer):
         new_type: Extends | None = None
         if declares:
             new_type = Extends(self._type()[1])
+        if self.word == ".":
+            raise self._lack("a name")
         at = self.at
         name = self._name()
         self._note("name", at)
