@@ -645,8 +645,7 @@ def meetings(source: bytes, random: Random) -> Iterator[tuple[Renumbering, str, 
     """Each kind of export meets each kind of edit of one element: what becomes of the edit."""
     Path("r.urdf").write_bytes(source)
     built = plan()
-    if built.failed:
-        pytest.skip("it has no package")
+    assert not built.failed, built.diagnostics
     shutil.copytree("modelica", "../built", dirs_exist_ok=True)
     shutil.copytree(".urdfsync", "../state", dirs_exist_ok=True)
     owners = sorted({action.owner for action in built.actions if action.owner.startswith(("link ", "joint "))})
@@ -679,7 +678,8 @@ def meetings(source: bytes, random: Random) -> Iterator[tuple[Renumbering, str, 
             yield exported, kind, f"WRONG: {owner} is {expected}, the edit is in {[action.path for action in holders]}"
 
 
-FILES = [file for file in corpus.robots() if file != corpus.ABSENT]
+FILES = [file for file in corpus.robots() if file != corpus.ABSENT and not file.endswith("spot_arm.urdf")]
+"""A joint of that one begins at a link that is not there."""
 IN_CI = [file for file in FILES if file.endswith(("puma560_robot.urdf", "m900ib700.urdf", "ur5e.urdf"))]
 
 
