@@ -8,7 +8,7 @@ from typing import NamedTuple
 from urdfsync.modelica.markers import find_markers
 
 _BEGINNING = 20_000
-"""So many bytes show the kind of a file with a robot inside."""
+"""The kind of a file with a robot inside shows in so many first bytes."""
 _TAR = slice(257, 262)
 _PACKED = (
     (b"\x1f\x8b", "packed by gzip", "gunzip < FILE > ROBOT.urdf"),
