@@ -161,7 +161,7 @@ def _move(generation: Generation, decision: Decision, action: Action, named: str
     is_asked = any(one.path == target and one.reason is Reason.ASKED for one in decision.actions)
     message = ""
     if is_asked and not is_leaving:
-        message, hint = "it is asked about, too", "settle it first, or name both files with --moved alone"
+        message, hint = "its own edit may belong to another part, too", "settle it first, or name both files with --moved alone"
     elif inputs.files.read(f"{target.removesuffix('.mo')}/package.mo") or inputs.files.read(key) is None:
         message, hint = "one of the two classes is a folder", "move the edit by hand, then use --keep"
     elif target in generation.moves.values():
@@ -196,7 +196,7 @@ def _find_target(generation: Generation, action: Action, new: str) -> str:
     if not name:
         message, hint = "it belongs to no single part", "change the names in it, then use --keep"
     elif not new:
-        message = "it is not known to which part the edit belongs"
+        message = "the part to which the edit belongs is unknown"
     elif new == name:
         message = f"it belongs to {kind} `{name}` already"
     elif new not in known:

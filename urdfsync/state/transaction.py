@@ -4,11 +4,11 @@
 2. All new files are written beside their targets under temporary names, and written through to the disk.
 3. The planned hashes get their final name. Until then nothing has changed, and an error leaves no trace.
 4. Each target is exchanged with its new file, bases first, deletions last. The old file then has the temporary name.
-Its hash shows whether it is the file of the plan. If it is not, somebody has saved the target meanwhile: the two
-files are exchanged back, and the target is *overtaken*.
+   Its hash shows whether it is the file of the plan. If it is not, somebody has saved the target meanwhile: the two
+   files are exchanged back, and the target is *overtaken*.
 5. The recorded state is replaced, unless a target was overtaken.
 6. The files under temporary names are removed, and then the planned hashes. If a target was overtaken, the next
-plan recognises the written texts by their bases.
+   plan recognises the written texts by their bases.
 
 From step 4 on, every write can be repeated, and recovery resumes there. If a file under a temporary name has a content
 that was not planned, it is a save of the user's. It is put back, or kept beside the target under a visible name.
