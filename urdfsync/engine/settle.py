@@ -161,7 +161,7 @@ def _move(generation: Generation, decision: Decision, action: Action, named: str
     is_asked = any(one.path == target and one.reason is Reason.ASKED for one in decision.actions)
     message = ""
     if is_asked and not is_leaving:
-        message, hint = "its own edit may belong to another part, too", "settle it first, or name both files with --moved alone"
+        message, hint = "its edit may belong to another part, too", "settle it first, or name both files with --moved"
     elif inputs.files.read(f"{target.removesuffix('.mo')}/package.mo") or inputs.files.read(key) is None:
         message, hint = "one of the two classes is a folder", "move the edit by hand, then use --keep"
     elif target in generation.moves.values():
