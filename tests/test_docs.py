@@ -135,7 +135,7 @@ def test_numbers_of_comments_are_those_in_use() -> None:
 def test_numbers_of_simulations_are_those_in_use() -> None:
     page = (REPOSITORY / "docs/simulate.md").read_text(encoding="utf-8")
     defaults = SimulateOptions()
-    assert f"else {STOP:g} s, a {STEPS}th of it and {SIMULATED_TO:g}" in page
+    assert f"they are {STOP:g} s, a {STEPS}th of the stop time, and {SIMULATED_TO:g}" in page
     assert f"`--timeout` ({defaults.timeout:g} s)" in page
     assert f"There may be up to {MOST_ROWS:,} rows." in page
 

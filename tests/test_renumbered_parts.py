@@ -370,7 +370,7 @@ def test_edits_that_git_left_with_exchanged_names_change_places_together(
     repository.merge("export")
     execute("build", code=Exit.CONFLICT)
     words = execute("resolve", LINK.format(2), "--moved", "link_3", code=Exit.ERROR).words
-    assert "it is asked about, too" in words
+    assert "its edit may belong to another part, too" in words
     execute("resolve", LINK.format(2), LINK.format(3), "--moved")
     for number, other in ((2, 3), (3, 2)):
         assert f"Real mine = {other};" in Path(LINK.format(number)).read_text()

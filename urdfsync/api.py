@@ -41,8 +41,8 @@ Place: TypeAlias = Config | Path | str | None
 Recorder: TypeAlias = Callable[[Reading, str, Target, Any], tuple[Artifact, Sequence[Diagnostic]]]
 """Returns a model as one record that stands alone, with its own findings; the attribute `record` of a domain.
 
-It gets what was read without an error, the source's name in diagnostics, the class and the package of the record, and
-options. Nothing is imported for it. Pure.
+Its arguments are a reading without errors, the source's name in diagnostics, the class and the package of the record,
+and options. No files are imported for the record. Pure.
 """
 
 
@@ -160,9 +160,9 @@ def diff(
 ) -> Results[Comparison]:
     """Show what changed in sources since the last build, or since the version `against`: a git revision, else a file.
 
-    `sources` are files or robots; without any, all sources are compared. No configuration is needed for files and
-    `against`. Raises UrdfsyncError for what can't be compared at all; where the version can't be read, the `result` of
-    a comparison has `failed`.
+    `sources` are files or robots; without any, all sources are compared. Comparing a file with `against` needs no
+    configuration. Raises UrdfsyncError if there is nothing to compare. If a version can't be read, the `result` of its
+    comparison has `failed`.
     """
     from urdfsync.versions import comparison, report
 
@@ -181,7 +181,7 @@ def edits(
     on_result: Callable[[RobotEdits], object] = ignore,
     **given: Any,
 ) -> Results[RobotEdits]:
-    """Show what the user edited in packages, all of it or what `paths` mean: robots, files, folders.
+    """Show what the user edited in packages: everything, or the edits in `paths`, which are robots, files or folders.
 
     Raises ConfigError for a path that means no robot.
     """
@@ -228,8 +228,8 @@ def simulate(
     """Simulate a robot, as `urdfsync simulate` does; `robots` is one, or none if there is only one.
 
     `given` are fields of `SimulateOptions`, such as `model` and `stop` (s). The result has `series`, times (s) and the
-    values of each variable, and `joints`, whose ranges are held against their limits. `files` are written: `csv`
-    or `plot`. Raises UrdfsyncError for whatever is wrong with the model, its inputs, the compiler or files.
+    values of each variable, and `joints` with their ranges and limits. It writes `files`: `csv` or `plot`. Raises
+    UrdfsyncError for faults of the model, its inputs, the compiler or files.
     """
     from urdfsync.checks import compilers
     from urdfsync.simulation import run

@@ -45,7 +45,7 @@ class Difference(msgspec.Struct, frozen=True):
     def change(self, path: tuple[str, ...], change_class: ChangeClass, unit: str = "") -> Change:
         """Return the difference in the domain's words: `("joint elbow", "origin", "xyz[2]")` begins with the element.
 
-        `unit` is that of both values, or `old → new` if they differ; empty for what has none.
+        `unit` is the unit of both values, or `old → new` if the units differ; empty for a value without unit.
         """
         return Change(path, self.kind, change_class, self.old, self.new, unit)
 
@@ -62,7 +62,7 @@ class Effect(msgspec.Struct, frozen=True):
 
 
 class Effects(Protocol):
-    """What a domain says of differences of whole models, as they are read; the attribute `effects` of a domain."""
+    """Describes the effects of differences on the whole model; the attribute `effects` of a domain."""
 
     def effects(self, old: Version, new: Version) -> Sequence[Effect]:
         """Return the effects of the differences on the whole model."""
@@ -80,7 +80,7 @@ class Effects(Protocol):
     def find_doubtful(
         self, old: Version, new: Version, renames: Mapping[ElementKey, str]
     ) -> Iterable[tuple[str, Diagnostic]]:
-        """Return warnings about differences that look like a mistake of the export: a path, and one without place.
+        """Return warnings about differences that look like mistakes of the export: a path, and a warning without place.
 
         The core adds the line of the path in the source, as `Reading` has it.
         """
@@ -100,7 +100,7 @@ class Change(msgspec.Struct, frozen=True):
     """Whether only the rounding of a number may have changed. Builds apply it all the same."""
 
     def __post_init__(self) -> None:
-        """Find out whether it is noise, which follows from the values."""
+        """Set `noise`, which follows from the values."""
         if is_number(self.old) and is_number(self.new):
             is_noise = abs(self.new - self.old) <= NOISE * max(abs(self.old), abs(self.new))
             msgspec.structs.force_setattr(self, "noise", is_noise)
@@ -118,7 +118,8 @@ class Change(msgspec.Struct, frozen=True):
 Describe: TypeAlias = Callable[[Version, Version, Mapping[ElementKey, str], Any], Iterable[Change]]
 """Returns the changes from one version to another, given the new names of elements and options of the new version.
 
-The attribute `describe` of a domain. Without it, another value is a parameter; all that comes or goes is structural.
+The attribute `describe` of a domain. Without it, a changed value is a parameter change; additions and removals are
+structural changes.
 """
 
 
@@ -131,7 +132,7 @@ class Changes(msgspec.Struct, frozen=True):
     """Structure first, then numbers, then rounding and unmodelled parts."""
     renames: Mapping[ElementKey, str] = msgspec.field(default_factory=dict)
     doubts: tuple[Doubt, ...] = ()
-    """Elements of an old name that may be other parts."""
+    """Elements that have the name of an old element and may be other parts."""
     generator: bool = False
     """Whether templates, options or the release of urdfsync differ."""
     options: tuple[str, ...] = ()
@@ -199,8 +200,8 @@ def moved_files(
     """Return old path → new path of each file that belongs to the same element as before, but is at another place.
 
     Both mappings have the owner and the template of files by their path. A file moves with its element's new name, or
-    with its new identifier. Several moved files of one element and template are not matched. Files of an element whose
-    name another one has now stay.
+    with its new identifier. If several files of one element and template have moved, they are not matched. If another
+    element has the element's name now, its files stay.
     """
     if old == new and not renames:
         return {}

@@ -25,11 +25,11 @@ _COMMANDS = (
     "init add remove adopt build diff report status watch check simulate fmu resolve record hook merge-driver library "
     "schema completion"
 ).split()
-"""In the order of the help. Each is a module of `commands`, loaded only if its command may be meant."""
+"""The commands in the order of the help. Each is a module of `commands`, which is loaded only if it may be needed."""
 
 
 _GARBAGE_THRESHOLD = 1_000_000
-"""New objects after which Python looks for cycles; its own 700 cost the daemon a quarter of a changed mass."""
+"""New objects after which Python looks for cycles; with its default, 700, the daemon takes a quarter longer."""
 
 
 def main(given: Sequence[str] | None = None) -> int:

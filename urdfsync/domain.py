@@ -34,7 +34,7 @@ class Features(msgspec.Struct, frozen=True):
     neighbours: Mapping[str, ElementKey]
     """Neighbours by relation, such as `parent`."""
     files: tuple[str, ...] = ()
-    """Files of the element; not in `contents`, since exporters name files after elements."""
+    """Files of the element. They are not in `contents`, since exporters name files after elements."""
 
 
 class Role(enum.StrEnum):
@@ -137,11 +137,11 @@ class ChangeClass(enum.StrEnum):
     STRUCTURAL = "structural"
     """Models, packages or their order depend on it."""
     GENERATOR = "generator"
-    """Template, option or release differ, which turn the model into files."""
+    """The templates, the options or the release of urdfsync differ; they turn the model into files."""
 
     @property
     def rank(self) -> int:
-        """Place in this order, from 0."""
+        """The number of this class in the order above; the first class has 0."""
         return list(ChangeClass).index(self)
 
 
@@ -150,7 +150,7 @@ class Version(msgspec.Struct, frozen=True):
 
     snapshot: Snapshot
     imports: Mapping[str, Import] | None = None
-    """The found files of the model; None if nobody looked for them: then each counts as found."""
+    """The found files of the model; None if they were not looked for: then each file counts as found."""
     options: Any = None
     """The domain's options of its build; None if unknown, or if they equal those of the other version."""
 
@@ -233,7 +233,7 @@ class Domain(Protocol):
         ...
 
     def names(self, snapshot: Snapshot, target: Target) -> Mapping[str, Mapping[str, str]]:
-        """Return, per kind of element in the plural, name in the source → identifier in Modelica."""
+        """Return the Modelica identifiers by kind of element, in the plural, and by name in the source."""
         ...
 
     def artifacts(
@@ -260,7 +260,7 @@ class Domain(Protocol):
         return Conversion(content, {})
 
     def features(self, snapshot: Snapshot) -> Mapping[ElementKey, Features]:
-        """Return the elements that may get another name; by default elements match by name alone."""
+        """Return the elements that may be found again under another name; by default, elements match by name alone."""
         named = self.names(snapshot, Target("Package", "Model"))
         return {(kind.removesuffix("s"), name): Features({}, {}) for kind, names in named.items() for name in names}
 

@@ -2,17 +2,17 @@
 
 All elements are matched at once, by their contents, places and names:
 
-1. Declared matches hold. A content that is unique in both versions matches two elements, whatever their names are. A
-   content is one aspect of an element, such as its shapes, or all aspects. Aspects that disagree prove nothing, but an
-   aspect that stays with its name proves the name. If an element keeps its name and its unchanged neighbours, a
-   content that moved is a change of numbers.
+1. Declared matches hold. If a content is unique in both versions, its two elements match, whatever their names are. A
+   content is one aspect of an element, such as its shapes, or all aspects. If aspects disagree, they prove nothing; but
+   if one aspect stays with a name, the elements of this name match. If an element keeps its name and its unchanged
+   neighbours, a content that moved to it is only a change of numbers.
 2. Neighbours of the same element at the same place, with equal contents, are the same.
 3. Then names win: elements of one name are the same.
 4. The remaining elements have other names. Two of them at the same place match if no other element has their content,
    or if another element has the old name now.
 
-Numbers are equal if they differ by `NOISE` at most. A match of step 3 that the place or a part of the content
-contradicts is a `Doubt`. The time is linear in the number of elements.
+Numbers are equal if they differ by `NOISE` at most. If the place or a part of the content contradicts a match of step
+3, this is a `Doubt`. The time is linear in the number of elements.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ class Doubt(msgspec.Struct, frozen=True):
 
 
 class Matching(msgspec.Struct, frozen=True):
-    """The renamed elements, and those that have a name which may have been another element's."""
+    """The renamed elements, and the doubts about elements whose name may have been another element's."""
 
     renames: Mapping[ElementKey, str] = {}
     """New names by old elements, in order."""
@@ -123,7 +123,7 @@ class _Matcher:
         return sorted(self._old, key=lambda key: (kinds[key[0]], key[1]))
 
     def _take(self, matches: Iterable[tuple[ElementKey, ElementKey]]) -> dict[ElementKey, ElementKey]:
-        """Match those of these pairs whose elements have no match yet; return the new matches."""
+        """Match the pairs whose elements have no match yet; return the new matches."""
         taken = dict[ElementKey, ElementKey]()
         for old, new in matches:
             if old in self._old and new in self._new and old not in self._pairs and new not in self._taken:
@@ -331,7 +331,7 @@ class _Matcher:
         return doubts
 
     def _contradicts(self, key: ElementKey) -> bool:
-        """Whether an element has other neighbours than before: the only one of a relation, or all.
+        """Whether an element has other neighbours than before: the only neighbour of a relation differs, or all do.
 
         A neighbour that is gone counts if another element has its name now.
         """
@@ -356,9 +356,9 @@ Aspects: TypeAlias = tuple[tuple[str, Hashable], ...]
 def _comparable(
     old: Elements, new: Elements
 ) -> tuple[dict[ElementKey, Aspects], dict[ElementKey, Aspects], set[tuple[str, Hashable]]]:
-    """Return the aspects of all elements as keys that ignore noise, and the telling aspects.
+    """Return the aspects of all elements as keys that ignore noise, and the aspects that can identify an element.
 
-    Zeros and ones are not telling: many origins and axes have them.
+    Zeros and ones can't: many origins and axes have them.
     """
     contents = [features.contents for elements in (old, new) for features in elements.values()]
     numbers = _clusters({number for content in contents for number in _numbers(content)})

@@ -1,1 +1,1 @@
-"""Saved answers: a command that nothing has changed for says again what it said."""
+"""Saved answers: a command repeats its last output while none of its inputs has changed."""

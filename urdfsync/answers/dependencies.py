@@ -1,8 +1,8 @@
 """Lists all files and folders that are read, with facts about each, to find changes later.
 
-A saved answer holds while its list is unchanged. The daemon watches the list of each robot, and the hook requires it
-staged. Code that decides about work reads only through these functions. Other reads call `depend_on`, or
-`mark_incomplete`.
+A saved answer holds while the files in its list are unchanged. The daemon watches the list of each robot, and the hook
+requires that these files are staged. Code that decides about work reads only through these functions. Code that reads
+in other ways calls `depend_on` or `mark_incomplete`.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ class Dependencies:
         self.hashes: dict[Entry, str] = {}
         """Hash of the content of each file that was young when it was read; empty if unknown."""
         self.modules: dict[Entry, tuple[int, ...]] = {}
-        """The facts about files of the program itself, which are no inputs of a robot."""
+        """The facts about files of the program itself; these are no inputs of a robot."""
         self.complete = True
         """Whether the list is complete, and no path changed or failed during the reading."""
 

@@ -17,7 +17,7 @@ Stat = tuple[int, int, int, int, int, int]
 """Mode, inode, device, size in bytes, and the times of change of content and of status in ns. It is only compared."""
 
 YOUNG = 2_000_000_000
-"""For so many nanoseconds after a change, a file is read again, even with equal stat values."""
+"""Nanoseconds after a change in which a file is read again, even if its stat values are equal."""
 MAX_FILE = 100_000_000
 """The most bytes of a readable file. A larger one is no source, mesh or output, but may be an attack on the memory."""
 _ABSENT = (errno.ENOENT, errno.ENOTDIR, errno.ELOOP, errno.EBADF)

@@ -1,7 +1,7 @@
 """Standard streams whose faults do not stop a command.
 
-A reader may go away (`| head`), a disk may be full, a stream closed, an encoding may lack a character. The work goes
-on, and the command reports the fault at its end.
+A reader may go away (`| head`), a disk may be full, a stream may be closed, an encoding may lack a character. The work
+goes on, and the command reports the fault at its end.
 """
 
 from __future__ import annotations

@@ -162,7 +162,7 @@ def select_robot(args: argparse.Namespace, console: Console) -> tuple[Config, Ro
 def call(
     function: Callable[..., Value], kind: type[msgspec.Struct], args: argparse.Namespace, console: Console, **given: Any
 ) -> Value:
-    """Call a function of the API for the chosen robots; warn of settings without effect before.
+    """Warn of settings without effect, then call a function of the API for the chosen robots.
 
     The options of a `kind` are arguments of the same names, or `given`.
     """

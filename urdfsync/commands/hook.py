@@ -36,7 +36,7 @@ from urdfsync.spelling import counted
 _FEW = 4
 """The most files to add that are named one by one."""
 _COMMITTED = (f"robots{os.sep}", f"bases{os.sep}", ".git")
-"""Parts of the state to commit."""
+"""The parts of the recorded state that belong into a commit."""
 _UNNEEDED = ORPHANS | {Reason.FORGET, Reason.UNKNOWN}
 """Actions on files that other clones do not need."""
 
@@ -135,7 +135,7 @@ class RobotFiles:
         self.outputs = commit.paths(parents.files(robot))
         """Files that the commit needs if they exist."""
         self.known = commit.paths([config.file])
-        """These, files that a build read, and files that it looked for."""
+        """The files that the commit needs, the files that a build read, and those that it looked for."""
         self.note(planned)
         folders = [robot.folder, Path(self._state, "bases", robot.name), *filter(None, [robot.templates])]
         self.folders = tuple(f"{path}/" for folder in folders if (path := commit.path(folder)) is not None)
@@ -155,7 +155,7 @@ class RobotFiles:
         return not path.startswith(self._state) or path.removeprefix(self._state).startswith(_COMMITTED)
 
     def select(self, paths: Iterable[str]) -> set[str]:
-        """Return those of the paths that are the robot's."""
+        """Return the paths that belong to the robot."""
         return {path for path in paths if path in self.known or path.startswith(self.folders)}
 
     def find_unstaged(self) -> set[str]:
@@ -230,7 +230,7 @@ def _find_faults(commit: Commit, path: str, options: BuildOptions, writing: bool
     for robot, result in zip(to_build, results, strict=True):
         robot.note(result)
         unstaged = robot.find_unstaged()
-        if unstaged or exit_code([result]) is not Exit.IN_STEP:  # else the commit has none of the written files
+        if unstaged or exit_code([result]) is not Exit.IN_STEP:  # otherwise the commit lacks the written files
             yield robot.fault_of_build(result, robot.adding(unstaged))
 
 

@@ -91,7 +91,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
         merge_driver.install(file.parent, console)
     _refuse_existing(file)
     with write_errors(file):
-        write_schema(file.parent)  # first: with a configuration, `init` could not be run again
+        write_schema(file.parent)  # first: if it fails, there is no configuration yet, and `init` can be repeated
         put(file, configuration_text(domain, guesses, merges=args.merge).encode())
     if is_clone and not (is_asked or installs):
         message, hint = (

@@ -60,7 +60,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
 def prepare_page(
     args: argparse.Namespace, console: Console, file: Path, *, against: str | None = None, motion: Path | None = None
 ) -> Callable[..., PageDocument]:
-    """Return a function that writes the page of one robot, with the same results as arguments as `page`.
+    """Return a function that writes the page of one robot; like `page`, it takes a simulation and a check.
 
     `against` is the older version; `motion` is an input file that the page must not replace. Raises an error for an
     unwritable file, before the work for the page begins.

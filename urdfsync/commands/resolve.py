@@ -73,7 +73,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     if not targets and not any(result.failed for result in planned):
         console.warnings([Diagnostic(Severity.NOTE, "no-conflict", "nothing is in conflict")])
     robots = [robot for robot in configuration.robots if robot.name in concerned]
-    # a choice holds for the texts of this plan: a file that is saved from now on is not touched
+    # a choice holds for the texts of this plan: if a file is saved from now on, its choice is not applied
     choices = {action.path: UsersChoice(choice, action.sides, args.moved) for _, action in targets.values()}
     edited, folder = dict[str, str](), None
     if choice is Choice.EDIT:
@@ -153,7 +153,7 @@ def _refuse(console: Console, planned: Sequence[Result], unknown: Sequence[str])
 def _compare(
     targets: Mapping[str, tuple[Result, Action]], results: Sequence[Result], choice: Choice
 ) -> tuple[set[str], list[Diagnostic]]:
-    """Return the paths at which the choice was applied, and the reasons why it was not at others.
+    """Return the paths at which the choice was applied, and the reasons why it was not applied at others.
 
     A conflict that the choice does not settle is shown with its reason.
     """

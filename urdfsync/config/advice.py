@@ -1,4 +1,4 @@
-"""What a domain advises on its options."""
+"""A domain's advice on its options."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ class Proposal(msgspec.Struct, frozen=True):
 
 
 class Advice(Protocol):
-    """What a domain advises on its options; its attribute `advice`."""
+    """Advises on a domain's options; the domain's attribute `advice`."""
 
     def propose(self, snapshot: Snapshot, diagnostics: Sequence[Diagnostic]) -> Sequence[Proposal]:
         """Return option values that suit a model better than the defaults, for `init`.

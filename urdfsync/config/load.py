@@ -103,7 +103,7 @@ def in_words(kind: Any) -> str:
         return in_words(arguments[0])
     if origin is Literal:
         return " or ".join(map(json.dumps, arguments))
-    if origin in (Union, UnionType):  # `Literal[…] | tuple[…]` is the former, `tuple[…] | None` the latter
+    if origin in (Union, UnionType):  # `Literal[…] | tuple[…]` is a Union, `tuple[…] | None` a UnionType
         return " or ".join(in_words(part) for part in arguments if part is not NoneType)
     if origin is Mapping:
         kinds = {str: "strings", float: "numbers"}
@@ -196,7 +196,7 @@ class _Reader:
         return keys, table.lines
 
     def find_clashes(self, robots: Sequence[RobotConfig]) -> None:
-        """Report robots that share a name or a package's folder, or with one package inside of the other."""
+        """Report two robots with the same name or package folder, or with one package inside of the other."""
         names: dict[str, str] = {}
         folders = {_folded(robot.folder): robot.name for robot in reversed(robots)}
         for robot in robots:

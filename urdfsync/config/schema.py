@@ -57,7 +57,7 @@ def config_schema() -> dict[str, Any]:
             "robots": {
                 "type": "object",
                 "propertyNames": {"pattern": ROBOT_PATTERN},
-                # with one table editors show the faulty key; with several, only that none fits
+                # with one schema of a table, editors show the faulty key; with several, they show only that none fits
                 "additionalProperties": tables[0] if len(tables) == 1 else {"anyOf": tables},
             },
         },

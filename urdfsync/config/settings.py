@@ -42,7 +42,7 @@ class SharedKeys(msgspec.Struct, frozen=True, kw_only=True):
     """Files and folders that hold models of the user's, beside the configuration's folder and `output`."""
     create_parents: bool = False
     on_conflict: Literal["keep", "merge"] = "keep"
-    """Merge a file that both sides changed, if the changes fit together."""
+    """What to do with a file that both sides changed: keep it, or merge changes that fit together."""
     on_build: Literal["nothing", "check"] = "nothing"
     """Check the package after each build."""
     ignore: frozenset[str] = frozenset()
@@ -85,7 +85,7 @@ class RobotConfig(SharedKeys, frozen=True, kw_only=True):
     options: Any
     """An instance of `Domain.options`."""
     arguments: Mapping[str, str] | None = None
-    """Arguments of xacro; None if only the name or content of the source decides about xacro."""
+    """Arguments of xacro; None without the key: then the source's name or content shows whether it is xacro."""
     lines: Mapping[str, int] = {}
     """Line of every key in the configuration; the table's own line for `""`, the line of a table's entry for
     `KEY.NAME`.

@@ -85,7 +85,7 @@ def find_lines(text: str) -> tuple[dict[tuple[str, ...], int], dict[tuple[str, .
 
 
 def _paths(text: str) -> Iterator[tuple[bool, tuple[str, ...]]]:
-    """Yield for each line whether it opens a table, and the full path of its key or table, else of the table around."""
+    """Yield for each line whether it opens a table, and the full path of its key, its table or the table around."""
     header: tuple[str, ...] = ()
     for line in text.split("\n"):
         keys: tuple[str, ...] = ()

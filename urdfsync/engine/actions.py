@@ -26,15 +26,15 @@ class Choice(enum.StrEnum):
     MERGE_GENERATED = "merge-generated"
     """Both sides' changes; where they contradict each other, the generated ones."""
     EDIT = "edit"
-    """The user's text from both sides, made in an editor."""
+    """A text that the user made of both sides in an editor."""
     MOVED = "moved"
-    """The edit belongs to the element of another name."""
+    """The edit belongs to another element, which the user names."""
     UNDO = "undo"
-    """The text and the base before the last choice, or before a build."""
+    """The text and the base that the file had before the last choice, or before a build."""
 
 
 class UsersChoice(msgspec.Struct, frozen=True):
-    """The user's decision about one file. It holds for the two texts that he saw; a file that was saved since stays."""
+    """The user's decision about one file. It holds for the two texts that he saw; a file that he saved since stays."""
 
     choice: Choice
     sides: str
@@ -49,7 +49,7 @@ def sides_hash(mine: str | None, generated: str | None) -> str:
 
 
 class Kind(enum.StrEnum):
-    """An effect on a file. Properties of an action tell its consequences."""
+    """An effect on a file. The properties of `Action` give its consequences."""
 
     WRITE = "write"
     DELETE = "delete"
@@ -77,10 +77,10 @@ class FileStatus(enum.StrEnum):
 
 
 class Reason(enum.StrEnum):
-    """The reason of an action. Its effect and all words about it follow."""
+    """The reason of an action. The reason decides the effect on the file, and all words about it."""
 
     # Word, kind, status (None without a file), and the end of a sentence that begins with the path.
-    # Then the words for n such files in a dry run and, if they differ, after a build. Lists are in this order.
+    # Then the words for n such files in a dry run and, if they differ, after a build. Output keeps this order.
     # fmt: off
     UPDATE = ("update", Kind.WRITE, FileStatus.STALE, "its generated text changed",
               "{n} file{s} to write", "{n} file{s} written")
@@ -156,13 +156,13 @@ class Action(msgspec.Struct, frozen=True):
     mine: str | None = None
     """Hash of the file on disk; None if there is none."""
     is_waiting: bool = False
-    """Whether it waits for the robot's other conflicts."""
+    """Whether it waits until the robot's conflicts are resolved."""
     is_left_by_git: bool = False
-    """Whether git left another text in the file, such as one with markers; `mine` is its meaning (see `united`)."""
+    """Whether git left another text in the file, such as one with markers; `mine` has its meaning (see `united`)."""
 
     @property
     def kind(self) -> Kind:
-        """The effect on the file, after the wait."""
+        """The effect on the file now: a waiting action leaves it."""
         return Kind.WRITE if self.is_left_by_git and self.reason.kind is Kind.LEAVE else self.reason.kind
 
     @property
@@ -190,7 +190,7 @@ class Action(msgspec.Struct, frozen=True):
 
     @property
     def is_deletion(self) -> bool:
-        """Whether the file is deleted, after the wait."""
+        """Whether the file is deleted now: a waiting action leaves it."""
         return self.kind is Kind.DELETE
 
     @property
@@ -231,5 +231,5 @@ class Actions(tuple[Action, ...]):
 
     @property
     def decided(self) -> tuple[Action, ...]:
-        """All actions except those on unchanged files: in most builds a few of thousands."""
+        """All actions except those on unchanged files: a few of thousands in most builds."""
         return tuple(action for action in self if action.reason not in (Reason.UNCHANGED, Reason.UNKNOWN))

@@ -1,7 +1,7 @@
 """Saves the texts that builds and choices replace: each is a plain file below `.urdfsync/aside/`, for `--undo`.
 
-Saved are a person's texts, and all others that this machine did not generate, even if they are recorded. The list for
-`--undo` drops a text once its file is saved again and another build writes. The text itself stays.
+It saves each text that this machine did not generate, even if the text is recorded. The list for `--undo` drops a text
+once its file is saved again and another build writes files. The saved file itself stays.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ def put_aside(
 
 
 def _is_as_written(files: PackageFiles, key: str, aside: Aside) -> bool:
-    """Return whether a file is unchanged since its text was put aside."""
+    """Return whether a file is unchanged since the build that put its former text aside."""
     try:
         state = files.state_on_disk(key)
     except OutputError:  # the user replaced it by a link or a folder
@@ -79,7 +79,7 @@ def _follow(generation: Generation, former: Former, key: str, names: Mapping[str
 
 
 def _deleted(generation: Generation, decision: Decision) -> Iterator[tuple[str, str]]:
-    """Yield the path and text of each model that a choice deletes, since nothing needs it any more."""
+    """Yield the path and text of each model that a choice deletes because nothing needs it any more."""
     files, folder = generation.inputs.files, generation.inputs.folder
     for action in decision.actions:
         is_model = action.path.startswith(folder.key("")) and action.path.endswith(".mo")
@@ -96,7 +96,7 @@ def _replaced(
     for action in decision.actions:
         key, is_moving = action.path, action.reason is Reason.MOVE
         if not action.writes or key not in contents or action.role is Role.ORDER or (key in origins and not is_moving):
-            continue  # the text moves to another file
+            continue  # the user's text moves to another file
         text = files.read(action.origin or key) if is_moving else files.read_on_disk(key)
         if text is None or state_of(text).text_sha256 in last.notes.written:
             continue
@@ -113,7 +113,7 @@ def _bases_given_back(generation: Generation, action: Action, text: bytes) -> tu
     record = inputs.last.files.get(
         action.path if action.reason is not Reason.MOVE else action.origin or "", FileRecord()
     )
-    # else the next build would merge it again, or take it for its own text
+    # with the old base, the next build would merge the text again, or take it for a generated one
     is_merge = (action.reason is Reason.MERGE or action.is_left_by_git) and inputs.always_merges
     is_own_base = state_of(text).text_sha256 in record.hashes
     if action.generated and action.role is not Role.IMPORT and (is_merge or is_own_base):

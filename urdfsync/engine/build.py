@@ -46,7 +46,7 @@ WAITING = "waiting for"
 _LEAST_ROBOTS = 6
 """With fewer robots, importing urdfsync in each worker takes longer than it saves."""
 _ATTEMPTS = 5
-"""The most plans of one robot, if other builds or saves overtake each."""
+"""How often one robot is planned at most, if another build or a save overtakes each plan."""
 
 
 def build(config: Config, robots: Sequence[RobotConfig], options: BuildOptions) -> Iterator[Result]:
@@ -126,7 +126,7 @@ class _Builder:
             shared = [change for file in plan.shared if (change := file.change(files)) is not None]
             applied = self._transactions.apply(robot.name, [*shared, *plan.writes], plan.emptied)
             self.notes += applied.diagnostics
-            if not applied.not_done:  # else a file was saved meanwhile
+            if not applied.not_done:  # a file that somebody saved meanwhile is not done
                 self._reads.renew({str(change.path): change.content for change in (*shared, *plan.writes)})
                 self._note(robot, plan)
                 return plan.result
@@ -140,7 +140,7 @@ class _Builder:
             notes.save(self._state_folder, robot.name, plan.notes)
 
     def _is_current(self, plan: Plan) -> bool:
-        """Return whether no other build wrote, or began to, since the plan was made."""
+        """Return whether no other build has written, or begun to write, since the plan was made."""
         return not self._transactions.is_pending() and Store(self._config.root).is_unchanged(plan.state)
 
     def _recover(self) -> None:

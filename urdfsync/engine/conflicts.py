@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 PREFERENCES = frozenset({Choice.MERGE_MINE, Choice.MERGE_GENERATED})
-"""Choices that take both sides' changes, and one side's where they contradict each other."""
+"""Choices that take both sides' changes; where these contradict each other, they take one side's."""
 
 
 class Conflict(msgspec.Struct, frozen=True):
@@ -28,7 +28,7 @@ class Conflict(msgspec.Struct, frozen=True):
     mine: str
     generated: str
     merge: Merge | None
-    """None without a base. Its `text` is None if both sides changed the same, or if the merge was rejected."""
+    """None without a base. Its `text` is None if the changes contradict each other, or if the merge was rejected."""
     origin: str | None = None
     """Path of the user's file, if its element was renamed; None if it is at `path`."""
     files: Mapping[str, str] = {}
@@ -40,7 +40,7 @@ class Conflict(msgspec.Struct, frozen=True):
     moved_to: str = ""
     """The likely new name of the element that was edited, if the file may belong to another element now."""
     refused: Mapping[Choice, str] = {}
-    """Preferences that would bring in an unknown name, each with the reason as a clause."""
+    """The choices of one side that would bring an unknown name into the file, each with the reason as a clause."""
 
     def merged(self, choice: Choice | None) -> str | None:
         """Return the merged text that a choice asks for; None if there is none."""
@@ -62,7 +62,7 @@ def find_conflict(
 
     is_modelica = action.path.endswith(".mo")
     merges = [merge(base, mine, generated, is_modelica=is_modelica, names=names) for base in bases]
-    if len(bases) > 1 and any(one.text != mine for one in merges):  # else the text has all changes since each base
+    if len(bases) > 1 and any(one.text != mine for one in merges):  # if all equal mine, it has all changes already
         edited = over_bases(bases, mine, is_modelica=is_modelica) or [(base, mine) for base in bases]
         merges = [merge(base, text, generated, is_modelica=is_modelica, names=names) for base, text in edited]
     first = merges[0] if merges else None
@@ -77,8 +77,8 @@ def find_conflict(
 def over_bases(bases: Sequence[str], mine: str, *, is_modelica: bool) -> list[tuple[str, str]]:
     """Carry the edits of a file over to its last and its first base; return each base with its edited text.
 
-    Git may have united the bases of several branches, so a difference between two bases is no edit. A base that the
-    edits contradict is left out.
+    Git may have united the bases of several branches, so a difference between two bases is no edit. The result leaves
+    out a base that the edits contradict.
     """
     from urdfsync.merge import merge
 

@@ -85,7 +85,7 @@ def decide_package(generation: Generation) -> Decision:
     _refuse_markers(files, actions, (key for key, text in orders.items() if find_markers(text)))
     has_conflicts = any(action.is_conflict for action in actions)
     numbers: Collection[str] = ()
-    if has_conflicts and not generation.has_exchanges:  # else edits would move once more with each build
+    if has_conflicts and not generation.has_exchanges:  # with exchanges, each build would move edits again
         numbers = _renumbered(generation, actions, merged, conflicts)
     origins = set(generation.moves.values())
     known = {action.path for action in (*actions, *order_actions)}
@@ -106,7 +106,7 @@ def _find_unknown(inputs: Inputs, known: Collection[str]) -> Iterator[str]:
 
 
 def _find_files(generation: Generation) -> dict[str, File]:
-    """Return every file that is recorded or generated, as it is on disk, by key."""
+    """Return every recorded or generated file as it is before the build, by key."""
     inputs, last = generation.inputs, generation.inputs.last
     files = dict[str, File]()
 
@@ -156,7 +156,7 @@ def _adjust(generation: Generation, action: Action, doubts: Mapping[str, Doubt])
 
 
 def _with_other_names(generation: Generation, actions: Iterable[Action]) -> Iterator[Action]:
-    """Yield the actions. An edit that uses a name of another part now is merged, even if nothing else is new."""
+    """Yield the actions. An edit with a name that is another part's now is merged, even if nothing else is new."""
     inputs, names = generation.inputs, None
     for action in actions:
         is_settled = inputs.files.is_chosen(action.path) or action.mine in inputs.last.record.confirmed
@@ -175,14 +175,14 @@ def _with_other_names(generation: Generation, actions: Iterable[Action]) -> Iter
 def _conflict(
     generation: Generation, action: Action, names: Mapping[str, str], doubts: Mapping[str, Doubt]
 ) -> Conflict:
-    """Return the texts of a file that both sides changed; if its class is a folder now, mine is its `package.mo`."""
+    """Return the texts of a file that both sides changed; if its class is a folder now, *mine* is its `package.mo`."""
     key, files, last = action.origin or action.path, generation.inputs.files, generation.inputs.last
     path = generation.inputs.folder.path(action.path)
     mine, generated = files.text(key), generation.package.content(path).decode()
     record = last.files.get(key)
     hashes = record.hashes if record and action.base in record.hashes else (action.base,)
     known = [generated if sha256 == action.generated else last.base(sha256) for sha256 in hashes]
-    # a file may have several bases: if the text of one is lost, its changes are unknown, and no merge is possible
+    # a file may have several bases: if the text of one is lost, the changes since it are unknown, and so is the merge
     bases = [text for text in known if text is not None] if None not in known else []
     doubt, base = doubts.get(action.path), bases[0] if bases else None
     if mine is None:
@@ -202,7 +202,7 @@ def _conflict(
         names = names_of(generation, last.notes.renamed, frozenset(words_in(bases[0])))
         before = last.package if last.record.generator == generation.inputs.generator else None
         if before is None or path not in before.artifacts or before.hash(path) == action.base:
-            now = known_names(generation)  # exchanged names are those of the base already
+            now = known_names(generation)  # a base with exchanged names has the new names already
             names = {name: new for name, new in names.items() if name not in now}
     return find_conflict(action, bases, mine, generated, names)
 
@@ -210,7 +210,7 @@ def _conflict(
 def _without_misfits(
     generation: Generation, actions: Sequence[Action], conflicts: Mapping[str, Conflict]
 ) -> dict[str, Conflict]:
-    """Return the conflicts without the merges that would use unknown names.
+    """Return the conflicts; leave out merges that would use unknown names.
 
     Merges are tried first. Contradictions are then tried with each side preferred.
     """
@@ -262,7 +262,7 @@ def _misfits_of(
 
 
 def _find_misfits(generation: Generation, actions: Sequence[Action], texts: Mapping[str, str]) -> Sequence[Misfit]:
-    """Find misfits in the user's files, as they will be once all actions but waiting ones are done."""
+    """Find misfits in the user's files, as they will be after all actions that do not wait."""
     if generation.inputs.has_moved and any(action.is_waiting for action in actions):
         return ()  # the package stays where it was
     package = PackageAfter(generation, actions, texts)
@@ -300,7 +300,7 @@ def _refuse_markers(files: PackageFiles, actions: Iterable[Action], orders: Iter
     """Refuse files in which version control left its merge markers. Raises OutputError."""
     errors = []
     edited = [a for a in actions if a.mine not in (None, a.base, a.generated) and a.role is not Role.IMPORT]
-    # contradictions of branches are conflicts, and texts of `--undo` are the user's own choice: no error for either
+    # no error for contradictions of branches, which are conflicts, nor for `--undo`: the user chose that text
     told = {action.origin or action.path for action in edited if action.is_conflict} & files.left_by_git.keys()
     told |= files.overlay.keys()
     for key in dict.fromkeys((*(action.origin or action.path for action in edited), *orders)):
@@ -338,8 +338,8 @@ def _removable_lines(
 ) -> list[str]:
     """Return the lines of a `package.order` to remove: deleted classes, and recorded lines without a class.
 
-    A recorded line may name a class of the user's, so the class is looked for. If git has united two states, the file
-    may come from one branch and name classes that the other branch renamed: then each line is looked for.
+    A recorded line may name a class of the user's, so the class is looked for on disk. If git has united two states,
+    the file may name classes that the other branch renamed: then the class of each line is looked for.
     """
     inputs, folder = generation.inputs, order.removesuffix("package.order")
     paths = (action.path.removesuffix("/package.mo").removesuffix(".mo") for action in actions if action.is_deletion)
@@ -358,7 +358,7 @@ def _dangling_lines(files: PackageFiles, order: str, names: Iterable[str]) -> li
 
 
 def _classes_beside(order: str, keys: Iterable[str]) -> list[str]:
-    """Return the classes of those files that stand beside a `package.order`."""
+    """Return the classes of these files, if the file stands beside a `package.order`."""
     folder = order.removesuffix("package.order")
     paths = (key.removeprefix(folder).removesuffix("/package.mo") for key in keys if key.startswith(folder))
     return sorted(filter(is_identifier, (path.removesuffix(".mo") for path in paths)))

@@ -1,8 +1,8 @@
-"""Edited files that may be other elements' now: by the record, and by the commits that git made the files of.
+"""Finds edited files that may belong to other elements now: by the record, and by the commits that git merged.
 
-One branch exchanges names, another one edits: git leaves the edit with the name, and both texts look as they should. So
-what a text has beyond the generated one is looked for in the commits that git may have brought it from, and their
-recorded models tell what the names meant there.
+One branch exchanges two names, another branch edits one of the files. Git leaves the edit in the file of its old name,
+and both texts look right. So edits are looked for in the commits that they may come from. The recorded models of these
+commits tell what the names meant there.
 """
 
 from __future__ import annotations
@@ -37,9 +37,9 @@ if TYPE_CHECKING:
     from urdfsync.git.revisions import Revision
 
 _MOST = 50
-"""So many branches are looked at, and so many commits that were checked out."""
+"""The most branches, and the most commits that were checked out, to look at."""
 _BACK = 10
-"""So many commits are looked at, back from the last one."""
+"""The most commits to look at, back from the last one."""
 EDITED = (Reason.KEEP, Reason.CONFLICT)
 """Reasons of files that the user edited and that stay where they are."""
 
@@ -51,7 +51,7 @@ def find_doubts(generation: Generation, actions: Iterable[Action]) -> dict[str, 
     edited = [one for one in edited if not inputs.files.is_chosen(one.path)]
     record = inputs.last.record
     unconfirmed = [one for one in edited if one.mine not in record.confirmed]
-    # what the user said of an export holds until the next one
+    # an answer of the user about an export holds until the next export
     is_told = inputs.last.seen == generation.now.snapshot
     doubts = dict[str, Doubt | None]()
     for action in unconfirmed if is_told else edited:
@@ -68,7 +68,7 @@ def find_doubts(generation: Generation, actions: Iterable[Action]) -> dict[str, 
 
 
 def _doubt(generation: Generation, action: Action) -> Doubt | None:
-    """Return why an edit that stays in its file may belong to another element than the file, by the last build."""
+    """Return why an edit may belong to another element than its file does, as far as the last build tells."""
     found, last = generation.matching.doubts, generation.inputs.last
     if not (element := _element(action)):
         lines = _edit_of(generation, action).added if found else ()
@@ -80,9 +80,9 @@ def _doubt(generation: Generation, action: Action) -> Doubt | None:
     # if only numbers changed, no element is new, and most builds need no features
     is_new_element = last.version is not None and generation.is_structural and element not in generation.elements_before
     is_orphan = is_new_element and action.path in last.files
-    is_new = last.record.open is not None and action.path not in last.record.open.asked  # of a build since
+    is_new = last.record.open is not None and action.path not in last.record.open.asked  # a later build wrote it
     if is_orphan and not (is_new or last.record.is_united or generation.respelled):
-        return Doubt(" ".join(element), is_certain=True)  # the element that it was made for is gone
+        return Doubt(" ".join(element), is_certain=True)  # the user edited it for an element that is gone
     return None
 
 
@@ -100,7 +100,7 @@ def _commits(generation: Generation) -> Iterator[Revision]:
     root = generation.inputs.config.root
     try:
         repository = open_repository(root)
-    except SourceError:  # one that git itself may not read
+    except SourceError:  # git itself may not read this repository
         return
     if repository is None or repository.is_empty or repository.head_is_unborn:
         return
@@ -117,7 +117,7 @@ def _commits(generation: Generation) -> Iterator[Revision]:
 
 
 def _checked_out(repository: pygit2.Repository) -> Iterator[str]:
-    """Yield the commits that were checked out last: a branch may be gone that was squashed."""
+    """Yield the commits that were checked out last: after a squash, the branch itself may be gone."""
     for entry in itertools.islice(repository.lookup_reference("HEAD").log(), _MOST):
         yield str(entry.oid_new)
 
@@ -129,13 +129,13 @@ class _Edit(NamedTuple):
     removed: Counter[str]
 
     def shared(self, text: str) -> Counter[str]:
-        """Return the lines of the edit that another text has, too; of one that only removes, those that it lacks."""
+        """Return the added lines that another text has, too; if the edit only removes, the lines that it lacks, too."""
         lines = _lines(text)
         return self.added & lines if self.added else self.removed - lines
 
 
 def _edit_of(generation: Generation, action: Action) -> _Edit:
-    """Return what the user did to a generated text; what is as in one of its bases is no edit."""
+    """Return the user's edit of a generated text; a line that one of its bases has is no edit."""
     inputs, last = generation.inputs, generation.inputs.last
     mine = _lines(inputs.files.text(action.path) or "")
     generated = _lines(generation.package.content(inputs.folder.path(action.path)).decode())
@@ -148,7 +148,7 @@ def _lines(text: str) -> Counter[str]:
 
 
 def _look(generation: Generation, commit: Revision, edits: Mapping[Action, _Edit]) -> dict[str, Doubt]:
-    """Return the edits that a commit has in the same file, of elements that have other names since its model."""
+    """Return a doubt for each edit that a commit has in the same file, if its element was renamed since the commit."""
     inputs = generation.inputs
     state = inputs.store.path(inputs.last.name)
     try:
@@ -182,7 +182,7 @@ def _look(generation: Generation, commit: Revision, edits: Mapping[Action, _Edit
             doubt = moved.get(element)
             if doubt and not _has_followed(generation, action, doubt.moved_to, edits[action], lines):
                 doubts[action.path] = doubt
-        # a name that is gone is told as such
+        # `now`: other findings report names that are gone
         elif doubt := _named(generation, lines, {key: moved[key] for key in moved if key in now}, snapshot):
             doubts[action.path] = doubt
     return doubts
@@ -197,7 +197,7 @@ def _element(action: Action) -> ElementKey | None:
 def _named(
     generation: Generation, lines: Iterable[str], doubts: Mapping[ElementKey, Doubt], snapshot: Snapshot
 ) -> Doubt | None:
-    """Return the doubt about the first element that lines of a common file name, by the names of a model."""
+    """Return the doubt about the first doubtful element that these lines of a common file name; None without one."""
     if not doubts:
         return None
     elements = elements_by_identifier(generation.inputs.domain, snapshot, generation.inputs.last.target)
@@ -208,7 +208,7 @@ def _named(
 
 
 def _has_followed(generation: Generation, action: Action, name: str, edit: _Edit, lines: Counter[str]) -> bool:
-    """Return whether the file of the element's new name has the edit, too, so that this one is another edit."""
+    """Return whether the file of the element's new name has the edit as well: then this edit is another one."""
     inputs, owner = generation.inputs, f"{action.owner.partition(' ')[0]} {name}"
     if (path := generation.package.find_like(inputs.folder.path(action.path), owner)) is None:
         return False

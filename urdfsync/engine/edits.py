@@ -63,7 +63,7 @@ def find_edited(generation: Generation, actions: Iterable[Action] | None = None)
         is_text = action.role not in (Role.IMPORT, Role.ORDER) and action.reason is not Reason.MOVED_AWAY
         if is_text and action.mine not in (None, action.base, action.generated):
             base = generation.inputs.last.base(action.base) if action.base else None
-            if action.base == action.generated:  # it need not be stored yet, as before a package is adopted
+            if action.base == action.generated:  # before a package is adopted, the base is not stored yet
                 base = generation.package.content(generation.inputs.folder.path(action.path)).decode()
             yield EditedFile(key, action.owner, base, files.any_text(key))
 

@@ -1,6 +1,6 @@
-"""Sources that are made before they are read: by xacro, or by a command of the user's.
+"""Makes sources before they are read: by xacro, or by a command of the user's.
 
-The inputs of a source are recorded with hashes (see `state.expansion`). It is made again only if one has changed.
+The inputs of a source are recorded with hashes (see `state.expansion`). The source is made again if one has changed.
 """
 
 from __future__ import annotations
@@ -25,18 +25,18 @@ from urdfsync.processes import exit_cause, importable, python_module
 from urdfsync.state.expansion import Expansion
 
 CPU_SECONDS = 20.0
-"""For one expansion, on Linux and macOS. The largest robots take 2 s."""
+"""CPU time for one expansion, on Linux and macOS. The largest robots take 2 s."""
 MEMORY = 1_000_000_000
 """Bytes that the process of an expansion may allocate, on Linux."""
 WALL_SECONDS = 120.0
-"""For one expansion, everywhere: a busy machine may need so long for its CPU time."""
+"""Time for one expansion, on every system: on a busy machine, `CPU_SECONDS` may take so long."""
 COMMAND_SECONDS = 600.0
-"""For a command, which may ask a server."""
+"""Time for a command, which may ask a server."""
 _PACKAGE = "package://"
 _HINTS = {
     "no-xacro": install_command("xacro"),
     "no-argument": "set it in `arguments`, or give it a default in the file, above its first use",
-    "no-package": "name the folder that it is in in `package_paths`, ROS_PACKAGE_PATH or AMENT_PREFIX_PATH",
+    "no-package": "add the folder around it to `package_paths`, ROS_PACKAGE_PATH or AMENT_PREFIX_PATH",
     "xacro": "correct it, then build again",
     "xacro-limits": "look for a macro or an expression that never ends",
 }
@@ -70,7 +70,7 @@ class Inputs:
     def look(self, robot: RobotConfig, names: Expansion) -> Expansion:
         """Return the present inputs of a source, by the names in an expansion, without the text.
 
-        Files of packages that are missing on this machine count as unchanged. A command names its files itself.
+        If a package is missing on this machine, its files count as unchanged. A command names its files itself.
         """
         files, patterns = dict(names.files), dict(names.patterns)
         if robot.command:
@@ -111,7 +111,7 @@ class Inputs:
             files = [shown(self.path(name) or Path(name)) for name in made.files]
             entries = (map(int, re.split("[=:]", entry)) for entry in made.places.split())
             return [(line, files[number], origin) for line, number, origin in entries]
-        except (IndexError, ValueError):  # not an answer of ours
+        except (IndexError, ValueError):  # urdfsync did not write this
             return []
 
 
@@ -185,7 +185,7 @@ def _ask(request: Request) -> Answer:
             capture_output=True,
             timeout=WALL_SECONDS,
             env={**os.environ, **importable(), "PYTHONHASHSEED": "0"},  # so that the text is the same each time
-            start_new_session=True,  # an interruption from the keyboard is for whoever waits, who ends the process
+            start_new_session=True,  # Ctrl-C must reach only this process, which then ends the other
             check=False,
         )
         return msgspec.json.decode(done.stdout, type=Answer)

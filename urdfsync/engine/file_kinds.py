@@ -8,7 +8,7 @@ from typing import NamedTuple
 from urdfsync.modelica.markers import find_markers
 
 _BEGINNING = 20_000
-"""So many bytes show the kind of a file with a robot inside."""
+"""The kind of a file with a robot inside shows in so many first bytes."""
 _TAR = slice(257, 262)
 _PACKED = (
     (b"\x1f\x8b", "packed by gzip", "gunzip < FILE > ROBOT.urdf"),
@@ -30,7 +30,7 @@ _OTHERS = (
 )
 """Codes, how the files begin, messages."""
 HINTS = {
-    "compressed": "unpack it, and name what is in it",
+    "compressed": "unpack it, and name the file in it",
     "lfs-pointer": "run `git lfs pull`",
     "robot-description": "save the text of `robot_description` as a file, and name that",
     "merge-conflict": "resolve the merge, then build again",
@@ -53,7 +53,7 @@ def find_kind(content: bytes) -> FileKind | None:
     if content[_TAR] == b"ustar" and b"\0" in content[: _TAR.start]:
         packed = b"", "a tar archive", "tar xf FILE"
     if packed:
-        return FileKind("compressed", f"the file is {packed[1]}", f"unpack it (`{packed[2]}`), and name what is in it")
+        return FileKind("compressed", f"the file is {packed[1]}", f"unpack it (`{packed[2]}`), and name the file in it")
     for code, pattern, message in _OTHERS:
         if match := re.match(pattern, content[:_BEGINNING]):
             return FileKind(code, message, HINTS[code], content.count(b"\n", 0, match.end()) + 1)

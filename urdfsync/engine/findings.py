@@ -28,11 +28,11 @@ if TYPE_CHECKING:
 CONNECTORS = "connector-changed"
 """Code of the notes on changed connectors."""
 _FEW = 3
-"""The most files that are named; of more, only the number."""
+"""The most files that are named; further files are only counted."""
 _LINES = 20
-"""The most lines that are named for one fault; of more, only the number."""
+"""The most lines that are named for one fault; further lines are only counted."""
 _NEW = 6
-"""The most new connectors that are named; of more, only the number."""
+"""The most new connectors that are named; further ones are only counted."""
 
 
 def find_all(generation: Generation, decision: Decision) -> tuple[Diagnostic, ...]:
@@ -110,7 +110,7 @@ def _left_behind(inputs: Inputs, actions: Actions) -> Iterator[Diagnostic]:
     if not inputs.has_moved or any(action.is_waiting for action in actions):
         return
     gone = {files.path(action.path) for action in actions if action.is_deletion}
-    # a record may be a stranger's: never look into another folder, or propose a command that deletes it
+    # a stranger may have written the record: never look into another folder, or propose to delete it
     is_inside = files.is_inside(f"{inputs.last.folder}/package.mo")
     below = sorted(path for path in old.rglob("*") if not path.is_dir()) if is_inside else [old]
     rest = [shown(path) for path in below if path not in gone and new not in path.parents]
@@ -127,7 +127,7 @@ def _left_behind(inputs: Inputs, actions: Actions) -> Iterator[Diagnostic]:
 
 
 def _first(names: Sequence[str], most: int) -> str:
-    """Return the names in a row; of more than `most` the first ones, and the number of the others."""
+    """Return the names in a row: at most the first `most`, then the number of the others."""
     more = [f"{len(names) - most} more"] if len(names) > most else []
     return ", ".join([*names[:most], *more])
 

@@ -1,9 +1,9 @@
 """Finds unresolved names in the user's texts, as the package will be after the build.
 
 These texts are edited files of the package, the user's own classes in it, and the user's models outside. Findings
-depend only on the project: the package, UrdfSync, and the user's files. Names that an unread library may have are no
-faults. Generated texts fit each other. So only statements that differ from the generated ones are read, and statements
-that mention a name which an edit adds, changes or removes.
+depend only on the project: the package, UrdfSync, and the user's files. A name that an unread library may have is no
+fault. Generated texts fit each other. So it reads two kinds of statements: those that differ from the generated ones,
+and those that mention a name which an edit adds, changes or removes.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ from urdfsync.modelica.unresolved import Unresolved, UnresolvedKind, unresolved
 
 _LEGAL = (UnresolvedKind.NESTED_REDECLARE, UnresolvedKind.DOTTED_MODIFIER)
 _KINDS = {"model": ("model", "block", "class"), "record": ("record", "operator record")}
-"""The kinds of class that can take the place of one of this kind."""
+"""For each kind of class, the kinds that can take its place."""
 _TOO_LONG = Diagnostic(
     Severity.WARNING,
     "too-long",
@@ -61,11 +61,11 @@ class Misfit(msgspec.Struct, frozen=True):
 
     file: Path
     finding: Diagnostic
-    """Without the file, and without a hint for an unresolved name."""
+    """It lacks the file; for an unresolved name it also lacks the hint."""
     key: str = ""
-    """Of a file in the package."""
+    """The key of a file in the package; empty for other files."""
     is_broken: bool = False
-    """Whether it breaks the package: then the file is a generated one."""
+    """Whether it breaks the package, in an edited generated file."""
     use: Unresolved | None = None
     """The unresolved name."""
     lacking: str = ""
@@ -75,7 +75,7 @@ class Misfit(msgspec.Struct, frozen=True):
     def fault(self) -> str:
         """The unresolved name, or the code of another finding: it identifies the fault.
 
-        It leaves out the class that lacks the name, since that may be renamed with its element.
+        It does not name the class that lacks the name: that class may be renamed with its element.
         """
         return self.use.part if self.use else self.finding.code
 
@@ -118,7 +118,7 @@ class Package(PackageAfter):
         return self._inputs.users_files.tops.get(name)
 
     def _reading(self, content: bytes) -> Reading:
-        """Parse a file; of a generated one only the statements that matter to other files."""
+        """Parse a file; in a generated file, read only the statements that matter to other files."""
         if content not in self._readings:
             text = text_of(content)
             passed = plain_statements(text) if content in self._generated else frozenset[str]()
@@ -128,9 +128,9 @@ class Package(PackageAfter):
     # --- findings -------------------------------------------------------------------------------------------------
 
     def misfits(self, only: Collection[str] | None = None) -> list[Misfit]:
-        """Return all findings, or `only` those in the files with these keys, which are merged now.
+        """Return all findings; with `only`, those in the files with these keys, which are merged now.
 
-        In a merge, removed names count as faults even if a class may inherit them from an unread library.
+        In a merge, a removed name counts as a fault even if a class may inherit it from an unread library.
         """
         if not self.users:
             return [*self._look_at_orders()] if only is None else []
@@ -147,9 +147,9 @@ class Package(PackageAfter):
         return misfits
 
     def _passed_statements(self) -> dict[str, frozenset[str]]:
-        """Return the files to check, with those statements that equal generated ones."""
+        """Return the files to check, each with the statements to pass over: they equal generated ones."""
         artifacts, statements = self._generation.package.artifacts, dict[str, frozenset[str]]()
-        # first the missing classes that generated texts mention
+        # first look for missing classes that generated texts mention
         before = self._inputs.last.files
         expected = set(map(self._inputs.folder.path, before)) if self._is_waiting else set(artifacts)
         missing = expected - set(map(as_file, self)) - self._files.keys()
@@ -189,7 +189,7 @@ class Package(PackageAfter):
         """Whether a replaced or deleted text declares a name that the new text lacks."""
         files, folder = self._inputs.files, self._inputs.folder
         replaced = list[tuple[str, str]]()
-        # if all wait, the package stays as it was before the choices
+        # if all actions wait, the package stays as it was before the choices
         if not all(action.is_waiting for action in self._actions):
             chosen = (key for key in files.overlay if key.endswith(".mo") and files.is_chosen(key))
             replaced += [(folder.path(key), text_of(files.read_on_disk(key) or b"")) for key in chosen]
@@ -265,7 +265,7 @@ class Package(PackageAfter):
     def _look(
         self, path: str, scopes: Scopes, lost: Callable[[str], bool] | None, paths: Iterable[str]
     ) -> Iterator[Misfit]:
-        """Check a file of the package; a generated one only for names that other files lack.
+        """Check a file of the package; in a generated file, only names that other files lack.
 
         `paths` are all of these files.
         """

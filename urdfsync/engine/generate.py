@@ -22,7 +22,7 @@ _FORBIDDEN = frozenset('\\:*?"<>|')
 
 
 class Package:
-    """A generated package: its text files by path, and the names for each `package.order`; POSIX, below the package."""
+    """A generated package: its text files and the names for each `package.order`, by POSIX path below the package."""
 
     def __init__(self, artifacts: Iterable[Artifact | Order], templates: Templates, name: str) -> None:
         """`name` is the package's full name."""
@@ -51,14 +51,14 @@ class Package:
         return self._hashes[path]
 
     def find_like(self, path: str, owner: str) -> str | None:
-        """Return the file of another owner that has the template of this one; None if there is none."""
+        """Return the file of another owner with the same template as this file; None if there is none."""
         template = self.artifacts[path].template
         return next((a.path for a in self.artifacts.values() if (a.owner, a.template) == (owner, template)), None)
 
     def skip(self, noted: Mapping[str, tuple[str, str]], stored: Callable[[str], str | None]) -> None:
-        """Take the hashes of texts that this program has rendered on this machine, as `notes` returned them.
+        """Use the noted hashes of texts that this program has rendered on this machine, so as not to render them again.
 
-        `stored` returns the text with a hash, from any machine; None if there is none.
+        `noted` is a result of `notes`. `stored` returns the text with a hash, from any machine; None if there is none.
         """
         self._stored = stored
         for path, artifact in self.artifacts.items():
@@ -67,11 +67,11 @@ class Package:
                 self._hashes[path] = text_hash
 
     def notes(self) -> dict[str, tuple[str, str]]:
-        """Return two hashes for each file with known text: of its template with data, and of the text."""
+        """Return two hashes for each file whose text is known: of its template with data, and of the text."""
         return {path: (_data_hash(self.artifacts[path]), sha256) for path, sha256 in self._hashes.items()}
 
     def changed_since(self, last: Package) -> frozenset[str]:
-        """Return the paths whose text may differ from another package of the same templates."""
+        """Return the paths whose text may differ from that in another package with the same templates."""
         encode, changed = msgspec.json.encode, set()  # in JSON 0.0 and -0.0 differ, as in the text
         for path, new in self.artifacts.items():
             old = last.artifacts.get(path)

@@ -23,7 +23,7 @@ from urdfsync.matching import Matching, without_exchanges
 from urdfsync.state.record import FileRecord
 
 GONE = "_gone"
-"""Ends the names of removed elements whose names other elements have now."""
+"""Stands behind the name of a removed element if another element has that name now."""
 
 
 class Generation(msgspec.Struct, frozen=True, dict=True):
@@ -41,9 +41,9 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
 
     @cached_property
     def matching(self) -> Matching:
-        """The elements of the last complete build and the same elements now.
+        """The matches between the elements of the last complete build and those of now.
 
-        The recorded model may be a stranger's: names count as exchanged only if the package on disk agrees.
+        A stranger may have written the recorded model: names count as exchanged only if the package on disk agrees.
         """
         declared, last = pending(self.inputs), self.inputs.last
         matching = self._match(declared)
@@ -66,7 +66,7 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
                 on_disk = files.hash(last.folder.key(path), Role.RECORD)
                 recorded = last.files.get(last.folder.key(path), FileRecord()).hashes
                 if last.record.open and on_disk in last.notes.written:
-                    continue  # an incomplete build has renewed it
+                    continue  # an incomplete build has renewed the record
                 if on_disk in recorded and package.hash(path) != on_disk:
                     return False
         return True
@@ -78,7 +78,7 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
 
     @cached_property
     def other_elements(self) -> Mapping[str, str]:
-        """Names that now belong to other elements, with the new names of their former elements."""
+        """Maps each name that another element has now to the new name of the element that had it before."""
         last = self.inputs.last
         if not (self.renames and last.version):
             return {}
@@ -99,7 +99,7 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
 
     @property
     def undeclared_renames(self) -> Mapping[ElementKey, str]:
-        """The renames as far as they are not the configuration's word, which may be taken back."""
+        """The renames that the configuration does not declare: a declaration may be taken back."""
         return self._match({}).renames if pending(self.inputs) else self.renames
 
     def _match(self, declared: Mapping[str, str]) -> Matching:

@@ -1,4 +1,4 @@
-"""Imports the files of a source: finds and converts them; missing ones keep their recorded copy."""
+"""Imports the files of a source: finds and converts them; a missing file keeps its recorded copy."""
 
 from __future__ import annotations
 
@@ -28,11 +28,11 @@ _POINTER = b"version https://git-lfs"
 _MOST_OTHERS = 100
 """The most further files of a conversion."""
 MOST_PARTS = 100
-"""The most files of one dependency."""
+"""The most files that one dependency may become."""
 _IN_LIBRARY = r"\s*modelica:/*([^/.]+)"
 _HINTS = {
     r"(?:https?|ftp):": "urdfsync does not look on the network: download it, and let the source refer to it",
-    # a place on this machine, for which search paths are not used
+    # a place on this machine: search paths do not matter
     r"file:(?!/*\$)|[/\\]|[a-z]:[/\\]": "put it there, or let the source refer to it by a package or a relative path",
     _IN_LIBRARY: "put the folder that holds the library `{}` on MODELICAPATH",
     "[a-z]+://([^/]+)/": "put it into the package `{}`, or add the folder around it to `package_paths`",
@@ -48,13 +48,13 @@ class RecordedFile(msgspec.Struct, frozen=True, dict=True):
     copy: bytes | None
     """Its content in the package."""
     written: tuple[str, ...] = ()
-    """The hashes that builds have recorded of it."""
+    """The hashes that builds have recorded for it."""
     is_noted: bool = False
     """Whether this program has converted it on this machine."""
 
     @cached_property
     def hash(self) -> str:
-        """Of the copy; empty if there is none."""
+        """The hash of the copy; empty if there is none."""
         return "" if self.copy is None else digest(self.copy)
 
     @property
@@ -82,7 +82,7 @@ class Imported(msgspec.Struct):
 
 
 def places_of(dependency: Dependency) -> Iterator[tuple[str, str]]:
-    """Yield key and target of each file that a dependency may become, its own first."""
+    """Yield key and target of each file that a dependency may become, its main file first."""
     yield dependency.key, dependency.target
     path = PurePosixPath(dependency.target)
     for number in itertools.count(1):
@@ -90,7 +90,7 @@ def places_of(dependency: Dependency) -> Iterator[tuple[str, str]]:
 
 
 def _find_recorded(dependency: Dependency, recorded: Mapping[str, RecordedFile]) -> list[tuple[str, str, RecordedFile]]:
-    """Return the recorded files of a dependency, its own first, with their present keys and targets."""
+    """Return the recorded files of a dependency, its main file first, with their present keys and targets."""
     places = itertools.takewhile(lambda place: place[0] in recorded, places_of(dependency))
     return [(key, target, recorded[key]) for key, target in places]
 
@@ -107,9 +107,9 @@ def import_files(
 ) -> Imported:
     """Import every dependency; `source` is how diagnostics name the file that refers to them.
 
-    A conversion that this machine has noted serves again if it has the same input, unless the build is a full one or
-    the package `has_moved`. A missing or unreadable file is left out, or its recorded copy serves. Raises StateError if
-    the facts of that copy are lost.
+    A conversion that this machine has noted is used again if its input is the same, unless the build is a full one or
+    the package `has_moved`. A missing or unreadable file is left out, or its recorded copy is used. Raises StateError
+    if the facts of that copy are lost.
     """
     result = Imported()
     failed: dict[tuple[str, ...], list[tuple[Dependency, Diagnostic]]] = {}
@@ -153,7 +153,7 @@ def _import(
     source: str,
     result: Imported,
 ) -> Diagnostic | None:
-    """Add one import to the result, or return its problem; the `recorded` files of the last build may serve."""
+    """Add one import to the result, or return its problem; may use the `recorded` files of the last build."""
 
     def unreadable(message: str, hint: str) -> Diagnostic:
         return Diagnostic(
@@ -194,17 +194,17 @@ def _import(
 
 
 class Mentions(Protocol):
-    """What a domain says of files beside those that it converts; its attribute `imports`."""
+    """Further files that a domain's conversions need, and its findings about files; its attribute `imports`."""
 
     def mentioned(self, dependency: Dependency, file: str, content: bytes) -> Sequence[str]:
-        """Return the files that the conversion needs besides: paths from the folder of the dependency's own file.
+        """Return further files that the conversion needs: paths from the folder of the dependency's own file.
 
-        Asked of the dependency's file, then of each file that is found so. Pure.
+        Called for the dependency's file, then for each file that was found in this way. Pure.
         """
         ...
 
     def findings(self, imports: Mapping[str, Import], snapshot: Snapshot) -> Iterable[tuple[str, Diagnostic]]:
-        """Return diagnostics about imported files, without place, each with the key of its file; empty for all files.
+        """Return diagnostics without place about imported files, each with the key of its file; an empty key means all.
 
         The core adds the line of the dependency.
         """
@@ -212,7 +212,7 @@ class Mentions(Protocol):
 
 
 def _read_mentioned(domain: Domain, dependency: Dependency, path: Path, content: bytes) -> dict[str, bytes]:
-    """Return the files that a conversion needs besides, by their paths from the file's folder; empty if unreadable."""
+    """Return the further files that a conversion needs, by their paths from the file's folder; empty if unreadable."""
     mentions: Mentions | None = domain.imports
     contents, waiting = dict[str, bytes](), [*mentions.mentioned(dependency, path.name, content)] if mentions else []
     while mentions and waiting and len(contents) < _MOST_OTHERS and sum(map(len, contents.values())) < MAX_FILE:
@@ -257,10 +257,10 @@ def _not_found(dependencies: Sequence[Dependency], source: str, line: int = 0) -
 
 
 def _find_other_case(path: Path) -> Path | None:
-    """Return the file or folder whose path differs in case only: exports are made where that makes no difference."""
+    """Return the file or folder whose path differs only in case: on the exporter's system, case may not matter."""
     try:
         folder = path.parent if path.parent == path or path.parent.is_dir() else _find_other_case(path.parent)
-        # not recorded as a dependency: the path itself is, and the folder may change all the time
+        # the folder is not recorded as a dependency, since it may change all the time; the path itself is recorded
         names = sorted(os.listdir(folder)) if folder else []  # noqa: PTH208
     except OSError:
         return None
@@ -305,7 +305,7 @@ def _keep_copy(
 def find_dependencies(
     domain: Domain, snapshot: Snapshot, lookup: Lookup, options: Any, lines: Mapping[str, int]
 ) -> Sequence[Dependency]:
-    """Find the files that a model refers to.
+    """Return the files that a model refers to.
 
     ROS packages are searched only for files that are not found elsewhere; the last resort is a guess. Files in Modelica
     libraries come first, so MODELICAPATH is read before.
@@ -331,7 +331,7 @@ def _is_found(dependency: Dependency) -> bool:
 
 
 def _find(dependency: Dependency) -> tuple[Path, bytes] | OSError | None:
-    """Return the first readable candidate with its content; else why one is unreadable, None if none is a file."""
+    """Return the first readable candidate with its content; else the error of an unreadable one, or None."""
     trouble = None
     for path in dependency.candidates:
         try:

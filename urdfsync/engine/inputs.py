@@ -39,10 +39,10 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
     last: LastBuild
     files: PackageFiles
     folder: Folder
-    """Of the package now."""
+    """The package's folder now."""
     parents: Parents
     program: str
-    """Hash of the program and the templates; this machine's notes hold for it."""
+    """Hash of the program and the templates; this machine's notes hold only for this hash."""
     damage: Diagnostic | None = None
     """A warning if lines of the recorded state can't be read."""
 
@@ -53,7 +53,7 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
 
     @property
     def always_merges(self) -> bool:
-        """Whether the configuration, and not only this command, asks to merge."""
+        """Whether the configuration asks to merge, and not only this command."""
         return any(robot.name == self.robot.name and robot.on_conflict == "merge" for robot in self.config.robots)
 
     @property
@@ -63,7 +63,7 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
 
     @cached_property
     def users_files(self) -> UsersFiles:
-        """The user's models outside of the package; finds those that mention its present or former name."""
+        """The user's models outside of the package, among them those that mention its present or former name."""
         former = self.files.path(self.last.folder) if self.has_moved else None
         names = {folder.name for folder in (self.robot.folder, former) if folder}
         return find_users_files(self.config, self.robot, names, former)
@@ -79,7 +79,7 @@ def inspect(config: Config, robot: RobotConfig, options: BuildOptions) -> Inputs
     others = {files.key(other.folder) for other in config.robots if other.name != robot.name}
     if record and record.folder in others:  # the folder belongs to another robot now, whose files must not be deleted
         record = None
-    if record is None:  # a robot of another name, no longer configured, may have been built into this folder
+    if record is None:  # a robot that is no longer configured may have been built into this folder
         name = next((name for name, place in orphaned_robots(store, config) if place == folder), name)
         record = store.load(name)[0] if name != robot.name else None
     damage, notes = damage or store.find_damaged_base(name), store.notes(name)
@@ -107,7 +107,7 @@ def inspect(config: Config, robot: RobotConfig, options: BuildOptions) -> Inputs
 
 def orphaned_robots(store: Store, config: Config) -> Iterator[tuple[str, str | None]]:
     """Yield unconfigured robots with a record, and the key of their folder; None for an unreadable record."""
-    # not by its listed name: a file system that folds case has one record for `arm` and `Arm`
+    # compare files, not names: a file system that ignores case has one record for `arm` and `Arm`
     configured = {robot.name.casefold() for robot in config.robots if file_type(store.path(robot.name), follow=False)}
     for name in store.names():
         if name.casefold() not in configured:

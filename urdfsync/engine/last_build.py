@@ -32,16 +32,16 @@ NO_MODEL = (
     UrdfsyncError,
     ValueError,
 )
-"""Errors that a domain raises for a foreign recorded snapshot: anybody may have written it."""
+"""Errors that a domain raises for a recorded snapshot that it did not make: anybody may have written the record."""
 
 
 class LastBuild(msgspec.Struct, frozen=True, dict=True):
     """The last build of a robot, from the record and from this machine's notes."""
 
     name: str
-    """The robot's name then."""
+    """The robot's name in the last build."""
     record: Record
-    """Without model and files if the robot was never built, or its state is lost."""
+    """It has no model and no files if the robot was never built, or if its state is lost."""
     notes: Notes
     _store: Store
     _files: PackageFiles
@@ -49,11 +49,11 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
     _robot: RobotConfig
     _templates: Templates
     texts: Mapping[str, str] = {}
-    """Bases that choices bring, by hash."""
+    """Texts of the bases that choices bring back, by hash."""
 
     @cached_property
     def folder(self) -> Folder:
-        """Where the package was."""
+        """The folder of the package in the last build."""
         return Folder(self.record.folder)
 
     @property
@@ -69,8 +69,8 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
     def file(self, key: str, role: Role, on_disk: OnDisk, generated: str | None) -> FileRecord:
         """Return the record of a file on disk.
 
-        A text in the bases, or one that this machine has generated, is urdfsync's own even if the record differs: an
-        overtaken build may have written it, git may have restored it, or the state is lost.
+        If the bases have the text, or if this machine generated it, the text is urdfsync's own even if the record
+        differs: an overtaken build may have written it, git may have restored it, or the state is lost.
         """
         record = self.files.get(key, NEVER_WRITTEN)
         if not isinstance(on_disk, str) or role is Role.IMPORT or on_disk in (generated, *record.hashes):
@@ -95,7 +95,7 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
 
     @cached_property
     def imports(self) -> Mapping[str, RecordedFile]:
-        """The imported files and their copies; of several records of a file, the one that fits the copy."""
+        """The imported files and their copies. If a file has several records, the one that fits the copy is taken."""
         return {key: self._recorded_file(entries) for key, entries in self.record.imports.items()}
 
     def _recorded_file(self, entries: Sequence[Import]) -> RecordedFile:
@@ -119,7 +119,7 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
         return self.read(self.record.open.seen) if self.record.open else None
 
     def read(self, recorded: Mapping[str, Any] | None) -> Snapshot | None:
-        """Return a recorded model; None if it is none of this domain: anybody may have written it."""
+        """Return a recorded model; None if this domain can't read it: anybody may have written it."""
         if not recorded or self.record.generator.domain != self._robot.domain:
             return None
         try:
@@ -142,7 +142,7 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
     def respelled(self) -> Mapping[str, tuple[str, str]]:
         """Today's path and the hash of each recorded class, by its recorded path.
 
-        Only classes that differ in nothing but their own names.
+        Only classes whose texts differ in their own names alone are listed.
         """
         recorded = {self.folder.path(key): file for key, file in self.files.items()}
         if not (names := [path for path in recorded if path.endswith(".mo")]) or self.package is None:
@@ -160,7 +160,7 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
     def has_generated(self, key: str, sha256: str, role: Role) -> bool:
         """Return whether a file on disk was generated: by this machine's notes, or by the recorded model.
 
-        Its recorded hash proves nothing: the file may be a person's, and the record a stranger's.
+        Its recorded hash proves nothing: a person may have written the file, and a stranger the record.
         """
         path = self.folder.path(key)
         if sha256 in self.notes.written:
@@ -184,7 +184,7 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
 
     @cached_property
     def _targets(self) -> Mapping[str, str]:
-        """The paths that the recorded model has for imported files, by their keys."""
+        """The paths of imported files by the recorded model, by their keys."""
         if self.version is None:
             return {}
         options, lookup = self.options or self._robot.options, Lookup(self._robot.source, ())

@@ -22,8 +22,8 @@ _CLASS_KINDS = frozenset({"block", "class", "connector", "function", "model", "p
 def code_words(content: bytes) -> set[str]:
     """Return all names and keywords in a text, without strings, comments, its own classes and its packages.
 
-    A package may have the name of the robot's model, and an edited file the old name of its class. The text need not
-    parse.
+    Its own classes are left out because an edited file may still have the old name of its class, and its packages
+    because a package may have the name of the robot's model. The text need not be valid Modelica.
     """
     code = re.sub(r"\A\ufeff?\s*within\b[^;]*;", "", text_of(code_of(content)))
     words = re.findall(r"[^\W\d]\w*", code)
@@ -48,14 +48,14 @@ def keep_needed(generation: Generation, actions: Sequence[Action], merged: Mappi
 def _find_mentioned(generation: Generation, actions: Sequence[Action], merged: Mapping[str, str]) -> frozenset[str]:
     """Return the files that are no longer generated and that the user's texts need.
 
-    These are records that his texts or edited files mention, except those of renamed elements: he gets the new name. A
-    kept file also keeps all files that it mentions, and these keep theirs.
+    These are records that his texts or edited files mention, except records of renamed elements: his texts get the new
+    name. A kept file keeps all files that it mentions; these keep the files that they mention, and so on.
     """
     inputs, before = generation.inputs, generation.inputs.last.package
     package = PackageAfter(generation, actions, merged)
     words = {inputs.files.key(file): code_words(content) for file, content in package.users.items()}
     all_words = set().union(*words.values())
-    # names from older generated texts, which the user kept
+    # the user kept these files with the names of older generated texts
     kept_words = set[str]()
     for key in {action.path for action in actions if action.reason is Reason.KEEP} & words.keys():
         if before is not None and (path := inputs.last.folder.path(key)) in before.artifacts:

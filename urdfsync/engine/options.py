@@ -27,9 +27,9 @@ class BuildOptions(msgspec.Struct, frozen=True):
     dry: bool = False
     """Write nothing."""
     trusted: bool = False
-    """Write to outputs outside of the configuration's folder, too."""
+    """Also write to outputs outside of the configuration's folder."""
     renews: bool = True
-    """Renew the recorded state of a package that is in step; else the next written file renews it."""
+    """Renew the recorded state even if the package is in step; otherwise it waits until a build writes a file."""
     adopts: bool = False
     """Take files from before the first build for edits of the generated ones."""
     removes: bool = False
@@ -37,7 +37,7 @@ class BuildOptions(msgspec.Struct, frozen=True):
     draw: bool = False
     """Also draw the main model's diagram into the state folder."""
     package_paths: tuple[Path, ...] = msgspec.field(default_factory=ros_package_path)
-    """Where to look for packages after the configured folders: where ROS looks."""
+    """The folders where ROS looks for packages; they come after the configured folders."""
     wait: float = 60.0
     """Seconds to wait for another build to finish."""
     choices: Mapping[str, UsersChoice] = msgspec.field(default_factory=dict)

@@ -1,7 +1,7 @@
 """Finds names in the user's models and configuration that an export has given to other parts.
 
-Such a file still works, but with another part. So each build warns until the user saves the file: the notes of this
-machine have each file and the names it uses.
+Such a file still works, but with another part. So each build warns until the user saves the file. The notes of this
+machine list each file with such names.
 """
 
 from __future__ import annotations
@@ -25,11 +25,11 @@ from urdfsync.state.notes import Use
 
 CODE = "other-part"
 MAYBE = "?"
-"""The new name of a part that may be another one."""
+"""Stands for the new name of a part if it is unknown whether the name means another part now."""
 
 
 def find_uses(generation: Generation, decision: Decision) -> dict[str, Use]:
-    """Return the uses of names that mean another part, by file; also those that earlier builds found."""
+    """Return the names in each file that mean another part now; names that earlier builds found are included."""
     inputs = generation.inputs
     uses = {path: use for path, use in inputs.last.notes.uses.items() if use.facts == _facts(Path(path))}
     if not decision.is_complete:
@@ -51,7 +51,7 @@ def find_uses(generation: Generation, decision: Decision) -> dict[str, Use]:
 
 
 def _doubtful_names(generation: Generation) -> dict[str, str]:
-    """Return the names that the last package had and that may mean other parts now."""
+    """Return the names in the package that may mean other parts than in the last build."""
     if not (doubts := generation.matching.doubts):
         return {}
     inputs = generation.inputs
@@ -83,7 +83,7 @@ def _facts(path: Path) -> tuple[int, ...]:
 
 
 def _lines(path: Path, names: Mapping[str, str]) -> dict[str, int]:
-    """Return the first line in which a file uses each name; a model may also declare them."""
+    """Return the first line in which a file uses each name; names that a model only declares do not count."""
     from urdfsync.merge.renames import find_uses_of  # the lexer takes a while to load
     from urdfsync.modelica.files import text_of
 

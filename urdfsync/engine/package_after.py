@@ -26,12 +26,12 @@ class _File(NamedTuple):
 
     key: str
     text: str | None = None
-    """A text that the build writes and that is not the generated one."""
+    """The text that the build writes, if it differs from the generated one."""
     is_generated: bool = False
     is_edited: bool = False
-    """Whether the user edited it."""
+    """Whether urdfsync wrote it and the user edited it."""
     is_users: bool = False
-    """Whether it is the user's own."""
+    """Whether the user wrote it."""
     is_expected: bool = True
     """Whether a file of this name is generated."""
 
@@ -126,7 +126,7 @@ class PackageAfter(Mapping[str, bytes]):
 
     @cached_property
     def extended_orders(self) -> dict[str, tuple[str, set[str]]]:
-        """The text of each `package.order` that names classes of the user's, and these lines, by path."""
+        """Each `package.order` that names classes of the user's, by path: its text, and the lines with these names."""
         inputs, files, orders = self._inputs, self._inputs.files, self._generation.package.orders
         users = [f"{path.removesuffix('.mo')}.order" for path, file in self._files.items() if file.is_users]
         texts = {path: files.any_text(inputs.folder.key(path)) for path in users if path.endswith("package.order")}

@@ -1,4 +1,4 @@
-"""The files of one robot's package during one build: each is read once."""
+"""The files of one robot's package during one build. Each file is read once."""
 
 from __future__ import annotations
 
@@ -35,15 +35,16 @@ class FileState(NamedTuple):
     """A file at the moment of reading."""
 
     sha256: str
-    """Hex, of the bytes."""
+    """Hash of the bytes, in hex."""
     text_sha256: str
-    """Hex, of the text with its line endings as line feeds."""
+    """Hash of the text with line feeds as line endings, in hex."""
 
 
 _unchanged: dict[str, tuple[tuple[int, ...], FileState]] = {}
-"""Read files by absolute path, with their stat values: the daemon reads a file again if these differ.
+"""The states of read files, by absolute path, with stat values: the daemon reads a file again if these differ.
 
-Serves the rows "one mass changed in the daemon" of docs/speed.md: saves a sixth. Dropping it changes no byte.
+Serves the rows "one mass changed in the daemon" of docs/speed.md: saves a sixth of the time. Dropping it changes no
+byte of the output.
 """
 
 
@@ -54,7 +55,7 @@ def unchanged_state(path: str, facts: tuple[int, ...]) -> FileState | None:
 
 
 def note_state(path: str, facts: tuple[int, ...], content: bytes) -> FileState:
-    """Return the state of a read file, and remember it by its stat values before the reading."""
+    """Return the state of a file that was read, and remember it; `facts` are its stat values before the reading."""
     state = state_of(content)
     if len(facts) > 1 and not is_young(facts, time.time_ns()):  # a missing file has one fact
         _unchanged[path] = facts, state
@@ -67,14 +68,14 @@ class PackageFiles:
     def __init__(self, config: Config, robot: RobotConfig) -> None:
         self.root = config.root
         self.overlay: dict[str, bytes | None] = {}
-        """Contents that override the disk, by key: results of choices, and the meaning of files that git left.
+        """Contents that override the disk, by key: results of choices, and the meanings of files that git left.
 
-        None for no file.
+        None means that there is no file.
         """
         self.left_by_git: dict[str, tuple[str, ...]] = {}
-        """Files as git left them, by key, with the elements about which two branches contradict each other.
+        """The files that are as git left them, by key: the elements about which two branches contradict each other.
 
-        Without contradictions, the overlay has the file's meaning.
+        If there are no such elements, the overlay has the file's meaning.
         """
         self._prefix = os.path.join(os.path.normpath(config.root), "")  # noqa: PTH118 - strings: there are thousands
         self._trees = [Tree(robot.output), Tree(config.root)]
@@ -164,14 +165,14 @@ class PackageFiles:
         return state
 
     def hash(self, key: str, role: Role) -> str | None:
-        """Return the hash of a file: of the bytes of an imported one, of the text of others; None for no file."""
+        """Return the hash of an imported file's bytes, or of another file's text; None if there is no file."""
         state = self.state(key)
         if state is None:
             return None
         return state.sha256 if role is Role.IMPORT else state.text_sha256
 
     def on_disk(self, key: str, role: Role) -> OnDisk:
-        """Return the hash of a file, or CLASS_FOLDER if its class is a folder; None if it is neither."""
+        """Return the hash of a file, or CLASS_FOLDER if its class is a folder; None if there is neither."""
         sha256 = self.hash(key, role)
         if sha256 or not key.endswith(".mo") or key.endswith("/package.mo"):
             return sha256
@@ -200,7 +201,7 @@ class PackageFiles:
         from urdfsync.modelica.files import modelica_files
 
         folder = folder.removesuffix("/")
-        place = str(self.path(folder))  # strings: there are thousands of files
+        place = str(self.path(folder))  # strings are faster than paths: there are thousands of files
         found = {folder + path[len(place) :].replace(os.sep, "/") for path in modelica_files(Path(place))}
         laid = {key for key in self.overlay if key.startswith(f"{folder}/") and key.endswith(".mo")}
         return (found - laid) | {key for key in laid if self.overlay[key] is not None}

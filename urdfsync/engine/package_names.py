@@ -36,7 +36,7 @@ def recently_renamed(generation: Generation) -> dict[str, str]:
 def renamed_names(generation: Generation) -> dict[str, str]:
     """Return new names by the old ones: of classes, and of declarations in classes at the top of the package.
 
-    Only names that the package lacks, or that belong to other elements now.
+    It has only names that the package lacks now, and names that belong to other elements now.
     """
     inputs, renamed = generation.inputs, renamed_identifiers(generation) if generation.is_structural else {}
     if not renamed:
@@ -48,7 +48,7 @@ def renamed_names(generation: Generation) -> dict[str, str]:
     gone = displaced(generation.renames)
     if last := inputs.last.version if gone else None:
         identifiers = elements_by_identifier(inputs.domain, last.snapshot, inputs.last.target)
-        # else they would mean the elements that have these names now
+        # these names belong to other elements now, so a rename would be wrong
         names |= {name: f"{name}{GONE}" for name in before if identifiers.get(identifier_of(name, identifiers)) in gone}
     return names
 
@@ -69,7 +69,7 @@ def names_of(generation: Generation, renamed: Mapping[str, str], before: frozens
 
 
 def other_parts(generation: Generation) -> dict[str, str]:
-    """Return names that belong to other parts now, with the new names of their former parts."""
+    """Return names that belong to other parts now, each with the new name of the part that had it before."""
     if not generation.other_elements:
         return {}
     names = renamed_names(generation)

@@ -1,7 +1,7 @@
-"""The packages around a generated one, and their order files. They must exist, or the configuration asks to make them.
+"""The packages around a generated one, and their order files. They must exist, or the configuration demands them.
 
 A `package.order` has to name every class of its package, and only a Modelica parser finds the classes inside of a
-`package.mo`. So urdfsync adds its names to existing files, and makes such a file only with the package.
+`package.mo`. So urdfsync adds its names to an existing `package.order`, and makes one only with its package.
 """
 
 from __future__ import annotations
@@ -25,12 +25,12 @@ from urdfsync.state.transaction import FileChange
 class SharedFile(msgspec.Struct, frozen=True):
     """A `package.mo` or a `package.order` around the package; other robots may share it.
 
-    It is read again when it is written, so robots with one parent package can be planned at the same time.
+    A build reads it again before it writes it. So robots with the same parent package can be planned at the same time.
     """
 
     path: Path
     content: bytes | None = None
-    """Content of a `package.mo`, written only if there is none."""
+    """Content of a `package.mo`; it is written only if the file does not exist."""
     names: tuple[str, ...] = ()
     """Required lines of a `package.order`."""
     owned: tuple[str, ...] = ()
@@ -49,17 +49,17 @@ class SharedFile(msgspec.Struct, frozen=True):
 
 
 class Parents(msgspec.Struct, frozen=True):
-    """Files of the packages above a robot's that have to be written."""
+    """The files to write in the packages around a robot's package."""
 
     shared: tuple[SharedFile, ...] = ()
-    """Missing packages, and the order files above the parent's that have to name them."""
+    """The files of missing packages, and the order files that have to name these packages."""
     listed: bool = True
-    """Whether the parent's `package.order` has to name the robot's package: it exists, or is made with the parent."""
+    """Whether the parent's `package.order`, an existing or a new one, has to name the robot's package."""
     diagnostics: tuple[Diagnostic, ...] = ()
 
 
 def check(config: Config, robot: RobotConfig, uses: Sequence[tuple[str, str]]) -> Parents:
-    """Check the output folder and all parents of the robot's package, which needs the libraries `uses`.
+    """Check the output folder and all parents of the robot's package; `uses` are the libraries that the package needs.
 
     Raises OutputError at the line of the configuration if the package can't be there.
     """
@@ -135,17 +135,17 @@ def _uses(uses: Sequence[tuple[str, str]]) -> str:
 
 
 def files(robot: RobotConfig) -> Iterator[str]:
-    """The files of the packages around a robot's that `check` may read, existing or not."""
+    """The files that `check` may read in the packages around a robot's; they need not exist."""
     for folder in robot.folder.parents[: robot.target.package.count(".")]:
         yield from (f"{folder}/package.mo", f"{folder}/package.order")
 
 
 def merge_order(text: str | None, names: Sequence[str], owned: Collection[str] = ()) -> str:
-    """Return a `package.order` with `names`, and without the other names of `owned`; None stands for no file.
+    """Return a `package.order` with `names`, without other names of `owned`; `text` is None if there is no file.
 
     `owned` are the names that urdfsync wrote last, in their order. All other lines are the user's and keep their
-    places. Our lines follow the order of `names`, unless the user has moved them. A new line stands next to its
-    neighbour in `names`. Line endings are those of the file. The result is empty if no line is left.
+    places. urdfsync's lines follow the order of `names`, unless the user has moved them. A new line stands next to its
+    neighbour in `names`. Line endings are those of the file. The result is empty if no line remains.
     """
     if text is None:
         return "".join(f"{name}\n" for name in names)

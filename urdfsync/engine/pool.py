@@ -56,10 +56,10 @@ class Pool:
         try:
             try:
                 plan, reads = self._plan_ahead(robot, options)
-            except BrokenExecutor:  # one robot's worker died and ended all others: it may not be this robot's
+            except BrokenExecutor:  # one worker died, perhaps with another robot, and all workers ended
                 with workers(1) as alone:
                     plan, reads = alone.submit(plan_in_worker, self._config, robot, options).result()
-        except Exception as error:  # the worker is lost, in one of many ways
+        except Exception as error:  # libraries raise many kinds of errors for a lost worker
             reason = "a process that planned it ended unexpectedly, perhaps because memory ran out"
             raise OutputError.of(
                 "lost-process", f"robot `{robot.name}`: {reason}", hint="try again with `--jobs 1`"

@@ -1,4 +1,4 @@
-"""One hash for the program that generates packages: this machine's notes hold for the same program only."""
+"""Computes one hash for the program that generates packages: this machine's notes hold only for the same program."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from urdfsync.files import digest
 def program_hash(domain: str, templates: str) -> str:
     """Return a hash of the stat values of urdfsync's and a domain's files, and of the installed packages.
 
-    `templates` is the hash of the templates. A process goes on with the code that it has loaded.
+    `templates` is the hash of the templates. A process keeps the code that it loaded, so its hash does not change.
     """
     module = sys.modules.get(registry.top_level(domain), urdfsync)
     files = sorted({urdfsync.__file__, module.__file__ or urdfsync.__file__})

@@ -24,7 +24,7 @@ class Versions(msgspec.Struct, frozen=True):
     """The versions of all conflicts of a robot."""
 
     conflicts: tuple[Conflict, ...]
-    """With the files of their versions."""
+    """The conflicts, with the files of their versions."""
     changes: tuple[FileChange, ...]
     noted: Mapping[str, tuple[str, str]]
     """Hash of each proposal as urdfsync wrote it, and of its two sides, by path."""

@@ -15,10 +15,11 @@ from urdfsync.spelling import nearest
 def find_matching(
     domain: Domain, old: Snapshot, new: Snapshot, declared: Mapping[str, str], *, is_pending: bool = False
 ) -> Matching:
-    """Match the elements of two versions; `declared` maps old names to new ones, until a kind has its new names.
+    """Match the elements of two versions; `declared` maps old names to new ones.
 
-    A kind has its new names if an element is as it was under its old one. If the renames are known to be pending, this
-    holds only if the contents under the new name are others: elements that look alike prove nothing.
+    Declared renames of a kind (links, joints) do not count if the old version has the new names already. The sign of
+    this: an element with one of the old names is the same in both versions. If `is_pending`, the contents under its new
+    name must also be others: elements that look alike prove nothing.
     """
     if old == new and not (declared and is_pending):
         return Matching()
@@ -43,8 +44,9 @@ def find_matching_since(
 ) -> Matching:
     """Match the elements of the last complete build with those of now.
 
-    While a conflict is open, one export may rename an element and the next one change its numbers. So the renames up to
-    the model last seen are joined with those since then. `declared` has renames that no complete build has made.
+    While a conflict is open, one export may rename an element, and the next export may change its numbers. So this
+    joins the renames up to the model last seen with the renames since then. `declared` has only renames that no
+    complete build has made.
     """
     direct = find_matching(domain, recorded, now, declared, is_pending=True)
     if last_seen is None:

@@ -53,10 +53,10 @@ _FILTERS = (
     *(once, literals.real, literals.vector, literals.matrix, literals.string, literals.html),
     literals.capitalize_first,
 )
-"""Filters of the same names."""
+"""Functions that become filters of the same names."""
 
 MAX_MEMORY = 2_000_000_000
-"""Bytes that one text may need."""
+"""Bytes of memory that rendering one text may need."""
 MAX_SECONDS = 60.0
 """Time for one text. A whole build of 3,000 links, with 12,000 texts, takes 7 s."""
 MAX_OUTPUT = 200_000_000
@@ -68,8 +68,8 @@ _BLANK = re.compile(r"\A(?:\0[^\0]*\0[0-9]*\0|\s)*")
 GRACE = 30.0
 """Further seconds of CPU time, after which the system ends the process.
 
-Python interrupts no single step of its own, such as a power of large numbers, or the comparison of lists that hold each
-other many times.
+Python can't interrupt a single step of its own, such as a power of large numbers, or the comparison of lists that hold
+each other many times.
 """
 
 
@@ -100,16 +100,16 @@ class _Environment(jinja2.Environment):
     """Jinja for templates of installed packages."""
 
     def getattr(self, obj: Any, attribute: str) -> Any:
-        """See Jinja. `x.items` is an item `items` of the dict, if it has one, and else its method."""
+        """See Jinja. If the dict `x` has the key `items`, `x.items` is the value of this key, not the method."""
         return obj[attribute] if type(obj) is dict and attribute in obj else super().getattr(obj, attribute)
 
 
 class _CodeCache(jinja2.BytecodeCache):
-    """Compiled templates of installed packages, beside urdfsync's own compiled modules and trusted like these.
+    """Compiled templates of installed packages; they are in the same folder as urdfsync's compiled modules.
 
-    Serves the rows "first build" of docs/speed.md: compiling takes a third of the time with 11 links. Code holds while
-    the template, Python, and the modules that make the code are unchanged; filters of constants are computed at compile
-    time.
+    Serves the rows "first build" of docs/speed.md: compiling takes a third of the time with 11 links. Code is valid
+    while the template, Python, and the modules that make the code are unchanged: Jinja applies filters to constants at
+    compile time.
     """
 
     def __init__(self) -> None:
@@ -167,9 +167,9 @@ class _Sandbox(ImmutableSandboxedEnvironment):
         return super().call(context, function, *arguments, **named)
 
     def getattr(self, obj: Any, attribute: str) -> Any:
-        """See Jinja. `x.items` is an item `items` of the dict, if it has one, and else its method.
+        """See Jinja. If the dict `x` has the key `items`, `x.items` is the value of this key, not the method.
 
-        They and the fields of structs are data, which the sandbox allows.
+        The sandbox allows such values, and the fields of structs: they are data.
         """
         if type(obj) is dict and attribute in obj:
             return obj[attribute]
@@ -182,9 +182,9 @@ class _Sandbox(ImmutableSandboxedEnvironment):
 def _limited_process() -> Iterator[None]:
     """Limit the memory (on Linux) and the CPU time (not on Windows) of this process.
 
-    At `MAX_MEMORY` more than it has, Python raises MemoryError. `GRACE` after the time that a text may take, the system
-    ends the process with SIGVTALRM. Loops and calls check the clock. A filter over a long text does not, and Python
-    raises nothing within a single step of its own.
+    Python raises MemoryError if the process needs `MAX_MEMORY` more than now. If a text takes `GRACE` longer than it
+    may, the system ends the process with SIGVTALRM. This is for filters over long texts and for single steps of
+    Python: only loops and calls check the clock.
     """
     if sys.platform == "linux":
         with open("/proc/self/statm", "rb", buffering=0) as file:  # noqa: PTH123 - called for each text
@@ -204,7 +204,7 @@ def _limited_process() -> Iterator[None]:
 
 
 class Renderer:
-    """Renders templates from `folders`; a template in an earlier folder hides one of the same name in a later folder.
+    """Renders templates from `folders`; a template in an earlier folder hides one with the same name in a later folder.
 
     A changed template needs a new renderer.
     """

@@ -64,7 +64,7 @@ class DisputedFile(msgspec.Struct, frozen=True):
 
     @property
     def relation(self) -> str:
-        """The relation of both sides, as a clause."""
+        """How the changes of both sides go together, as a clause."""
         texts = self.texts
         if texts is None:
             return "it is not a text, so it can't be merged"
@@ -136,7 +136,7 @@ class Result(msgspec.Struct, frozen=True):
     renews: bool = False
     """The build has renewed the recorded state, or would in a dry run."""
     stale: tuple[str, ...] = ()
-    """Changed inputs of the source, if its old text was used."""
+    """Changed inputs of the source, if the build used the source's old text."""
     is_broken: bool = False
     """An edited file does not fit the package, or is no Modelica."""
     drawing: Path | None = None
@@ -149,7 +149,7 @@ class Result(msgspec.Struct, frozen=True):
     checked: Checked | None = None
     """Verdict of a check of the package; None if there was none. Its findings are among the diagnostics."""
     reads: Dependencies = msgspec.field(default_factory=Dependencies)
-    """All that the plan or the error has read; entries of written files are renewed."""
+    """All files that the plan, or the failed attempt, has read; entries of written files are renewed."""
 
     @property
     def conflicts(self) -> Sequence[DisputedFile]:
@@ -162,18 +162,18 @@ class Result(msgspec.Struct, frozen=True):
     def in_step(self) -> bool:
         """Whether the package is in step now: a build would write nothing, and nothing is in conflict or broken.
 
-        All commands, hooks and documents read this one value.
+        All commands, hooks and documents use this one value.
         """
         return self.are_files_in_step and not self.is_broken
 
     @property
     def are_files_in_step(self) -> bool:
-        """The same, even if the user's edits do not fit."""
+        """Whether the files are in step; unlike `in_step`, it is also True if the user's edits do not fit."""
         return not (self.failed or self.stale or self.conflicts or (self.dry and self.writes))
 
     @property
     def effective_changes(self) -> Changes | None:
-        """The changes of the model that a build writes, or that wait for a conflict. `diff` shows all changes."""
+        """The changes of the model that a build writes, or that wait for a conflict; `diff` shows all changes."""
         return self.changes if self.writes or self.conflicts or self.settled else None
 
     @property
@@ -245,9 +245,9 @@ def check_result(checked: Checked, diagnostics: Sequence[Diagnostic]) -> str:
 
 
 def exit_code(results: Iterable[Result], check: bool = False) -> Exit:
-    """Return the worst of all: an error, a lock, a conflict or a broken package, being out of step.
+    """Return the exit code of the worst result: error, then lock, then conflict, then out of step.
 
-    The last counts only if `check`, or if a package is broken.
+    Out of step counts only if `check`, or if a package is broken.
     """
     results = list(results)
     if any((result.failed and not result.locked) or result.checked is Checked.WRONG for result in results):

@@ -17,10 +17,10 @@ _DEPTH = 8
 
 
 def find(folders: Sequence[Path], source: Path) -> Mapping[str, Path]:
-    """Return the folder of each ROS package below `folders` and around `source`; of two with one name, the first.
+    """Return the folder of each ROS package below `folders` and around `source`; for a repeated name, the first folder.
 
-    As with rospack, a package holds no others, and folders with an ignore file are skipped. Unreadable folders are
-    skipped, too.
+    As in rospack, a package contains no other packages, and folders with an ignore file are skipped. Unreadable folders
+    are skipped, too.
     """
     folders_by_name: dict[str, Path] = {}
     for folder in source.parents:
@@ -62,10 +62,10 @@ class Packages:
 
 
 def libraries(environment: Mapping[str, str]) -> Mapping[str, Path]:
-    """Return the folder of each Modelica library on MODELICAPATH; of two with one name, the one in the first entry.
+    """Return the folder of each Modelica library on MODELICAPATH; for a repeated name, that in the first entry.
 
-    A library is a folder `Name` or `Name VERSION` with a `package.mo`. In one entry the folder without a version comes
-    first, then the newest version.
+    A library is a folder `Name` or `Name VERSION` with a `package.mo`. Within an entry, the folder without a version
+    comes first, then the newest version.
     """
     folders: dict[str, Path] = {}
     for entry in filter(None, environment.get("MODELICAPATH", "").split(os.pathsep)):

@@ -18,9 +18,9 @@ from urdfsync.state.record import FileRecord
 
 
 class ClassFolder(enum.Enum):
-    """Stands for the hash of a missing file whose class is a folder now (`X/package.mo`).
+    """Stands for the hash of a file if its class is a folder (`X/package.mo`) in place of the file.
 
-    It is no string, so no hash in a stranger's record equals it.
+    It is no string, so no hash in a stranger's record can equal it.
     """
 
     CLASS_FOLDER = enum.auto()
@@ -110,7 +110,7 @@ def _edited_moves(files: Mapping[str, File], moves: Mapping[str, str]) -> dict[s
     """Return new and old path of the edited files that move with their elements."""
     edited = {new: old for new, old in moves.items() if files[old].is_edited}
     taken = {path for path in moves if not files[path].is_free}
-    # an edited file that can't move blocks the file that would take its place, and so on
+    # if an edited file can't move, the file that would take its place can't move either, and so on
     while blocked := edited.keys() & taken - set(edited.values()):
         edited = {new: old for new, old in edited.items() if new not in blocked}
     return edited
@@ -121,9 +121,9 @@ def put_off(
 ) -> tuple[Action, ...]:
     """Put off structural changes of a robot while one of its files is in conflict.
 
-    Still written are files that keep the package compiling: records with changed numbers (`numbers_only`), imported
-    files, and restored files. Files of `origins`, which renamed elements leave, wait. If the package `moves`, all files
-    wait. Conflicts about numbers alone put off nothing else.
+    A build still writes files that keep the package valid: records with changed numbers (`numbers_only`), imported
+    files, and restored files. `origins` are the files that renamed elements leave; these wait. If the package `moves`,
+    all files wait. If all conflicts are about numbers alone, no other file waits.
     """
     actions = tuple(actions)
     if all(action.path in numbers_only and not moves for action in actions if action.is_conflict):
@@ -148,8 +148,8 @@ def files_after(
 ) -> dict[str, FileRecord]:
     """Return the records of a package's files after a build.
 
-    A complete build has done all actions. After an incomplete one, generated files get new records; all others keep
-    those of the last complete build.
+    A complete build has done all actions. After an incomplete build, generated files get new records; all other files
+    keep their records of the last complete build.
     """
     records = {} if is_complete else dict(recorded)
     for action in actions:

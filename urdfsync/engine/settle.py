@@ -47,7 +47,7 @@ class Settled(msgspec.Struct):
     """New contents; None for no file."""
     bases: dict[str, FileRecord] = msgspec.field(default_factory=dict)
     texts: dict[str, str] = msgspec.field(default_factory=dict)
-    """Texts of bases that were put aside, by hash."""
+    """Texts of bases that earlier choices put aside, by hash."""
     generated: set[str] = msgspec.field(default_factory=set)
     """Hashes of generated texts that `--undo` brings back."""
     before: dict[str, Former] = msgspec.field(default_factory=dict)
@@ -63,7 +63,7 @@ class Settled(msgspec.Struct):
         """Add the new content and base that a choice gives a file."""
         key = action.origin or action.path
         mine, former = inputs.files.read_on_disk(key), inputs.last.files.get(key, FileRecord())
-        if mine is not None and (choice is not Choice.UNDO or content != mine):  # else there is nothing to bring back
+        if mine is not None and (choice is not Choice.UNDO or content != mine):  # otherwise nothing changes
             self.before[key] = Former(mine, former, inputs.last.bases(former))
         self.contents[key], self.bases[key] = content, record
         changes = {"path": key, "origin": None, "reason": reason, "choice": choice, "is_waiting": False}
@@ -121,7 +121,7 @@ def _settle(generation: Generation, decision: Decision, action: Action, chosen: 
         return False
     elif choice is Choice.KEEP:
         content = inputs.files.read(key)
-        if action.reason is Reason.ASKED:  # it is the same part, so later changes of it still count
+        if action.reason is Reason.ASKED:  # the user says that it is the same part: later exports still merge into it
             record = inputs.last.files.get(key, record)
         if conflict and action.origin:
             from urdfsync.merge.renames import rename, without_clashes  # imports the parser
@@ -148,9 +148,9 @@ def _settle(generation: Generation, decision: Decision, action: Action, chosen: 
 
 
 def _move(generation: Generation, decision: Decision, action: Action, named: str | None, settled: Settled) -> bool:
-    """Add that an edit goes to the file of another element, by default the likely one. Raises ConfigError if it can't.
+    """Move an edit to the file of another element, by default the likely one. Raises ConfigError if it can't move.
 
-    Edits that leave their files in the same command make room for each other.
+    An edit may move to a file that another edit leaves in the same command.
     """
     inputs, (kind, _, name), key = generation.inputs, action.owner.partition(" "), action.path
     conflict, choices = decision.disputed[key], inputs.options.choices
@@ -161,7 +161,7 @@ def _move(generation: Generation, decision: Decision, action: Action, named: str
     is_asked = any(one.path == target and one.reason is Reason.ASKED for one in decision.actions)
     message = ""
     if is_asked and not is_leaving:
-        message, hint = "it is asked about, too", "settle it first, or name both files with --moved alone"
+        message, hint = "its edit may belong to another part, too", "settle it first, or name both files with --moved"
     elif inputs.files.read(f"{target.removesuffix('.mo')}/package.mo") or inputs.files.read(key) is None:
         message, hint = "one of the two classes is a folder", "move the edit by hand, then use --keep"
     elif target in generation.moves.values():
@@ -177,7 +177,7 @@ def _move(generation: Generation, decision: Decision, action: Action, named: str
     if merged is None:
         message, hint = "your edit does not fit into this file", "move the edit by hand, then use --take"
         raise ConfigError.of("wrong-rename", message, shown(inputs.files.path(target)), hint=hint)
-    if key not in settled.contents:  # else another edit has come here already
+    if key not in settled.contents:  # otherwise another edit has moved here already
         source = _generated(generation, action, inputs.files.read(key) or b"")
         settled.add(inputs, action, source, FileRecord((str(action.generated),)), Reason.UPDATE, Choice.MOVED)
     content = with_line_ends(encode(merged), inputs.files.read(target) or b"")
@@ -187,7 +187,7 @@ def _move(generation: Generation, decision: Decision, action: Action, named: str
 
 
 def _find_target(generation: Generation, action: Action, new: str) -> str:
-    """Return the path of the like file of the element `new`, below the package. Raises ConfigError if there is none."""
+    """Return the path of the corresponding file of the element `new`. Raises ConfigError if there is none."""
     inputs, (kind, _, name) = generation.inputs, action.owner.partition(" ")
     path = generation.package.find_like(inputs.folder.path(action.path), f"{kind} {new}")
     known = {known for one, known in inputs.domain.features(generation.now.snapshot) if one == kind}
@@ -196,7 +196,7 @@ def _find_target(generation: Generation, action: Action, new: str) -> str:
     if not name:
         message, hint = "it belongs to no single part", "change the names in it, then use --keep"
     elif not new:
-        message = "it is not known to which part the edit belongs"
+        message = "the part to which the edit belongs is unknown"
     elif new == name:
         message = f"it belongs to {kind} `{name}` already"
     elif new not in known:
@@ -209,7 +209,7 @@ def _find_target(generation: Generation, action: Action, new: str) -> str:
 
 
 def _merge_into(generation: Generation, conflict: Conflict, kind: str, old: str, new: str, text: str) -> str | None:
-    """Merge the edit of another element's file into a text, with that text's names; None if both contradict."""
+    """Merge the edit of another element's file into a text, with the names of this text; None for a contradiction."""
     from urdfsync.merge import merge  # imports the parser
     from urdfsync.modelica.lexer import words_in
 

@@ -38,12 +38,12 @@ if TYPE_CHECKING:
     from urdfsync.engine.expansion import Inputs
 
 MAX_TEMPLATE = 10_000_000
-"""Bytes of a file in a template folder of the user's; the longest template of urdfsync has 5,000."""
+"""The most bytes of a file in the user's template folder; the longest template of urdfsync has 5,000."""
 
 _COMMENT = re.compile(rb"<!--.*?(?:-->|\Z)", re.DOTALL)
 _XACRO = re.compile(rb"<xacro:(?:macro|if|unless|insert_block|call|element|attribute)\b|\$\{")
 _LINES = re.compile(r"\b(lines?) (\d+(?:, \d+)*)")
-"""Lines that a message names."""
+"""The references to lines in a message."""
 NEVER: tuple[str, ...] = ("no expansion is recorded",)
 """Why a source without expansion is stale."""
 
@@ -51,7 +51,7 @@ NEVER: tuple[str, ...] = ("no expansion is recorded",)
 def is_xacro(file: Path, content: bytes) -> bool:
     """Return whether a file is xacro, by its name or by its elements.
 
-    An expanded URDF may still have elements of xacro, in comments and as leftovers: beside links, without `${…}`.
+    An expanded URDF may still have elements of xacro, left over or in comments; but it has links, and no `${…}`.
     """
     if file.suffix == ".xacro" or b"xmlns:xacro" not in content:
         return file.suffix == ".xacro"
@@ -76,7 +76,7 @@ class Source(msgspec.Struct, frozen=True):
 
     @property
     def is_missing(self) -> bool:
-        """Whether the source was never made, and is not made now."""
+        """Whether the source was never made, and this build does not make it."""
         return bool(self.stale) and not self.content
 
     def locate(self, found: Diagnostic) -> Diagnostic:
@@ -85,16 +85,16 @@ class Source(msgspec.Struct, frozen=True):
             return found
         file, line = self._place(found.line)
         message = self._with_places(found.message, file)
-        details = tuple(dict.fromkeys(map(self._with_places, found.details)))  # each use of a macro gives the same ones
+        details = tuple(dict.fromkeys(map(self._with_places, found.details)))  # calls of one macro repeat them
         return msgspec.structs.replace(found, message=message, file=file, line=line, column=0, details=details)
 
     def _place(self, line: int) -> tuple[str, int]:
-        """Return the original place of the element at a line of the text; of the root for a line above it."""
+        """Return the original place of the element at a line of the text; above the root, return that of the root."""
         number = bisect_right(self.places, line, key=lambda place: place[0])
         return self.places[max(number - 1, 0)][1:]
 
     def _with_places(self, text: str, told: str = "") -> str:
-        """Return a message with original files and lines in place of expanded lines; `told` is named already."""
+        """Return a message with original files and lines in place of expanded lines; leave out the place `told`."""
 
         def replace(match: re.Match[str]) -> str:
             lines = [int(line) for line in match[2].split(", ")]
@@ -119,9 +119,10 @@ class Source(msgspec.Struct, frozen=True):
 def read_source(config: Config, robot: RobotConfig, store: Store, options: BuildOptions, name: str = "") -> Source:
     """Read the robot's source; xacro or a command may have to make it first.
 
-    `name` is its other name in the state. xacro expands it anew, unless this machine has noted the text and its inputs.
-    If xacro or a file is missing, the recorded text serves. A dry run runs no command. Raises SourceError for an
-    unreadable source, at the line of the configuration, and ConfigError for an untrusted command.
+    `name` is the robot's name in the state, if it differs. xacro expands the source again, unless this machine has
+    noted the text and its inputs. If xacro or a file is missing, the recorded text is used. A dry run runs no command.
+    Raises SourceError for an unreadable source, at the line of the configuration, and ConfigError for an untrusted
+    command.
     """
     if not robot.command:
         content = _read(config, robot)  # reports a file that xacro can't read
@@ -181,13 +182,13 @@ def _expand(config: Config, robot: RobotConfig, inputs: Inputs, options: BuildOp
 
 
 class Beside(Protocol):
-    """What a domain says of the file that may stand beside a source; its attribute `beside`."""
+    """Reads a further file that may stand beside a source; a domain's attribute `beside`."""
 
     SUFFIX: str
-    """Its suffix; all else of its path is that of the source."""
+    """Its suffix; the rest of its path is that of the source."""
 
     def join(self, content: bytes, other: bytes, file: str) -> tuple[bytes, Sequence[tuple[int, int]]]:
-        """Return a source with further lines for what the file beside it says, and the numbers of each, here and there.
+        """Return a source with new lines for the content of the other file, and their numbers in both files.
 
         `file` is how diagnostics name it. Raises SourceError if it can't be read.
         """
@@ -201,7 +202,7 @@ def _with_file_beside(domain: Domain, source: Path, content: bytes) -> Source:
 
 
 def joined(domain: Domain, content: bytes, name: str, other: bytes, path: Path | None) -> Source:
-    """Return a source with what the file beside it says, at `path`. Raises SourceError."""
+    """Return a source joined with `other`, the content of the file beside it at `path`. Raises SourceError."""
     beside: Beside | None = domain.beside
     text, lines = beside.join(content, other, shown(path)) if beside and path and other else (content, ())
     if not lines:
@@ -211,7 +212,7 @@ def joined(domain: Domain, content: bytes, name: str, other: bytes, path: Path |
 
 
 def read_file_source(domain: Domain, file: Path, arguments: Mapping[str, str], package_paths: Sequence[Path]) -> Source:
-    """Read a source that is no robot's, with these arguments if it is xacro. Raises SourceError."""
+    """Read a source that no configuration names, with these arguments if it is xacro. Raises SourceError."""
     try:
         content = read_unrecorded(file)
     except OSError as error:
@@ -335,15 +336,15 @@ def read(
 
 
 def read_permissively(domain: Domain, text: Source) -> tuple[Snapshot, Reading]:
-    """Return what `read` does, of a source outside of a project."""
+    """Read a source outside of a project, as `read` does, with the domain's permissive options."""
     with text.locating():
         return read(domain, domain.permissive_options or domain.options(), text.content, text.name, domain.cured)
 
 
 @functools.lru_cache(maxsize=4)
 def _read_model(domain: Domain, options: bytes, content: bytes, name: str) -> Reading:
-    """Read a source; the same bytes in a row only once: the daemon confirms each build by another one.
+    """Read a source; remember the last one, since the daemon confirms each build by a second build.
 
-    Serves the rows "one mass changed in the daemon" of docs/speed.md. Options are in JSON, since they need no hash.
+    Serves the rows "one mass changed in the daemon" of docs/speed.md. Options are JSON, since they may not be hashable.
     """
     return domain.read(content, name, msgspec.json.decode(options, type=domain.options))

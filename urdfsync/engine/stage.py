@@ -34,7 +34,7 @@ from urdfsync.state.store import Aside, StateHashes
 from urdfsync.state.transaction import FileChange
 
 Drawing: TypeAlias = Callable[[Snapshot, Mapping[str, Import], Target, Any], str | None]
-"""Returns the main model's diagram as SVG text, None for none, and is pure; the attribute `drawing` of a domain."""
+"""Returns the main model's diagram as SVG text, or None if it has none. Pure. A domain's attribute `drawing`."""
 
 
 class Plan(msgspec.Struct, frozen=True):
@@ -46,7 +46,7 @@ class Plan(msgspec.Struct, frozen=True):
     shared: tuple[SharedFile, ...] = ()
     """Changes of files around the package."""
     writes: tuple[FileChange, ...] = ()
-    """The files to write without the shared ones, the record last."""
+    """The files to write, without those in `shared`; the record is the last one."""
     emptied: tuple[Path, ...] = ()
     """The folders that become empty, innermost first."""
     notes: Notes | None = None
@@ -60,7 +60,7 @@ def stage(
     settled: Settled,
     uses: Mapping[str, Use],
 ) -> Plan:
-    """Return the plan with all its writes, in a dry run, too: one plan has one verdict."""
+    """Return the plan with all its writes. A dry run gets the same plan, so it gives the same verdict."""
     inputs, store, robot = generation.inputs, generation.inputs.store, generation.inputs.robot
     actions = actions_after(decision.actions, settled)
     files, versions, notes = (
@@ -86,7 +86,7 @@ def stage(
     changes += state
     news = generation.changes
     if news and not is_writing and decision.is_complete:
-        # the record may keep the old generator and options: each later plan would report them again
+        # if the record keeps the old generator and options, each later plan would report them again
         news = msgspec.structs.replace(news, generator=False, options=())
     result = Result(
         robot.name,
@@ -149,7 +149,7 @@ def _notes(
     made = {sha256 for _, sha256 in texts.values()} | {imports.imports[key].target_hash for key in imports.converted}
     made_here = imports.converted | {key for key, file in inputs.last.imports.items() if file.is_noted}
     renamed = renamed_identifiers(generation) if generation.renames or generation.respelled else {}
-    is_later = is_writing and not inputs.options.choices  # a choice may bring old names back
+    is_later = is_writing and not inputs.options.choices  # a choice like --undo may bring old names back
     expansion_noted = expansion_hash(expanded) if expanded and inputs.source.is_made_here else ""
     new = msgspec.structs.replace(
         old,
@@ -172,7 +172,7 @@ def _record(generation: Generation, decision: Decision, settled: Settled) -> Rec
     inputs, old, news = generation.inputs, generation.inputs.last.record, generation.changes
     imports, inside = generation.imported.imports, inputs.folder.key("")
     if not decision.is_complete:
-        # the model stays that of the last complete build; renewed files are recorded, but not in a former folder
+        # keep the model of the last complete build; record the files that are renewed, but not those in a former folder
         files = {} if inputs.has_moved else files_after(decision.actions, old.files, is_complete=False)
         files = {**old.files} | {key: file for key, file in files.items() if key.startswith(inside)}
         renewed = {
@@ -207,7 +207,7 @@ def _record(generation: Generation, decision: Decision, settled: Settled) -> Rec
     )
     if news is None or any(change.change_class.rank > ChangeClass.UNMODELLED.rank for change in news.changes):
         return new
-    # changes that no file of the package shows are not worth a commit: unmodelled extensions, options without effect
+    # changes that no file of the package shows are not worth a commit, such as unmodelled parts of the source
     silent = msgspec.structs.replace(new, snapshot=old.snapshot, options=old.options, generator=old.generator)
     return old if silent == old else new
 
@@ -278,7 +278,7 @@ def _state_changes(
 ) -> list[FileChange]:
     """Return the changes of the recorded state, the record as the last one.
 
-    If some commands have nothing else to write, they leave a complete state to the next build.
+    `status` and some other commands do not renew a complete state if there is nothing else to write.
     """
     inputs, store, expanded = generation.inputs, generation.inputs.store, generation.inputs.source.expansion
     name, last = inputs.robot.name, inputs.last
@@ -297,10 +297,10 @@ def _state_changes(
     absent = record.hashes - {sha256 for texts in stored.values() for sha256 in texts or ()}
     missing, package = {sha256: settled.texts[sha256] for sha256 in absent & settled.texts.keys()}, generation.package
     if absent:
-        made = generation.paths_by_hash  # elements may still be renamed
+        made = generation.paths_by_hash  # by hash, since a text may have another path now
         missing |= {sha256: package.content(made[sha256]).decode() for sha256 in absent & made.keys()}
     cleans = decision.is_complete and (is_writing or bool(missing))
-    # git may have united lines, which have an order
+    # if git has united lines, they may be in another order
     is_united = last.record.is_united and is_writing
     is_whole = inputs.options.full or inputs.former_name or inputs.damage or is_united
     for digit, texts in stored.items():

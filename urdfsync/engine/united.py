@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     import pygit2
 
 _UNDER_WAY = "MERGE_HEAD", "CHERRY_PICK_HEAD", "REBASE_HEAD"
-"""Names of the commit that git is merging into HEAD."""
+"""The references under which git keeps the commit that it is merging into HEAD."""
 
 _IN_STEP = frozenset({Reason.UNCHANGED, Reason.KEEP, Reason.INCLUDED})
 """Reasons that keep a file that is still generated."""
@@ -42,7 +42,7 @@ class Sides(NamedTuple):
     """The versions of a file that git merged; lines end with line feeds."""
 
     base: str
-    """Empty if the sides have no common one."""
+    """The common ancestor; empty if there is none."""
     ours: str
     theirs: str
 
@@ -50,7 +50,7 @@ class Sides(NamedTuple):
 def lay_over(inputs: Inputs, key: str) -> bool:
     """Overlay a file with its meaning if it still is git's merge of two branches.
 
-    For unedited versions that is one of them, for edits their merge by elements, if there is one.
+    If nobody edited the versions, the meaning is our version. Otherwise it is their merge by elements, if they merge.
     """
     found = _find_meaning(inputs, key)
     if isinstance(found, str):
@@ -79,9 +79,9 @@ def _find_meaning(inputs: Inputs, key: str) -> str | tuple[str, ...] | None:
 
 
 def _merge_edits(last: LastBuild, key: str, sides: Sides) -> str | tuple[str, ...]:
-    """Merge two versions by their elements: as they are, or else as edits of one generated text.
+    """Merge two versions by their elements: as they are; if that fails, as two edits of the same generated text.
 
-    Different exports are no contradiction of people.
+    The second way ignores differences that come from different exports: these are no contradiction of people.
     """
     from urdfsync.merge.texts import merge_file  # imports the parser
 
@@ -109,7 +109,7 @@ def settle(action: Action) -> Action:
 
 
 def settled_texts(files: PackageFiles, actions: Iterable[Action], merged: Container[str]) -> dict[str, str]:
-    """Return the meaning of each file that gets it, by key, without files that are `merged` with new texts."""
+    """Return the meanings to write into files, by key; files whose new texts are in `merged` are left out."""
     is_settled = (Reason.MERGE, *ORPHANS, Reason.FORGET)
     return {
         action.path: files.text(action.path) or ""
@@ -125,9 +125,9 @@ def _are_generated(last: LastBuild, texts: Iterable[str]) -> bool:
 
 
 def can_join(file: Path, text: str, *, is_united: bool) -> bool:
-    """Return whether the lines of both sides of a list of names may be joined: the file is as git left it.
+    """Return whether a list of names with markers is as git left it: then the lines of both sides may be joined.
 
-    Without git, `is_united` decides: git has united the recorded state.
+    If git does not tell, `is_united` decides: whether git has united the recorded state.
     """
     try:
         Revision(file.parent, "HEAD")
@@ -137,7 +137,7 @@ def can_join(file: Path, text: str, *, is_united: bool) -> bool:
 
 
 def find_sides(file: Path, text: str) -> Sides | None:
-    """Return the versions of a file that git merged: in the merge under way, or in the last one.
+    """Return the versions of a file that git merged, in the present merge or in the last one.
 
     None if there are none, or if somebody has changed the file since.
     """
@@ -156,7 +156,7 @@ def find_sides(file: Path, text: str) -> Sides | None:
 def find_left_records(inputs: Inputs, keys: Iterable[str]) -> dict[str, FileRecord]:
     """Return the records of files that one branch edited and the other deleted, by key.
 
-    Git leaves such a file in the working tree, and unites the recorded states to one without it.
+    Git leaves such a file in the working tree, but the united record does not list it.
     """
     top = Path(git.find_top(inputs.config.root) or "")
     folder = top / ".git"
@@ -195,7 +195,7 @@ def _staged(repository: pygit2.Repository, file: Path, text: str) -> Iterator[Si
         if ours and theirs and entries:
             yield Sides(*texts)
         elif entries and text in texts[1:]:
-            # git puts its merge of a file that both renamed at both paths: each branch has its own version there
+            # if both branches renamed a file, git puts its merge at both paths: each has one branch's own version
             for name in ("HEAD",) if ours else (*_UNDER_WAY, label[1] if label else ""):
                 if (own := _read(name, file)) is not None:
                     yield Sides(own, own, own)
@@ -217,7 +217,7 @@ def _committed(repository: pygit2.Repository, file: Path) -> Iterator[Sides]:
 
 
 def _read(revision: str, file: Path) -> str | None:
-    """Return a file as a commit has it."""
+    """Return the text of a file in a commit; None if the commit lacks it."""
     try:
         return _plain(Revision(file.parent, revision).read(file).decode())
     except (SourceError, UnicodeDecodeError):
@@ -231,13 +231,13 @@ def _plain(text: str) -> str:
 def _is_untouched(text: str, sides: Sides) -> bool:
     """Return whether a text is git's merge of two versions, with the driver or by lines.
 
-    By lines, each side of it has all of its version, and those changes of the other one that touch none of its own. So
-    the way in which git compared them does not matter. Without markers it also has both sides of a conflict.
+    In a merge by lines, each side of a conflict has its whole version, and the changes of the other version that touch
+    none of its own. The test is of these changes, since git may compare lines in several ways.
     """
     from urdfsync.merge.texts import merge_file
 
     readings = markers.read_sides(text)
-    if not any(map(markers.find_markers, readings)):  # else some markers remain
+    if not any(map(markers.find_markers, readings)):  # with nested markers, only the driver's way remains
         is_merged = readings[0] == text
         ours, theirs = (_changes(sides.base, side) for side in sides[1:]) if is_merged else _apart(sides)
         if _changes(sides.ours, readings[0]) <= theirs and _changes(sides.theirs, readings[1]) <= ours:
@@ -272,7 +272,7 @@ def _apart(sides: Sides) -> tuple[_Changes, _Changes]:
 
 
 def _lines(text: str) -> list[str]:
-    """Return the lines of a text; a missing end of the last one does not matter: a merge adds it before a marker."""
+    """Return the lines of a text; a missing line feed at its end does not matter: a merge adds it before a marker."""
     return text.removesuffix("\n").split("\n")
 
 

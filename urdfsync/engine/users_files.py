@@ -13,11 +13,11 @@ from urdfsync.config import FILE_NAME, Config, RobotConfig
 from urdfsync.modelica.files import TooManyFoldersError, class_of_file, files_that_use, modelica_files
 
 _NOT_USERS = (FILE_NAME, "pyvenv.cfg")
-"""Files that make a folder another project, or a virtual environment of Python."""
+"""Names of files that show that a folder is another project, or a virtual environment of Python."""
 
 
 _MOST = 20_000
-"""The most searched folders, which take a second: a stranger's configuration may name the whole disk."""
+"""The most folders to search, which takes a second: a stranger's configuration may name the whole disk."""
 
 
 _MOST_KEPT = 50_000_000
@@ -54,13 +54,13 @@ class UsersFiles(msgspec.Struct, frozen=True, dict=True):
 
     all: Mapping[Path, bytes]
     mentioning: Mapping[Path, bytes]
-    """The files that use the robot, or the class of another such file."""
+    """The files that use the robot, or a class of another file that uses it."""
     is_too_wide: bool = False
     """Whether there are too many folders, so that no file was searched."""
 
     @cached_property
     def tops(self) -> dict[str, Path]:
-        """Return the files or folders of top-level classes, by name; none for a name with several."""
+        """Return the files or folders of top-level classes, by name; a name that several of them have is left out."""
         places_by_name = dict[str, set[Path]]()
         for path in self.all:
             folder = path.parent.parent if path.name == "package.mo" else path.parent
@@ -75,8 +75,8 @@ def find_users_files(
 ) -> UsersFiles:
     """Return the user's Modelica files, and those that mention a name of a robot's package.
 
-    They are below the configuration's folder, `output` and the paths of `users`. Left out are the packages of all
-    robots, also one in `former_folder`, other projects, virtual environments, and unreadable files.
+    They are below the configuration's folder, `output` and the paths of `users`. The packages of all robots are left
+    out, also one in `former_folder`; so are other projects, virtual environments, and unreadable files.
     """
     packages = {str(configured.folder) for configured in config.robots} | {str(former_folder)}
     places = (config.root, robot.output, *robot.users)

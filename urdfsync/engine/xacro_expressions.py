@@ -1,7 +1,7 @@
-"""Evaluates expressions of xacro. They are Python, so their syntax tree is checked before: nothing leads out of it.
+"""Evaluates expressions of xacro. They are Python, so their syntax tree is checked first: they can't reach other code.
 
-Expressions use numbers, texts, lists and dictionaries, and call documented functions of xacro. They read attributes of
-these values only: those of other objects, such as the frame of a generator, lead to all of Python.
+Expressions use numbers, texts, lists and dictionaries, and call documented functions of xacro. They may read attributes
+of these values only: attributes of other objects, such as the frame of a generator, lead to all of Python.
 """
 
 from __future__ import annotations
@@ -26,22 +26,22 @@ _BUILTINS = frozenset(
     "list dict map len str float int bool True False min max round sorted range abs all any complex divmod enumerate "
     "filter frozenset hash isinstance issubclass ord repr reversed slice set sum tuple zip".split()
 )
-"""The functions of xacro's `python`, without `type` and `vars`: these lead out of an expression."""
+"""The functions of xacro's `python`, without `type` and `vars`, by which an expression could reach other code."""
 _VALUES = frozenset(
     {str, int, float, complex, bool, list, dict, tuple, set, frozenset, xacro.YamlListWrapper, xacro.YamlDictWrapper}
 )
-"""Types whose methods only work with values."""
+"""Types whose methods are safe: they work only with values."""
 _HIDDEN = frozenset({"format_map", "mro"})
-"""Public attributes of these that lead to other objects."""
+"""Public attributes of these types that lead to other objects."""
 _GET = "__attribute"
 
 
 class ForbiddenError(Exception):
-    """An expression has something that could lead out of it."""
+    """An expression has a part by which it could reach other code."""
 
 
 class _Reader(ast.NodeTransformer):
-    """Refuses what is not allowed, and has attributes read by `_attribute`."""
+    """Refuses forbidden parts of an expression, and replaces the reading of attributes by calls of `_attribute`."""
 
     def visit(self, node: ast.AST) -> Any:
         """Read a part of an expression. Raises ForbiddenError."""
@@ -52,17 +52,17 @@ class _Reader(ast.NodeTransformer):
         return super().visit(node)
 
     def visit_Name(self, node: ast.Name) -> ast.Name:
-        """Refuse a name of Python's own. With one `_` it can only be a property: nothing else has such a name."""
+        """Refuse a name of Python's own. A name with one `_` is allowed: only a property can have it."""
         _check_name(node.id)
         return node
 
     def visit_arg(self, node: ast.arg) -> ast.arg:
-        """Refuse such a name of an argument."""
+        """Refuse the same names for arguments."""
         _check_name(node.arg)
         return node
 
     def visit_Attribute(self, node: ast.Attribute) -> ast.Call:
-        """Replace `a.b` by a call."""
+        """Replace `a.b` by a call of `_attribute`."""
         if node.attr.startswith("_"):
             raise ForbiddenError(f"the attribute `{node.attr}` is not allowed in an expression")
         arguments: list[ast.expr] = [self.visit(node.value), ast.Constant(node.attr)]
@@ -105,7 +105,7 @@ def _compile(text: str) -> CodeType:
 
 
 def evaluate(text: str, names: MutableMapping[str, Any], _locals: None = None) -> Any:
-    """Evaluate an expression with these names alone. Raises ForbiddenError, and whatever expressions raise."""
+    """Evaluate an expression with these names alone. Raises ForbiddenError, and all errors of the expression."""
     names.update({"__builtins__": {_GET: _attribute}})
     return eval(_compile(text.strip()), names)  # type: ignore[arg-type] # noqa: S307 - `_compile` has checked it
 
@@ -118,7 +118,7 @@ def _substitute(text: str, context: Mapping[str, Mapping[str, str]]) -> str:
 
 
 def install() -> None:
-    """Have xacro evaluate by this module, in this process."""
+    """Make xacro use this module for its expressions, in this process."""
     python = xacro._global_symbols["python"]
     for name in python.keys() - _BUILTINS:
         dict.pop(python, name)

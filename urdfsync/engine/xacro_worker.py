@@ -1,7 +1,7 @@
 """The program that expands one xacro file, within limits; `expansion` starts it.
 
-A file of xacro may be a stranger's. It reads files and environment variables, which are recorded here.
-`xacro_expressions` forbids all else to its expressions.
+A stranger may have written the xacro file. It may read files and environment variables, which are recorded here.
+`xacro_expressions` forbids everything else to its expressions.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ _GRACE = 2
 """Further seconds of CPU time for native code."""
 _PLACE = "place"
 _LONGEST = 500
-"""The most characters of a message: it quotes the expression, which may be a stranger's."""
+"""The most characters of a message: it quotes the expression, which may have any length."""
 _SAID_WHERE = ("in file:", "when processing file:", "when instantiating macro:", "instantiated from:", "included from:")
 """Beginnings of lines in which xacro states its place."""
 
@@ -53,9 +53,9 @@ class Request(msgspec.Struct, frozen=True):
     arguments: Mapping[str, str]
     package_paths: tuple[str, ...]
     seconds: float
-    """CPU time that it may take."""
+    """The CPU time that the expansion may take, in s."""
     memory: int
-    """Bytes that may be allocated."""
+    """The bytes that the expansion may allocate."""
     folder: str = "."
     """The value of `$(cwd)`. The process works elsewhere: PYTHONPATH may have relative entries."""
 
@@ -68,7 +68,7 @@ class Problem(msgspec.Struct, frozen=True):
     file: str = ""
     line: int = 0
     hint: str = ""
-    """A better hint than that of the code."""
+    """A better hint than the usual one for the code."""
 
 
 NOT_UNICODE = Problem(
@@ -96,7 +96,7 @@ class Answer(msgspec.Struct, frozen=True):
     packages: Mapping[str, str] = {}
     """Folders of the ROS packages that were asked for."""
     unknown: tuple[str, ...] = ()
-    """Arguments that nobody asked for."""
+    """Arguments that the source did not ask for."""
     warnings: tuple[str, ...] = ()
     problem: Problem | None = None
 
@@ -242,7 +242,7 @@ def _parse(file: _File) -> Any:
 
 
 def expand(request: Request) -> Answer:
-    """Expand a file as the program `xacro` does, but for the comment at its top. Changes this process for good."""
+    """Expand a file as the program `xacro` does, without the comment at its top. The changes to this process stay."""
     try:
         import xacro
 
@@ -296,9 +296,9 @@ def expand(request: Request) -> Answer:
 
 
 def _raise_at_limit(seconds: float) -> None:
-    """Raise TimeLimitError when `limits` would end the process, so that its place is known.
+    """Raise TimeLimitError when the CPU time is over, so that the message can name the place.
 
-    Native code, in which nothing can be raised, is ended a little later.
+    Python can't raise it within native code; there, `limits` ends the process a little later.
     """
     if sys.platform == "win32":
         return
@@ -379,7 +379,7 @@ def _kind(content: bytes) -> FileKind | None:
 
 
 def _encode(answer: Answer) -> bytes:
-    """Return an answer as JSON; if it is no JSON or too large, an answer with that problem."""
+    """Return an answer as JSON; if it can't be JSON or is too large, an answer with this problem."""
     try:
         content = msgspec.json.encode(answer)
     except UnicodeEncodeError:

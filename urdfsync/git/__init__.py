@@ -1,4 +1,4 @@
-"""Runs git around the working folder. Its index is only read, not even refreshed. Each commit imports this."""
+"""Runs git in the repository around the working folder. It only reads the index, and does not refresh it."""
 
 from __future__ import annotations
 
@@ -66,7 +66,7 @@ class Index:
 def find_top(folder: str | os.PathLike[str]) -> str | None:
     """Return the nearest folder around another, itself included, that has a `.git`; None if there is none.
 
-    A repository without a `.git` is skipped: it may consist of committed files of a stranger. Git never commits or
+    A bare repository, without a `.git`, is skipped: a stranger may have committed its files. Git never commits or
     checks out a `.git`.
     """
     ceilings = os.environ.get("GIT_CEILING_DIRECTORIES", "").split(os.pathsep)

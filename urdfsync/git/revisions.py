@@ -39,7 +39,7 @@ def open_repository(folder: Path) -> pygit2.Repository | None:
     if (top := git.find_top(folder)) is None:
         return None
     try:
-        # discover_repository of libgit2 would take a folder of a stranger's files for a repository
+        # discover_repository of libgit2 may find a bare repository that a stranger has committed as files
         flags = pygit2.enums.RepositoryOpenFlag.NO_SEARCH | pygit2.enums.RepositoryOpenFlag.NO_DOTGIT
         repository = pygit2.Repository(Path(top, ".git"), flags)
     except pygit2.GitError as problem:  # for example, it belongs to another user
@@ -83,7 +83,7 @@ class Revision:
         return content
 
     def holds(self, file: Path) -> bool:
-        """Return whether this repository can have a file of this path, in any revision; a submodule has its own."""
+        """Return whether a revision of this repository can have a file at this path; False for one in a submodule."""
         place = Path(os.path.realpath(file))
         if self._top not in place.parents:
             return False
@@ -91,7 +91,7 @@ class Revision:
         return not any((folder / ".git").exists() for folder in inside)
 
     def contents(self, files: Sequence[Path]) -> Mapping[Path, bytes]:
-        """Return the content of those files that this revision has. Raises SourceError if a clone lacks one."""
+        """Return the contents of the files that this revision has. Raises SourceError if the clone lacks a content."""
         import pygit2
 
         contents = {}
@@ -110,7 +110,7 @@ class Revision:
         return contents
 
     def locate(self, dependencies: Sequence[Dependency], scratch: Path) -> Sequence[Dependency]:
-        """Replace candidates by this revision's files; files that no revision can have stay.
+        """Replace candidates by this revision's files; candidates outside of the repository stay.
 
         Files that are missing or different on disk are written to `scratch`.
         """
@@ -131,7 +131,7 @@ class Revision:
 
 
 def _is_on_disk(path: Path, content: bytes) -> bool:
-    """Return whether the file has this content, or the content for a pointer of Git LFS."""
+    """Return whether the file has this content; if it is a pointer of Git LFS, the content that it points to."""
     try:
         now, pointer = read_unrecorded(path), _LFS_POINTER.match(content)
     except OSError:

@@ -21,7 +21,7 @@ from urdfsync.modelica.tree import (
 )
 
 _ITEM = re.compile(r" #\d+$")
-"""The end of the key of a thing with a number instead of a name."""
+"""Matches the end of the key of a thing that has a number instead of a name."""
 
 
 class Edit(msgspec.Struct, frozen=True):
@@ -30,7 +30,7 @@ class Edit(msgspec.Struct, frozen=True):
     element: str
     """The element, such as "component `body`"."""
     part: str
-    """The part of it, such as `inertial.mass`, "type" or "layout"; empty for all of it."""
+    """The changed part of it, such as `inertial.mass`, "type" or "layout"; empty for the whole element."""
     base: str | None
     mine: str | None
 
@@ -48,8 +48,8 @@ class Edit(msgspec.Struct, frozen=True):
 def find_edits(base: str, mine: str) -> list[Edit] | None:
     """Return the differences of two versions of a class; None if a text is no class of Modelica.
 
-    Blanks are no difference. Neither is the order of declarations, except of the inputs and outputs of a function. All
-    new comments are one difference.
+    Blanks are no difference. The order of declarations is no difference either, except that of a function's inputs and
+    outputs. All new comments together are one difference.
     """
     base_tree, mine_tree = read_tree(base), read_tree(mine)
     if not (base_tree and mine_tree):
@@ -75,7 +75,7 @@ def _edit(path: tuple[str, ...], old: Node | None, new: Node | None) -> Edit:
 def _differences(
     path: tuple[str, ...], old: Node, new: Node
 ) -> Iterator[tuple[tuple[str, ...], Node | None, Node | None]]:
-    """Yield the innermost different things, with the keys around them."""
+    """Yield both versions of each innermost thing that differs, with its keys from the outermost thing on."""
     if is_same(old, new):
         return
     if not (isinstance(old, SyntaxTree) and isinstance(new, SyntaxTree) and old.kind is new.kind) or (

@@ -2,15 +2,16 @@
 
 A thing is an element, an equation, a modifier or a part of one (`urdfsync.modelica.tree`).
 
-- An addition, a removal or a change by one side is done; what both added stays, the user's first.
-- Things that both sides changed are merged part by part; a part of which both say something else is a contradiction.
-- Things stand in the generated order. What the user added or moved stands behind what precedes it in his text.
+- A change, an addition or a removal by one side is taken. If both sides add things, all stay, the user's first.
+- A thing that both sides changed is merged part by part; a part that they changed differently is a contradiction.
+- Things stand in the generated order. A thing that the user added or moved stands behind its predecessor in his text.
 - Arrays, and the inputs and outputs of a function, are sequences (`urdfsync.merge.lines`).
-- Of blanks and comments, the user's stay where he changed them.
-- Rounding by the export is no change, where the user changed the number.
-- Layout is the user's where he changed some of it (`urdfsync.merge.layout`).
+- Where the user changed blanks or comments, his stay.
+- Where the user changed a number, rounding by the export is no change.
+- Where the user changed some of the layout, his layout stays (`urdfsync.merge.layout`).
 
-Between two people, comments and layout are content: what one side changed is taken, of comments by statement.
+Between two people, comments and layout count as content: a change by one side is taken. Comments are merged statement
+by statement.
 """
 
 from __future__ import annotations
@@ -42,7 +43,7 @@ from urdfsync.modelica.tree import (
 from urdfsync.spelling import same_count
 
 ROUNDING = 1e-6
-"""Numbers that differ by less, relative to the larger one, are the same number with other digits."""
+"""Two numbers are equal up to rounding if they differ by less than this, relative to the larger one."""
 
 _ROLES = (
     "within prefixes word head type name sizes connect equation import external components arguments sign expression "
@@ -52,7 +53,7 @@ _ROLES = (
 _COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
 _BLOCKS = frozenset({"if", "for", "when"})
 _MOVABLE = frozenset({"arguments", "annotation"})
-"""Lists without a meaning if they are empty."""
+"""Lists that mean nothing if they are empty."""
 
 
 Path: TypeAlias = tuple[str, ...]
@@ -94,7 +95,7 @@ def _merge(path: Path, base: Node | None, mine: Node, generated: Node, users_lay
 
 
 def _merge_statement(path: Path, base: Node | None, mine: Node, other: Node, users_layout: Layout) -> list[Piece]:
-    """Merge a part of a class of two people, with its comments: a merge keeps those of the first side."""
+    """Merge one part of the class of two people, with its comments: `_merge` would keep only the first side's."""
     merged = _merge_comments(base.text if base else "", mine.text, other.text)
     if merged is None:
         return [_contradiction(path, base, mine, other)]
@@ -120,7 +121,7 @@ def _has_body(node: Node) -> bool:
 
 
 def _merge_whole(path: Path, base: Node | None, mine: Node, generated: Node) -> list[Piece]:
-    """Merge a thing that is taken whole from one side; blocks, algorithm sections and strings merge by lines."""
+    """Merge a thing without parts: take it whole from one side, or merge blocks, algorithms and strings by lines."""
     is_users = base is None or not is_same(base, mine)
     has_lines = all("\n" in node.text for node in (mine, generated)) and (not is_users or _has_lines(path, generated))
     if base and has_lines and "\n" in base.text:
@@ -139,7 +140,7 @@ def _merge_whole(path: Path, base: Node | None, mine: Node, generated: Node) -> 
 
 
 def _has_lines(path: Path, node: Node) -> bool:
-    """Whether the lines of a text are things of their own; any other text has one meaning."""
+    """Whether a text merges by lines; any other text has one meaning."""
     if not isinstance(node, Leaf):
         return False
     is_block = path[-1] == "equation" and node.words[0] in _BLOCKS
@@ -187,7 +188,7 @@ class _Item(msgspec.Struct, eq=False):
 def _merge_parts(
     path: Path, base: SyntaxTree | None, mine: SyntaxTree, generated: SyntaxTree, users_layout: Layout
 ) -> list[Piece]:
-    """Merge things that have parts."""
+    """Merge a thing that has parts."""
     trees = base or SyntaxTree(mine.kind, ()), mine, generated
     is_two_people, is_class = users_layout is None, _has_body(mine)
     if mine.kind is TreeKind.BODY:
@@ -237,7 +238,7 @@ def _merge_parts(
             pieces = [_contradiction((*path, part.key), old.node, None, part.node)]
         items[part.key] = _Item(part.key, part.before, pieces, part.after, part.remark)
     order = sequence if sequence and mine.kind is TreeKind.ARRAY else _order(trees, items)
-    # an element that one side moved and the other removed still has a place in the order
+    # the order may name an element that one side moved and the other removed
     if sequence is None or set(order) - items.keys() or [key for key in order if key in sequence] != sequence:
         place = (*path, "order") if mine.kind is TreeKind.BODY else path
         return [_contradiction(place, base, mine, generated)]
@@ -256,13 +257,13 @@ def _sequence(trees: Sequence[SyntaxTree]) -> list[str] | None:
     base, mine, generated = keys
     if mine == base or generated in (base, mine):
         return generated if mine == base else mine
-    # if an array has equal items, it is unknown which one stayed
+    # if an array has equal items, it is unknown which of them stayed
     has_repetitions = kind is TreeKind.ARRAY and not all(key.endswith(" #1") for key in itertools.chain(*keys))
     return None if has_repetitions else merge_sequences(base, mine, generated)
 
 
 def _is_unchanged(key: str, base: SyntaxTree, side: SyntaxTree, users_layout: Layout) -> bool:
-    """Whether a side leaves a thing of base and its section unchanged.
+    """Whether one side left a thing of base, and the thing's section, unchanged.
 
     Layout and comments count only between two people.
     """
@@ -365,7 +366,7 @@ def append_blanks(pieces: list[Piece], blanks: str) -> None:
     last = pieces[-1] if pieces else ""
     if isinstance(last, str) and last.endswith("\n") and re.match(r"\s*\n", blanks):
         pieces[-1] = last[:-1]  # the end of a comment
-    # one comment after the other: a pattern for all of them would try each end of a comment with each end of the others
+    # match one comment after the other: a single pattern would try all combinations of their ends
     *_, comment = "", *_COMMENT.findall(blanks)
     runs_on = comment.startswith("//") and blanks.endswith(comment)
     pieces.append(f"{blanks}\n" if runs_on else blanks)
@@ -382,7 +383,7 @@ def _sections_without_parts(keys: Sequence[str]) -> set[str]:
 
 
 def _space_items(mine: SyntaxTree, items: Sequence[_Item]) -> None:
-    """Give items of a list the blanks that the user's list has between its items."""
+    """Give the items of a merged list the blanks that stand between the items of the user's list."""
     usual = next((part.before for part in mine.parts[1:] if not part.before.strip()), None)
     between = (part.after for part in mine.parts[:-1] if part.after.isspace())
     behind = next(between, "" if mine.separator == "," else " ")

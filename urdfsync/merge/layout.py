@@ -1,7 +1,7 @@
 """Finds places for new things in a diagram that the user has arranged.
 
-A new thing gets its generated place beside its neighbour, or the nearest free one. A new line goes from one end to the
-other with a bend in the middle. Lengths are in units of the diagram; a place or a shift is a complex number.
+A new thing gets its generated place relative to its neighbour, or the nearest free place. A new line goes from one end
+to the other with a bend in the middle. Lengths are in units of the diagram; a place or a shift is a complex number.
 """
 
 from __future__ import annotations
@@ -17,16 +17,16 @@ from typing import TypeAlias
 from urdfsync.modelica.tree import Node, Part, SyntaxTree, is_same
 
 PICTURES = frozenset({"Icon", "Diagram"})
-"""Annotations with graphics: the user's layout also gets the additions of the export."""
+"""Annotations with graphics: even if the user's layout stays, it gets graphics that the export adds."""
 _DIAGRAM, _ICON = frozenset({"transformation", "Line", "Diagram"}), frozenset({"iconTransformation", "Icon"})
-"""The annotations that belong together in the two layers of a class."""
+"""The annotations that belong together, for each of the two layers of a class."""
 
 _STEP = 20.0
 """Step between candidate places."""
 _REACH = 40
 """The most steps from the wanted place to a candidate."""
 _MOST_COMPARISONS = 1_000_000
-"""The most comparisons of two boxes, which take a second. Later new things may overlap others."""
+"""The most comparisons of two boxes, which take a second. After these, new things may overlap others."""
 _NUMBER = re.compile(r"[-+]?\d+(?:\.\d*)?(?:[eE][-+]?\d+)?")
 _PLACEMENTS = {
     place: re.compile(rf"\b{place}\s*\(((?:[^()]|\([^()]*\))*)\)") for place in ("transformation", "iconTransformation")
@@ -38,9 +38,9 @@ Box: TypeAlias = tuple[complex, complex]
 
 
 def find_users_layout(base: SyntaxTree, mine: SyntaxTree) -> frozenset[str]:
-    """Return the annotations with the user's layout: all of the diagram, or of the icon, if he moved one thing.
+    """Return the annotations with the user's layout: all of the diagram, or of the icon, if he moved a thing in it.
 
-    An addition is no move.
+    A thing that he added does not count as moved.
     """
     moved: set[str] = set()
     for part in base.parts:
@@ -66,9 +66,9 @@ def _has_all(mine: Node, base: Node) -> bool:
 
 
 def arrange(mine: SyntaxTree, generated: SyntaxTree, users_layout: Collection[str]) -> dict[str, str]:
-    """Return the texts of those parts of a generated body that `mine` lacks, by key, with places that fit `mine`.
+    """Return the parts of a generated body that `mine` lacks, by key: texts with places that fit `mine`.
 
-    The annotations `users_layout` have the user's layout.
+    `users_layout` are the annotations whose layout is the user's.
     """
     lines = {part.key: ends for part in generated.parts if (ends := _ends(part))}
     shifts = {place: _shifts(mine, generated, lines, place) for place in _PLACEMENTS if place in users_layout}
@@ -103,7 +103,7 @@ def _shifts(
     comparisons, previous = _MOST_COMPARISONS, ""
     for key, (low, high) in planned.items():
         if not mine.find(key):
-            # shifted with the part that it is connected to, else with the part before it
+            # shift a new part like the part that it is connected to, else like the part before it
             neighbour = next((other for other in neighbours[key] if other != key and other in shifts), previous)
             wanted = shifts.get(neighbour, 0)
             shifts[key] = wanted
@@ -125,7 +125,7 @@ def _touch(box: Box, other: Box) -> bool:
 
 @functools.cache
 def _steps() -> list[complex]:
-    """Return the shifts to the places around a place, the nearest first, and among these the one below."""
+    """Return the shifts to the places around a place, the nearest first; of equally near ones, the lower first."""
     reach = [number * _STEP for number in range(-_REACH, _REACH + 1)]
     ways = itertools.starmap(complex, itertools.product(reach, reach))
     return sorted(ways, key=lambda way: (abs(way.real) + abs(way.imag), way.imag))
@@ -135,7 +135,7 @@ def _steps() -> list[complex]:
 
 
 def _inside(node: Node, keys: Sequence[str]) -> Node | None:
-    """Return the value in nested lists of modifiers: of the element's `annotation`, then of the names in it."""
+    """Return a value in nested lists of modifiers; `keys` lead to it, from the element's `annotation` on."""
     inner: Node | None = node
     for key in keys:
         arguments = inner.find("arguments") if isinstance(inner, SyntaxTree) else None

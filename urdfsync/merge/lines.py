@@ -1,4 +1,4 @@
-"""Compare sequences with the algorithm of git, by libgit2, and merge them: lines with the result of `git merge-file`.
+"""Compares sequences with git's algorithm, by libgit2, and merges them; for lines, as `git merge-file` does.
 
 A change of one side is taken, equal changes are taken once, and overlapping or touching changes are a contradiction.
 """
@@ -14,14 +14,14 @@ class Contradiction(NamedTuple):
     """A thing with different texts on the two sides; the text is empty on a side without the thing."""
 
     path: tuple[str, ...]
-    """The keys of the things around it, from the outermost one, and its own; empty for lines."""
+    """The keys that lead to the thing, from the outermost thing to itself; empty for lines."""
     base: str
     mine: str
     generated: str
 
     @property
     def swapped(self) -> Contradiction:
-        """The same with the sides in each other's place."""
+        """The same contradiction with the sides exchanged."""
         return self._replace(mine=self.generated, generated=self.mine)
 
 
@@ -54,7 +54,7 @@ def split_lines(text: str) -> list[str]:
 
 
 def merge_lines(base: str, mine: str, generated: str) -> list[Piece]:
-    """Merge texts line by line. Kinds of line endings are no difference; each line that stays has its own."""
+    """Merge texts line by line. Kinds of line endings are no difference; a line that stays keeps its line ending."""
     written, new_written = split_lines(mine), split_lines(generated)
     old, own, new = (split_lines(text.replace("\r\n", "\n")) for text in (base, mine, generated))
     pieces: list[Piece] = []
@@ -93,7 +93,7 @@ def merge_sequences(base: Sequence[str], mine: Sequence[str], generated: Sequenc
 def merge_order(base: Sequence[str], mine: Sequence[str], generated: Sequence[str]) -> list[str]:
     """Return all items of `mine` and `generated`, in the generated order.
 
-    An item that the user added or moved stands behind its predecessor in `mine`, or first.
+    An item that the user added or moved stands behind its predecessor in `mine`; without one, it is the first.
     """
     old, own = set(base), set(mine)
     before, after = [key for key in base if key in own], [key for key in mine if key in old]
@@ -112,10 +112,10 @@ def merge_order(base: Sequence[str], mine: Sequence[str], generated: Sequence[st
 
 
 def compare(old: Sequence[Hashable], new: Sequence[Hashable]) -> list[Change]:
-    """Return the changes that make `new` of `old`, in order, with a common item between any two.
+    """Return the changes that turn `old` into `new`, in order; two changes have a common item between them.
 
-    Of several shortest scripts it is git's own. Like git, this leaves out frequent items, and gives up on the shortest
-    script of long sequences with little in common.
+    Of several shortest lists of changes, git's is returned. As in git, the list may be longer than necessary if items
+    are frequent, or if long sequences have little in common.
     """
     # importing pygit2 takes 55 ms and 20 MB, which only a conflict needs ("one mass changed" in docs/speed.md)
     import pygit2
@@ -127,7 +127,7 @@ def compare(old: Sequence[Hashable], new: Sequence[Hashable]) -> list[Change]:
     )
     changes = []
     for hunk in pygit2.Patch.create_from(old_text.encode(), new_text.encode(), context_lines=0).hunks:
-        # numbered from 1; an empty range is named by the line before it
+        # libgit2 numbers lines from 1, and names an empty range by the line before it
         start, new_start = hunk.old_start - (hunk.old_lines > 0), hunk.new_start - (hunk.new_lines > 0)
         changes.append(Change(start, start + hunk.old_lines, new_start, new_start + hunk.new_lines))
     return changes

@@ -1,7 +1,7 @@
 """Pairs things of three versions of a body whose names differ.
 
-The text of equations, connections and base classes is their name. If both sides removed one of base, the thing in its
-place is its new version. Otherwise both new ones would stay, side by side.
+Equations, connections and base classes have their texts as keys, so a changed thing looks removed and added. If both
+sides removed a thing of base, this finds its new version on each side. Otherwise both new versions would stay.
 """
 
 from __future__ import annotations
@@ -14,9 +14,9 @@ import msgspec
 from urdfsync.modelica.tree import Leaf, Part, SyntaxTree, is_equation, key_by_whole_equation
 
 _ALIKE = 0.5
-"""Least share of common words of an equation and its new version."""
+"""The least share of words that an equation and its new version have in common."""
 _MOST_COMPARISONS = 400_000
-"""The most pairs of equations that are compared: a second."""
+"""The most pairs of equations that are compared, which takes a second."""
 
 
 class TooManyPairsError(Exception):
@@ -45,7 +45,7 @@ class _Candidates:
 
     def __init__(self, parts: Sequence[Part]) -> None:
         self.taken: dict[str, str] = {}
-        """The base's keys of new versions, by the side's keys."""
+        """Keys of the new versions that were found: the key in base by the side's key."""
         self._by_word = defaultdict[tuple[str, str], deque[Part]](deque)
         self._words = {part.key: _words(part) for part in parts if is_equation(part)}
         for part in parts:

@@ -15,11 +15,11 @@ _OPEN, _CLOSED = ("(", "[", "{"), (")", "]", "}")
 
 
 def rename(base: str, other: str, names: Mapping[str, str], *, modifiers: bool = True) -> tuple[str, str]:
-    """Return both texts with new names; `names` has them by the old ones.
+    """Return both texts with new names; `names` has the new names by the old ones.
 
-    A name without a dot before it is renamed if base has it without a dot, too. A name behind a dot is renamed if base
-    has it behind the same word. So `robot.elbow` follows, and the user's own variable `elbow` does not. Names of
-    modifiers belong to another class: they follow if base has them, too; without `modifiers` they stay.
+    A name without a dot before it is renamed if base has it without a dot, too. A name after a dot is renamed if base
+    has it after the same word. So `robot.elbow` is renamed, and the user's own variable `elbow` is not. Names of
+    modifiers belong to another class: they are renamed if base has them, too; without `modifiers`, they stay.
     """
     used = {(before, token.text) for before, token in _uses(base) if token.text in names}
     places = {place for place, _ in used} - (set() if modifiers else {_MODIFIER})
@@ -39,7 +39,7 @@ def rename(base: str, other: str, names: Mapping[str, str], *, modifiers: bool =
 def without_clashes(names: Mapping[str, str], mine: str) -> dict[str, str]:
     """Return the new names that are free in the user's text, by the old ones.
 
-    A new name is not free if the text has it beside the old one, and does not rename it.
+    A new name is not free if the text has both it and the old name, and the new name is not renamed itself.
     """
     alone = {token.text for before, token in _uses(mine) if not before}
     free = dict(names)
@@ -50,9 +50,9 @@ def without_clashes(names: Mapping[str, str], mine: str) -> dict[str, str]:
 
 
 def find_uses_of(text: str, names: Mapping[str, str]) -> Iterator[tuple[str, int]]:
-    """Yield names of other classes' components, or of classes in others, with their places in the text.
+    """Yield the uses of names that belong to other classes, their components or classes, with their places in the text.
 
-    A text that extends classes uses inherited names alone, too.
+    If the text extends classes, a name without a dot may be an inherited one, and counts, too.
     """
     uses = list(_uses(text))
     extends = any(token.text == "extends" for _, token in uses)
@@ -60,7 +60,7 @@ def find_uses_of(text: str, names: Mapping[str, str]) -> Iterator[tuple[str, int
 
 
 def find_renamed(base: SyntaxTree, mine: SyntaxTree, generated: SyntaxTree) -> dict[str, str]:
-    """Return the components that the user renamed, new names by old: pairs that are equal in all else and unique."""
+    """Return the components that the user renamed, new names by old ones: unique pairs that differ only in name."""
     old, new, others = (_components(tree) for tree in (base, mine, generated))
     removed = {name: _likeness(part, name) for name, part in old.items() if name not in new}
     added = {name: _likeness(part, name) for name, part in new.items() if name not in old and name not in others}
@@ -88,7 +88,7 @@ def _likeness(part: Part, name: str) -> Hashable:
 
 
 def _uses(text: str) -> Iterator[tuple[str, Token]]:
-    """Yield each token behind the name before its dot; else behind an empty text, or `_MODIFIER` for a modifier."""
+    """Yield each token with the name before its dot; without a dot, with an empty text, or with `_MODIFIER`."""
     tokens, _ = lex(text)
     depth = 0
     for number, token in enumerate(tokens):

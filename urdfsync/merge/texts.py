@@ -18,7 +18,7 @@ from urdfsync.modelica.parser import parse
 from urdfsync.modelica.tree import KnownStatements, UnreadableError, find_faults, read_tree
 
 MARKERS = ("<<<<<<< mine", "mine"), ("||||||| base", "base"), ("=======", "generated"), (">>>>>>> generated", "")
-"""The markers before each version of a contradiction, and behind the last one."""
+"""The markers before each version of a contradiction, and the marker after the last version."""
 
 
 class Merge(msgspec.Struct, frozen=True):
@@ -33,23 +33,23 @@ class Merge(msgspec.Struct, frozen=True):
     flaw: str = ""
     """Why the merged text is wrong Modelica, as the end of a sentence that begins with "the merge"."""
     with_mine: str | None = None
-    """The merged text with the user's side of each contradiction; None without one, or if it is wrong Modelica."""
+    """The merged text with the user's side of each contradiction; None without any, or if it is wrong Modelica."""
     with_generated: str | None = None
-    """The merged text with the generated side of each contradiction; None without one, or if it is wrong Modelica."""
+    """The merged text with the generated side of each contradiction; None without any, or if it is wrong Modelica."""
 
     @property
     def rejected(self) -> Merge:
-        """The same merge, for reading only."""
+        """The same merge without texts to apply: people can only read its proposal."""
         return msgspec.structs.replace(self, text=None, with_mine=None, with_generated=None)
 
 
 def merge(
     base: str, mine: str, generated: str, *, is_modelica: bool = False, names: Mapping[str, str] | None = None
 ) -> Merge:
-    """Apply the changes from `base` to `generated` to `mine`; `names` has new names by the old ones.
+    """Apply to `mine` the changes from `base` to `generated`; `names` has new names by the old ones.
 
-    Line endings are no difference. Lines of `mine` keep theirs, others get the most frequent one of `mine`. With
-    `is_modelica`, classes are merged by their elements, and a merge is checked for flaws that neither side has.
+    Line endings are no difference. Lines of `mine` keep theirs; other lines get the most frequent ending of `mine`.
+    With `is_modelica`, classes are merged by their elements, and the merge is checked for flaws that neither side has.
     """
     if names:
         base, mine = rename(base, mine, without_clashes(names, mine))
@@ -148,7 +148,7 @@ def _merge_classes(texts: Sequence[str], statements: KnownStatements, *, is_expo
 
 
 def _with_markers(pieces: Sequence[Piece], ending: str, markers: Sequence[tuple[str, str]]) -> str:
-    """Return the pieces as one text; lines with contradictions in all versions with a marker."""
+    """Return the pieces as one text; a line with a contradiction is there in all versions, each after its marker."""
     result: list[str] = []
     row: list[Piece] = []
     for piece in pieces:
@@ -194,8 +194,8 @@ def _version(row: Sequence[Piece], side: str) -> str:
 def find_flaw(text: str, sides: Sequence[str], statements: KnownStatements | None = None) -> str:
     """Return why a merged text is wrong Modelica; empty if it is right.
 
-    Names and types are not checked. The `statements` of the sides are not read again. A fault is no flaw if a side has
-    it as often as the merge.
+    Names and types are not checked. The known `statements` of the sides are not read again. A fault is no flaw if one
+    side has it as often as the merge.
     """
     faults = [*find_markers(text), *find_faults(text, statements or {})]
     counts = Counter[str]()

@@ -1,4 +1,4 @@
-"""Things in a class, and contradictions about them, in words."""
+"""Describes things in a class, and contradictions about them, in words."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ from urdfsync.merge.lines import Contradiction
 from urdfsync.spelling import same_count
 
 _LONGEST = 60
-"""Characters of a text that a sentence quotes."""
+"""The most characters of a text that a sentence quotes."""
 _SILENT = frozenset("body value expression definition import components".split())
-"""Parts without a name: the things in them have names."""
+"""Parts that words do not name, since the things in them have names."""
 _ROLES = {
     "annotation": "annotation",
     "arguments": "modifiers",
@@ -56,7 +56,7 @@ def describe(contradiction: Contradiction) -> str:
     elif not contradiction.generated:
         told = f"you changed {what}, the export removes it"
     elif not contradiction.base:
-        is_named = part.endswith(contradiction.path[-1])  # the texts begin with its name
+        is_named = part.endswith(contradiction.path[-1])  # then the texts begin with the name
         lead = part.removesuffix(contradiction.path[-1]) if is_named else f"{part} " if part else ""
         told = f"you added `{lead}{mine}`, the export `{lead}{generated}`"
     elif is_value:

@@ -15,11 +15,11 @@ ClassName: TypeAlias = tuple[str, ...]
 PACKAGE_FILE = "package.mo"
 NOT_CLASSES = "Resources"
 _NO_CODE = re.compile(rb"('(?:[^'\\\n]|\\.)*')|\"(?:[^\"\\]|\\.)*\"|//[^\n]*|/\*.*?\*/", re.DOTALL)
-"""Strings and comments; quoted names, which may look like them, are a group."""
+"""Matches strings and comments; also quoted names, which may look like these, as a group."""
 
 
 def class_path(file: PurePosixPath) -> PurePosixPath:
-    """Return the path of a stored class, without suffix: of a `package.mo` that of its folder."""
+    """Return the path of a stored class, without suffix; for a `package.mo`, the path of its folder."""
     return file.parent if file.name == PACKAGE_FILE else file.with_suffix("")
 
 
@@ -37,9 +37,9 @@ def modelica_files(
 ) -> Iterator[str]:
     """Yield all files of Modelica below folders, each once, but for links, hidden folders and `Resources`.
 
-    Folders below them are left out, too, if they hold a file of one of the names `others`, or if `left_out` has them.
-    All read files and folders are recorded as dependencies. Unreadable ones are left out. Raises TooManyFoldersError
-    beyond `most` folders.
+    A folder below them is also left out if it holds a file with a name in `others`, or if it is in `left_out`. All
+    files and folders that are read are recorded as dependencies. Unreadable folders are left out. Raises
+    TooManyFoldersError beyond `most` folders.
     """
     tops, seen = [*map(str, folders)], set[str]()
     waiting = tops[::-1]
@@ -66,7 +66,7 @@ def modelica_files(
 
 
 def files_that_use(files: Mapping[Path, bytes], names: Iterable[str]) -> dict[Path, bytes]:
-    """Return the files that use one of these names, or the class of another such file, by that file's name.
+    """Return the files that use one of these names, or a class of another file that does, by the name of its file.
 
     Strings and comments do not count: a library of words about robots is no user.
     """

@@ -30,7 +30,7 @@ _WORD = 2
 STATEMENT = re.compile(
     rf"""(?:[^;"'/]++|{_STRING}|{_QUOTED_NAME}|'|//[^\n]*+|/\*.*?\*/|/(?![/*]))*+;""", re.VERBOSE | re.DOTALL
 )
-"""All up to the next semicolon, unless a string or comment before it has no end."""
+"""Matches a text up to the next semicolon, unless a string or comment before it has no end."""
 _ENDLESS_STRING = re.compile(r'"(?:[^"\\]++|\\.)*+\\?', re.DOTALL)
 _ESCAPE = re.compile(r"""\\(['"?\\abfnrtv]|(?P<meaningless>.))""", re.DOTALL)
 
@@ -41,7 +41,7 @@ class Fault(NamedTuple):
     reason: str
     line: int
     is_repetition: bool = False
-    """Whether it is only a repetition: then the text could be read."""
+    """Whether it is only a repetition, which does not hinder the reading."""
 
 
 class Token(NamedTuple):
@@ -57,7 +57,7 @@ class Lexer:
     def __init__(self, text: str) -> None:
         self.text = text
         self.words: list[str] = []
-        """The tokens up to here; at the end of the text an empty one."""
+        """The tokens that were read so far; an empty token stands for the end of the text."""
         self.starts: list[int] = []
         """Where each token begins in the text."""
         self.position = int(text.startswith("\ufeff"))

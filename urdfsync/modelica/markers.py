@@ -1,4 +1,4 @@
-"""Merge markers of version control: git's have seven signs, nested ones more."""
+"""Merge markers of version control: git's have seven signs, nested markers have more."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ def find_markers(text: str, signs: str = "<>") -> list[tuple[str, int]]:
 
 
 def read_sides(text: str) -> tuple[str, str]:
-    """Return the text with our lines, and with their lines between the outermost markers."""
+    """Return two texts: between the outermost markers, one has only our lines, the other has only their lines."""
     pattern = _conflict(_size(text))
     return pattern.sub(r"\g<ours>", text), pattern.sub(r"\g<theirs>", text)
 

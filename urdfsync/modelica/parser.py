@@ -154,7 +154,7 @@ class Parser(Lexer):
         return Name((text,), self.line_at(start), starts=(start,))
 
     def _take_names(self, mark: int) -> tuple[Name, ...]:
-        """Return the names that were read after the first so many, and drop them."""
+        """Return the names that were read after the first `mark`, and drop them."""
         if len(self._names) == mark:
             return ()
         names = tuple(self._names[mark:])
@@ -162,7 +162,7 @@ class Parser(Lexer):
         return names
 
     def _leave_out(self, indices: set[str], mark: int) -> None:
-        """Remove the indices of a loop from the names that were read after the first so many."""
+        """Remove the indices of a loop from the names that were read after the first `mark`."""
         names = self._take_names(mark)
         self._names += (name for name in names if name.is_global or name.parts[0] not in indices)
 
@@ -172,7 +172,7 @@ class Parser(Lexer):
         self._depth += 1
 
     def _list(self, opening: str = "(", closing: str = ")", *, separators: str = ",") -> Iterator[None]:
-        """Yield before each item of a list in brackets; it may be empty."""
+        """Yield once before each item of a list in brackets, which may be empty."""
         self._expect(opening)
         self._enter()
         if self.word != closing:
@@ -205,7 +205,7 @@ class Parser(Lexer):
     # --- for the tree (`urdfsync.modelica.tree`), which overrides these ---------------------------------------------
 
     def _mark(self) -> int:
-        """Return a `mark` for `_note`, which then puts all parts that are noted meanwhile into its part."""
+        """Return a `mark` for `_note`: the part that it notes then contains all parts that are noted after the mark."""
         return 0
 
     def _note(self, key: str, start: int, mark: int | None = None) -> None:

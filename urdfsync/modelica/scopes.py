@@ -1,8 +1,8 @@
 """Resolves names in Modelica classes: scopes, inheritance, imports, modifiers and redeclarations.
 
-It follows chapters 5 and 7 of the language specification 3.6. A name is an element or missing. An unavailable class is
-`OPAQUE`: it has any element. A redeclared element has the parts of its old, its constraining and its new type. This is
-more than the language allows, so a name that is reported as missing is missing.
+It follows chapters 5 and 7 of the language specification 3.6. A name means an element, or is missing. An unavailable
+class is `OPAQUE`: it counts as having every element. A redeclared element has the parts of its old, its constraining
+and its new type. The language allows less, so a name that is reported as missing really is.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ _INTERFACES = {
 }
 """The components of the Modelica Standard Library classes that UrdfSync extends: builds do not read that library."""
 INTERFACES = {name: predefined(".".join(name), names.split()) for name, names in _INTERFACES.items()}
-"""These as classes, by their full names."""
+"""The same classes as nodes, by their full names."""
 _DEEPEST = 40
 """The deepest chain of lookups: a longer one is a circle."""
 
@@ -52,7 +52,7 @@ class Element(NamedTuple):
     """A named thing: a component, a class, a literal, an attribute, or a part of the language."""
 
     types: Types
-    """The possible classes of a component, its present one first; of a class, its possible meanings."""
+    """For a component its possible classes, the present one first; for a class its possible meanings."""
     is_component: bool = False
 
 
@@ -63,7 +63,7 @@ class Missing(NamedTuple):
     types: Types = ()
     """The classes that lack it; empty for the first part, which was looked for in all scopes."""
     is_certain: bool = True
-    """False if one of the classes on the way extends an unavailable one."""
+    """False if one of the classes extends an unavailable class, which may have the name."""
     number: int = 0
     """Number of the part in the name, from 0."""
 
@@ -80,7 +80,7 @@ class Scopes:
         self._sources = sources
         self._tops: dict[str, Node | None] = {}
         self._resolving: frozenset[Node] = frozenset()
-        """Classes whose base classes are being resolved: inherited elements do not count there."""
+        """Classes whose base classes are being resolved: meanwhile their inherited elements do not count."""
         self._depth = 0
 
     def node(self, name: Sequence[str]) -> Node | None:
@@ -167,13 +167,13 @@ class Scopes:
             return ()
         with self._without_bases(node):
             types = self._bases(node)
-        if not self._resolving:  # during the resolution of a class around it, a name may only seem to be missing
+        if not self._resolving:  # while a class around it is being resolved, a name may only seem to be missing
             node.bases = types
         return types
 
     @contextlib.contextmanager
     def _without_bases(self, node: Node) -> Iterator[None]:
-        """Inside, names are not looked for in inherited elements."""
+        """Inside of the `with` block, names are not looked for in inherited elements."""
         before = self._resolving
         self._resolving = before | {node}
         try:
@@ -182,7 +182,7 @@ class Scopes:
             self._resolving = before
 
     def names_in(self, types: Types) -> dict[str, bool]:
-        """Return the names of the known elements of classes, inherited ones included; whether each is a class."""
+        """Return the names of the known elements of classes, inherited ones included, and whether each is a class."""
         names: dict[str, bool] = {}
         waiting, seen = [type_.node for type_ in types], {OPAQUE}
         while waiting:
@@ -197,7 +197,7 @@ class Scopes:
         return names
 
     def names_around(self, scope: Node | None) -> dict[str, bool]:
-        """Return the known simple names that can be used in a class; whether each is that of a class."""
+        """Return the known simple names that can be used in a class, and whether each names a class."""
         names = dict.fromkeys(self._sources.names_in(()), True)
         while scope is not None:
             for clause in scope.definition.imports:

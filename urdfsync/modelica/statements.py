@@ -25,7 +25,7 @@ _SEEN_BY_OTHERS = re.compile(r"\b(?:redeclare|uses)\b")
 
 
 _LONGEST = 1_000_000
-"""The most characters of a text to read: more take longer than 3 s."""
+"""The most characters that are read of a text: more would take longer than 3 s."""
 TOO_LONG = StoredText([Fault(f"has more than {_LONGEST:,} characters of yours", 1)])
 """Stands for a text with more characters to read."""
 
@@ -34,7 +34,7 @@ class Difference(NamedTuple):
     """The difference between an edited text and the generated one."""
 
     same: frozenset[str]
-    """The plain statements that both have, and that mean the same apart from the names."""
+    """The plain statements that both texts have, and that mean the same unless a name has another meaning."""
     names: frozenset[str]
     """The names that other statements declare, in either text."""
     is_whole: bool
@@ -74,7 +74,7 @@ def compare(mine: str, generated: str) -> Difference:
         return Difference(same, frozenset(), is_whole=False, generated=None)
     rests = [*map(parse, texts)]
     paths = (declaration.path for rest in rests for declaration in declared(rest.classes))
-    names = frozenset(path[-1] for path in paths if path[1:])  # a misnamed class is a fault of its file alone
+    names = frozenset(path[-1] for path in paths if path[1:])  # a wrong class name matters only in its own file
     visible = [dict(_visible(rest.classes)) for rest in rests]
     read = parse_without(mine, same)
     # a comment or a string around it may hide a component
@@ -84,7 +84,7 @@ def compare(mine: str, generated: str) -> Difference:
 
 
 def _visible(classes: Iterable[Class]) -> Iterator[tuple[str, object]]:
-    """Yield other parts of each class that give names a meaning: kind, base classes, redeclarations there, imports."""
+    """Yield the other parts of a class that give names a meaning: kind, base classes with redeclarations, imports."""
     for definition in classes:
         redeclared = [str(inner.type and inner.type.type) for base in definition.extends for inner in base.arguments]
         imported = [(str(clause.name), [*clause.names]) for clause in definition.imports]

@@ -34,8 +34,8 @@ class StoredClasses:
     ) -> None:
         """`texts` are the files of the robot's package by their path below `folder`, `others` files of the user's.
 
-        `find` gives the folder or file of any other top-level class, None if there is none; `read` parses a file if
-        names are resolved in others alone. Files of `former_package` on disk do not count.
+        `find` returns the folder or file of any other top-level class, None if there is none. `read` parses a file in
+        which no names are resolved. Files of `former_package` on disk do not count.
         """
         self._find = functools.cache(lambda name: find(name) or self._beside(name))
         self._read = read or parse_file
@@ -45,7 +45,7 @@ class StoredClasses:
         self.own: dict[ClassName, str] = {}
         """The files of the robot's package, by the full names of their classes."""
         self.users: dict[ClassName, Node] = {}
-        """The classes of the user's files, by their full names; of several of one name the first."""
+        """The classes of the user's files, by their full names; if several have the same name, the first one."""
         self.all_users: list[Node] = []
         """The classes of the user's files, in the order of the files."""
         self.unread: list[Path] = []

@@ -36,7 +36,7 @@ class Modifier(msgspec.Struct, frozen=True, array_like=True, omit_defaults=True)
     """One argument of a modification: `mass = 3`, `inertial(mass = 3)`, `redeclare Elastic elbow(c = 1)`."""
 
     name: Name
-    """Of the modified element; only annotations have names with several parts."""
+    """The name of the modified element; only annotations have names with several parts."""
     arguments: tuple[Modifier, ...] = ()
     uses: tuple[Name, ...] = ()
     """Names in its value."""
@@ -87,7 +87,7 @@ class Class(msgspec.Struct, eq=False, array_like=True, omit_defaults=True):
     alias: Extends | None = None
     """The class of a short definition: `type Angle = Real(unit = "rad")`."""
     literals: tuple[str, ...] | None = None
-    """Of an enumeration; empty for `enumeration(:)`."""
+    """The literals of an enumeration; empty for `enumeration(:)`."""
     is_extension: bool = False
     """Whether it is `model extends A`, which continues the inherited class of this name."""
     is_derivative: bool = False

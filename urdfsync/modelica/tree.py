@@ -51,13 +51,13 @@ class TreeKind(Enum):
     """The arrangement of a tree's parts."""
 
     SLOTS = "slots"
-    """Each has a role, such as `type`, and the order of roles is fixed; not every role is taken."""
+    """Parts with roles, such as `type`, in a fixed order; a role may be missing."""
     BODY = "body"
     """Elements and equations, and the words that begin sections."""
     LIST = "list"
     """Modifiers and annotations in parentheses, with commas between them."""
     ARRAY = "array"
-    """Items in braces, of which the order counts."""
+    """Items in braces; their order counts."""
     SUM = "sum"
     """Terms with `+` between them."""
 
@@ -149,7 +149,7 @@ class SyntaxTree:
         return {part.key: part for part in self.parts}
 
     def says(self, *, layout: bool) -> list[tuple[str, str, Node]]:
-        """Return its parts with their keys; without `layout`, in no order and without layout and words of sections."""
+        """Return its parts with their keys; without `layout`, in any order, and no layout and no words of sections."""
         if layout:
             return [(part.key, "", part.node) for part in self.parts]
         parts = [
@@ -226,7 +226,7 @@ def section_name(section: str) -> str:
 
 
 def is_empty(node: Node) -> bool:
-    """Whether nothing is in an annotation but layout."""
+    """Whether an annotation contains only layout."""
     return isinstance(node, SyntaxTree) and all(part.key in LAYOUT for part in node.parts)
 
 
@@ -297,7 +297,7 @@ def _type_words(part: Part) -> Words:
 
 
 def _drawn(words: Words) -> Words:
-    """Return the words of an array's item, without its place."""
+    """Return the words of an array's item, without its place in the diagram."""
     drawn, depth, is_place = list[str | float](), 0, False
     for number, word in enumerate(words):
         depth += (word in _OPEN) - (word in _CLOSED)
@@ -310,7 +310,7 @@ def _drawn(words: Words) -> Words:
 
 
 def _numbered(parts: Sequence[Part]) -> list[Part]:
-    """Return items or terms with their words as keys, without their places; equal ones are numbered."""
+    """Return items or terms with their words as keys, without places in the diagram; equal keys get a number."""
     seen = Counter[str]()
     numbered = []
     for part in parts:
@@ -329,7 +329,7 @@ class Span(NamedTuple):
     stop: int
     inner: Sequence[Span] = ()
     body: SyntaxTree | None = None
-    """Of the body of a class, its elements and equations."""
+    """The elements and equations in the body of a class."""
 
 
 class KnownStatement(NamedTuple):
@@ -341,7 +341,7 @@ class KnownStatement(NamedTuple):
 
 
 KnownStatements: TypeAlias = dict[tuple[str, str], KnownStatement]
-"""Elements and equations that were read before, by their section, and their text with the blanks before it."""
+"""Elements and equations that were read before, by their section and by their text with the blanks before it."""
 
 
 def read_tree(text: str, statements: KnownStatements | None = None) -> SyntaxTree | None:
@@ -465,7 +465,7 @@ class _TreeReader(Parser):
             word = words[at]
             if word not in _PUNCTUATION:
                 continue
-            if word == ";":  # unless it stands in a matrix
+            if word == ";":  # in brackets it ends a row of a matrix
                 self.at = at if not depth else self.at
                 return not depth
             if word == "," and not depth:  # several components in one declaration

@@ -12,7 +12,7 @@ from urdfsync.modelica.syntax import Component, Extends, Modifier, Name
 from urdfsync.spelling import nearest
 
 _RATHER_ALIKE, _ALIKE = 0.6, 0.75
-"""Likeness (see `difflib`) of a misspelled name; the second is for a possible name of a library."""
+"""The least likeness (see `difflib`) of a misspelled name; the second one is for names that a library may have."""
 
 _CALLED = frozenset({"function", "operator function", "record"})
 """Kinds of classes whose elements are their arguments."""

@@ -73,7 +73,7 @@ def show(
     *,
     quiet: bool = False,
 ) -> None:
-    """Show the section `told` about one robot; with --quiet, only if the user has to act.
+    """Show the section `told` about one robot; with --quiet, show it only if the user has to act.
 
     With `quiet`, only its first line and what to do are shown. Without a `result`, all findings are new.
     """

@@ -23,7 +23,7 @@ JSON_VERSION: Literal[3] = 3
 
 
 class Document(msgspec.Struct, Generic[Item], kw_only=True):
-    """The document that each command writes with `--format json`; of None for a command without results."""
+    """The document that each command writes with `--format json`; `Item` is None for a command without results."""
 
     version: Literal[3] = JSON_VERSION
     command: str

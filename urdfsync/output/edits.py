@@ -15,7 +15,7 @@ from urdfsync.spelling import counted
 
 
 def to_section(edited: RobotEdits, *, verbose: bool | None = None, most: int = 20) -> Section:
-    """Return the edits of a robot by file; a terminal shows `most` of each. If `verbose`, also the edited lines."""
+    """Return the edits of a robot by file; a terminal shows `most` of each file. If `verbose`, also edited lines."""
     if edited.failed:
         return Section(edited.robot, "can't be read", Mark.WRONG, findings=edited.diagnostics)
     tables = list[Table]()

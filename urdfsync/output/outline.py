@@ -20,7 +20,7 @@ from urdfsync.spelling import same_count
 _NAMES = 140
 """The most characters of the names in a title, which has one name at least."""
 _SAME = 1e-9
-"""The greatest relative change of a sum by rounding, and lengths and angles too small to measure, in m and rad."""
+"""Up to these, a relative change of a sum is rounding, and a length (m) or an angle (rad) is too small to measure."""
 _COMPONENT = r"(.*)\[(\d+)\]"
 _MOVED = 3
 """The most elements of a kind with exchanged names that are named."""
@@ -60,7 +60,7 @@ def outline(changes: Changes, *, everything: bool = False) -> list[tuple[str, tu
 
 
 def _moved_names(changes: Changes) -> dict[str, str]:
-    """Return a row for the elements that exchanged names; for more than three of a kind, one row for all."""
+    """Return a row for each element that exchanged its name; if they are more than three of a kind, one row for all."""
     renamed = [change for change in changes.changes if change.kind is ChangeKind.RENAMED]
     kinds: dict[str, dict[str, str]] = defaultdict(dict)
     for change in renamed:
@@ -120,7 +120,7 @@ def _element_rows(changes: Sequence[Change]) -> list[Row]:
 def change_row(components: Sequence[Change], *, exact: bool = False) -> Row:
     """Return a change, or those of the components of a vector, in words.
 
-    With `exact` these are all digits and the whole text.
+    With `exact`, numbers have all digits, and texts are not cut.
     """
     first, old, new = components[0], components[0].old, components[0].new
     label = " / ".join(first.path[1:])

@@ -20,7 +20,7 @@ from urdfsync.state import notes
 
 
 def show_findings(console: Console, result: Result, diagnostics: Sequence[Diagnostic]) -> None:
-    """Show findings of a robot; those that its last build has shown are counted.
+    """Show findings of a robot; findings that its last build has shown already are only counted.
 
     Errors and findings about Modelica files are shown by each build.
     """

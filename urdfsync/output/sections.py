@@ -33,7 +33,7 @@ class Table(msgspec.Struct, frozen=True):
     """Heads; a column of empty cells is left out."""
     rows: Sequence[Sequence[Any]]
     line: Callable[..., StyledLine] | None = None
-    """Makes a terminal's line of the cells of a row; None if a terminal does not show the table."""
+    """Turns the cells of a row into a line for terminals; None if terminals do not show the table."""
     most: int = 12
     """The most rows that a terminal shows without --verbose."""
     noun: str = "line"

@@ -46,7 +46,7 @@ _DATA = "against statuses renamed changes files diagram".split()
 """The content for the scripts."""
 _SUFFIXES = (".html", ".htm")
 _GENERATOR, _BEGINNING = b'<meta name="generator" content="urdfsync', 2000
-"""The mark of every page in so many of its first bytes."""
+"""The mark that each page has in its first bytes, and the number of these bytes."""
 _ESCAPES = {ord(char): f"\\u{ord(char):04x}" for char in "<>&\u2028\u2029"}
 
 

@@ -1,4 +1,4 @@
-"""A robot as a picture: bodies with shapes, and axes that move them. Neutral values in SI units."""
+"""A robot as a picture: bodies with shapes, and the joints between them. Values of no domain, in SI units."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ class Hinge(msgspec.Struct, frozen=True):
     parent: str
     child: str
     pose: Pose
-    """Of the axis's frame in the parent's, at position 0."""
+    """The pose of the axis's frame in the parent's frame, at position 0."""
     axis: tuple[float, ...]
     motion: str = ""
     """`rotational` or `translational` along `axis`, `planar` with it as normal, `floating`, `ball`; empty if fixed."""
@@ -91,7 +91,7 @@ class Loop(msgspec.Struct, frozen=True):
     facts: Facts
     ends: tuple[End, End]
     translations: tuple[tuple[float, ...], ...]
-    """Directions along which both ends coincide."""
+    """Directions along which both ends have the same position."""
     rotations: tuple[tuple[tuple[float, ...], tuple[float, ...]], ...]
     """Pairs of perpendicular directions, of the first end and of the second."""
 
@@ -117,22 +117,22 @@ class Triangles(msgspec.Struct, frozen=True):
     total: int
     """Number of triangles of the file itself."""
     is_simplified: bool
-    """Whether corners that are apart in the file have become one."""
+    """Whether vertices at different places in the file were merged."""
 
 
 class Pictures(Protocol):
-    """What pages ask of a domain; its attribute `pictures`."""
+    """Gives pages the picture of a model; a domain's attribute `pictures`."""
 
     def scene(self, snapshot: Snapshot, imports: Mapping[str, Import], target: Target, options: Any) -> Scene:
-        """Return the model as a picture with axes to move. Pure.
+        """Return the model as a picture whose joints can be moved. Pure.
 
         An import without facts is a file that is too large for the package.
         """
         ...
 
     def triangles(self, path: str, content: bytes, key: str, most: int) -> Triangles | str:
-        """Return at `most` so many triangles of a mesh, or about that; or why there are none.
+        """Return about `most` triangles of a mesh, or fewer; or a text that says why there are none.
 
-        It is an imported file at `path`, or what the dependency `key` has, if that is too large to be imported.
+        The mesh is the imported file at `path`, or the file of the dependency `key` if that is too large to import.
         """
         ...

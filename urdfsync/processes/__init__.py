@@ -66,7 +66,7 @@ def exit_cause(code: int) -> str:
 def limits(seconds: float, memory: int) -> Iterator[None]:
     """Limit CPU time (s) and memory (bytes, on Linux) of this process, and forbid writing files.
 
-    SIGPROF ends the process after its time. Libraries are best loaded before. Windows has no such limits.
+    SIGPROF ends the process when its time is over. Load libraries before. Windows has no such limits.
     """
     if sys.platform == "win32":
         yield

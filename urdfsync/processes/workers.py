@@ -53,7 +53,7 @@ class Workers:
 def workers(count: int, address: str = "") -> Iterator[Workers]:
     """Start `count` processes, or use the Dask scheduler at an address. Raises ConfigError if none answers.
 
-    All processes end with the context; after an exception at once, and a cluster drops waiting jobs.
+    All processes end with the `with` block; after an exception they end at once, and a cluster drops waiting jobs.
     """
     if address:
         with contextlib.closing(_connect(address)) as client:
@@ -91,7 +91,7 @@ def tell(step: str) -> None:
 def _connect(address: str) -> Any:
     """Connect to the Dask scheduler at an address that the user named. Raises ConfigError.
 
-    Its answers are unpickled, so whoever answers at the address is trusted.
+    Answers are unpickled, so the program at this address must be trusted.
     """
     try:
         from distributed import Client  # an extra; takes a second to import

@@ -1,8 +1,8 @@
 """Completion in shells: prints the script for a shell, and answers its questions.
 
 A shell waits for the answer at each TAB, so imports here take a few ms at most. Options come from a table of all
-parsers, robots and joints from the configuration and the recorded state. If these are faulty, the answer is empty.
-Names with special characters of shells are left out: a project may be a stranger's.
+parsers; robots and joints come from the configuration and the recorded state. If these have faults, the answer is
+empty. Names with special characters of shells are left out: a stranger may have written the project.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""How a package is simulated, in values, and what `simulate` asks of a domain."""
+"""The models and variables by which a package is simulated, and how `simulate` gets them from a domain."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ class Signal(msgspec.Struct, frozen=True):
     variable: str
     unit: str
     limits: tuple[str, ...] = ()
-    """Parameters: the lower and the upper limit, one alone for a limit of the absolute value, none for no limit."""
+    """Parameters with the lower and the upper limit; a single one limits the absolute value; empty for no limit."""
     added: tuple[tuple[str, str], ...] = ()
     """Parameters and variables whose products are parts of the quantity."""
 
@@ -30,7 +30,7 @@ class Axis(msgspec.Struct, frozen=True):
     effort: Signal | None = None
     """None for a joint without a drive of its own."""
     acceleration: Signal | None = None
-    """With the limits while the joint slows down and while it speeds up; None for a joint that has no such limit."""
+    """Its limits hold while the joint slows down and while it speeds up; None for a joint without such a limit."""
     is_dependent: bool = False
     """Whether the joint follows others through loops."""
 
@@ -54,12 +54,12 @@ class Bench(msgspec.Struct, frozen=True):
     run: str
     """The model that is driven by inputs; empty if there is none."""
     layouts: tuple[tuple[Axis, ...], ...]
-    """For each approach, the axes by the names that they have there."""
+    """For each approach, the axes by the names that its models give them."""
     loops: tuple[LoopSignals, ...] = ()
 
 
 class Benches(Protocol):
-    """What `simulate` asks of a domain; its attribute `simulation`."""
+    """Gives `simulate` the models of a package; a domain's attribute `simulation`."""
 
     def bench(self, snapshot: Snapshot, target: Target, options: Any) -> Bench | None:
         """Return the models and variables of a simulation, or None if nothing in the package can be simulated. Pure."""

@@ -29,7 +29,7 @@ TOLERANCE = 1e-10
 _DESCRIPTION = "modelDescription.xml"
 _BY_URDFSYNC = "exported by urdfsync"
 _BEGINNING = 2**16
-"""So many first bytes of a description contain the attributes of its root element."""
+"""The number of first bytes of a description that contain the attributes of its root element."""
 _MOST_BYTES = 2**28
 """The most bytes of an FMU whose list of contents is read: the list may be nearly all of a file."""
 _HIGHER_DERIVATIVE = re.compile(rb'(?<=name=")((?:der\(){2,})([^"()]*)\)+(?=")')

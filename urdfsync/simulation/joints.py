@@ -15,10 +15,10 @@ _ENDLESS = 1e300
 _ROUNDING = 1e-6
 """The margin of `UrdfSync.Functions.isAtMost`: in the unit of a quantity, and as a share of it."""
 _INTEGRATION = 1e-4
-"""Errors of the integration, as a share of a quantity's whole way.
+"""The error of the integration that is no violation of a limit, as a share of the quantity's whole range.
 
-Sources that follow a motion begin up to 2e-5 rad below 0 on a way of 1 rad, with the tolerance of Test, 1e-6: a joint
-with the lower limit 0 does not pass it by that.
+With the tolerance of Test, 1e-6, a prescribed motion over 1 rad begins up to 2e-5 rad below 0. This does not count as
+passing the lower limit 0.
 """
 
 
@@ -64,9 +64,9 @@ def loop_results(bench: Bench, series: Series) -> Iterator[LoopResult]:
 
 
 def robots(layouts: Layouts, series: Series) -> list[tuple[str, Sequence[Axis]]]:
-    """Return the components that are robots, with their layouts: those with most of the positions.
+    """Return the components that are robots, with their layouts: a robot has most of a layout's positions.
 
-    A joint may be exchanged for another model, and other parts may have the name of a joint.
+    Not all, since the user may have replaced a joint by another model; and other parts may have the name of a joint.
     """
     shares: dict[tuple[str, int], float] = {}
     for number, layout in enumerate(layouts):

@@ -29,7 +29,7 @@ _FILTERED = (("Sources", "Position"), ("Sources", "Speed"))
 
 
 class Input(msgspec.Struct, frozen=True):
-    """An input of a model; of a vector one element."""
+    """An input of a model, or one element of a vector of inputs."""
 
     name: str
     unit: str
@@ -40,7 +40,7 @@ class Driven(msgspec.Struct, frozen=True):
     """The changes to a model by which its inputs can follow a table."""
 
     changed: Mapping[Path, bytes]
-    """Contents with outputs in place of the inputs, by file: the model's own equations may then set them."""
+    """Contents of files in which the inputs are outputs, so that equations of the model may set them."""
     modifiers: tuple[str, ...]
     """Modifiers that switch the filters of drives off."""
 
@@ -89,7 +89,7 @@ class Model:
         return inputs
 
     def driven(self, package: str) -> Driven:
-        """Return the changes by which inputs follow a table, and by which drives of the package lose their filters.
+        """Return the changes that let inputs follow a table, and that switch off the filters of the package's drives.
 
         Drives of the user's own models keep them: without a filter, start values may contradict the motion.
         """

@@ -32,7 +32,7 @@ _UNITS = {
     "N": {"N": 1.0},
     "s": {"s": 1.0, "ms": 1e-3},
 }
-"""By unit of an input, the possible units of a column, as factors."""
+"""The possible units of a column, with their factors, by the unit of the input."""
 _SMOOTH = ("rad", "m", "rad/s", "m/s")
 _HEADER = re.compile(r"\s*(?P<name>.*?)\s*(?:\[(?P<unit>[^\[\]\d][^\[\]]*)\])?\s*")
 
@@ -236,8 +236,8 @@ def _constant(name: str, values: Sequence[float]) -> str:
 def second_derivatives(times: Sequence[float], values: Sequence[float]) -> list[float]:
     """Return the second derivatives of a cubic spline through points.
 
-    It has no seam at the second and the last but one. It is exact for a cubic. Through three points it is a parabola,
-    through two a straight line.
+    Its third derivative has no jump at the second point and at the last but one. So the spline is exact for a cubic.
+    Through three points it is a parabola, through two points a straight line.
     """
     from scipy.interpolate import CubicSpline  # half a second that other simulations save
 

@@ -15,9 +15,9 @@ from urdfsync.simulation.results import JointResult, Range, SimulateResult
 _ROWS = ("position", "speed", "effort")
 _PER_COLUMN = 6
 _WIDTH, _HEIGHT = 6.4, 2.6
-"""Of a panel, in inches."""
+"""Width and height of a panel, in inches."""
 _COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
-"""Those of Okabe and Ito, which the colour-blind tell apart."""
+"""The colours of Okabe and Ito, which colour-blind people can distinguish."""
 
 
 def draw(result: SimulateResult, kind: str) -> bytes:

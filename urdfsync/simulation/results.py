@@ -79,7 +79,7 @@ class JointResult(msgspec.Struct, frozen=True):
     speed: Range | None = None
     effort: Range | None = None
     acceleration: Range | None = None
-    """Its size, negative where the joint slows down; None also without a limit of it."""
+    """The size of the acceleration, negative where the joint slows down; None also if it has no limit."""
     passed: tuple[PassedLimit, ...] = ()
     is_dependent: bool = False
     """Whether it follows others through loops."""
@@ -119,7 +119,7 @@ class SimulateResult(msgspec.Struct, frozen=True):
     """Series of `time`, the joints, the model's own inputs and outputs, and requested variables."""
     diagnostics: tuple[Diagnostic, ...]
     seconds: float
-    """From beginning to end."""
+    """The duration from beginning to end, in s."""
     is_known: bool
     """Whether it is a remembered result."""
     loops: tuple[LoopResult, ...] = ()

@@ -30,7 +30,7 @@ _LATER = 1.5
 """Seconds until progress names the compiler."""
 _LONGEST_MESSAGE = 200
 _ROUNDING = 1e-9
-"""Of a quotient of two times."""
+"""The error that a quotient of two times may have."""
 _TIME = re.compile(r"\bt(?:ime)?(?: ?= ?| )([-+.\deE]*\d)")
 _OWN = r"[^.]+"
 """Matches the variables of a model itself, its inputs and outputs among them."""

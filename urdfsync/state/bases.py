@@ -1,8 +1,8 @@
 """Reads and writes the bases of one robot: every text that urdfsync generated last, by its hash.
 
-`.urdfsync/bases/<robot>/0` to `f`, which are committed; a text is in the file of its hash's first digit. All sixteen
-are always there, so that git sees no renames. A line has the hash, and the text as a JSON string. Git unites the lines
-of two branches (`merge=union`). A damaged line is skipped: its hash does not fit its text.
+The files are `.urdfsync/bases/<robot>/0` to `f`, which are committed. A text is in the file named like the first digit
+of its hash. All sixteen files always exist, so that git sees no renames. A line has the hash, and the text as a JSON
+string. Git unites the lines of two branches (`merge=union`). A damaged line is skipped: its hash does not fit its text.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ def dumps(texts: Mapping[str, str]) -> bytes:
     return b"".join(b"%s %s\n" % (sha256.encode(), encode(text)) for sha256, text in sorted(texts.items()))
 
 
-@functools.lru_cache(maxsize=2 * len(DIGITS))  # the daemon looks at all of them in each build
+@functools.lru_cache(maxsize=2 * len(DIGITS))  # the daemon reads all files in each build
 def loads(content: bytes) -> Mapping[str, str]:
     """Return the texts of one file by their hashes; damaged lines are skipped."""
     texts = {}

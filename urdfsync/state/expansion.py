@@ -1,7 +1,7 @@
 """Reads and writes an expanded source, `.urdfsync/robots/<robot>.expanded`, which is committed.
 
 It holds the text of xacro or of a command, and the hashes of all its inputs. So a build expands only a changed source,
-and a clone needs no xacro. If git has united two versions, their sum does not fit, and the file is ignored.
+and a clone needs no xacro. If git has united two versions, the hash of the whole does not fit, and the file is ignored.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ _END = "\n}\n"
 class Expansion(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True, forbid_unknown_fields=True):
     """A text with its inputs.
 
-    Files are named relative to the configuration's folder, as `package://NAME/…`, or else absolute.
+    Files are named by a path from the configuration's folder, by `package://NAME/…`, or else by an absolute path.
     """
 
     format: int = 1
@@ -34,9 +34,9 @@ class Expansion(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True, f
     patterns: Mapping[str, str] = {}
     """Hashes of the names that patterns such as `parts/*.xacro` matched."""
     variables: Mapping[str, str | None] = {}
-    """Hashes of environment variables; None for one that was not set."""
+    """Hashes of the values of environment variables; None for a variable that was not set."""
     unused: tuple[str, ...] = ()
-    """Arguments that the source lacks."""
+    """Arguments in the configuration that the source lacks."""
     warnings: tuple[str, ...] = ()
     """Messages of xacro."""
     places: str = ""
@@ -44,7 +44,7 @@ class Expansion(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True, f
     in the order of their names.
     """
     sum: str = ""
-    """Hash of all else."""
+    """Hash of everything else."""
     text: str = ""
 
 

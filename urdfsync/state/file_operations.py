@@ -1,8 +1,8 @@
 """The file operations of a transaction.
 
-A crash happens before or after one of them. Only `write` and `write_bound` can be cut short, and they write under names
-that are no targets. Tests put kills, errors and saves between any two operations. All raise OSError. No link is
-followed: files are created exclusively, and renaming acts on links themselves.
+A crash happens before or after an operation. Only `write` and `write_bound` can be cut short, and they write under
+temporary names. Tests put kills, errors and saves between any two operations. All operations raise OSError. They follow
+no symbolic link: files are created exclusively, and renaming acts on the link itself.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ import msgspec
 
 _CREATE = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_BINARY", 0)
 _FEW = 32
-"""Up to so many files are synced one by one: for 400 files, one call for the whole machine is ten times faster."""
+"""The most files that are synced one by one: for 400 files, one call for the whole machine is ten times faster."""
 
 _HERE, _NOREPLACE, _EXCHANGE = -100, 1, 2
 """AT_FDCWD, RENAME_NOREPLACE and RENAME_EXCHANGE of Linux."""
@@ -69,7 +69,7 @@ def write(path: Path, content: bytes, like: Path) -> None:
 
 
 class Bound(msgspec.Struct, frozen=True, kw_only=True):
-    """The content of a JSON file that names the file's own inode and time: no copy and no clone has both."""
+    """The content of a JSON file that names the file's own inode and time: a copy or a clone differs in them."""
 
     inode: int = 0
     written_at: int = 0
@@ -82,7 +82,7 @@ def write_bound(path: Path, content: Bound) -> None:
         status = os.fstat(file.fileno())
         bound = msgspec.structs.replace(content, inode=status.st_ino, written_at=status.st_mtime_ns)
         file.write(msgspec.json.encode(bound, order="sorted"))
-    follows = os.utime not in os.supports_follow_symlinks  # follow links only if the system can't do otherwise
+    follows = os.utime not in os.supports_follow_symlinks  # follow symbolic links only if the system can't do otherwise
     os.utime(path, ns=(status.st_mtime_ns, status.st_mtime_ns), follow_symlinks=follows)  # writing has changed the time
 
 
@@ -96,8 +96,8 @@ def exchange(path: Path, target: Path) -> None:
     """Swap two files of one folder, or finish an interrupted swap.
 
     If the system can't swap, three renames do it, and the target is missing for some microseconds. A plain replacement
-    would lose a save after the last look at the target. Raises FileNotFoundError or FileExistsError if somebody got in
-    between.
+    would lose a save that comes after the last look at the target. Raises FileNotFoundError or FileExistsError if
+    another program created or deleted one of the files meanwhile.
     """
     if not os.path.lexists(spare(path)):
         if rename(path, target, _EXCHANGE):
@@ -109,12 +109,12 @@ def exchange(path: Path, target: Path) -> None:
 
 
 def spare(path: Path) -> Path:
-    """The third name in an exchange of `path`."""
+    """The third name that an exchange of `path` by three renames needs."""
     return path.with_name(f"{path.name}~")
 
 
 def replace(path: Path, target: Path) -> None:
-    """Move a file over another one of its folder, or to a free name."""
+    """Move a file to another name in its folder; replace the file that has this name."""
     path.replace(target)
 
 
@@ -141,7 +141,7 @@ def remove(path: Path) -> None:
 
 
 def sync(paths: Sequence[Path]) -> None:
-    """Bring files and folders to the disk, so that they survive a power failure."""
+    """Write files and folders through to the disk, so that they survive a power failure."""
     if len(paths) > _FEW and hasattr(os, "sync"):
         os.sync()
         return

@@ -21,7 +21,7 @@ else:
 
 _FLAGS = getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0)
 _LEAST_WAIT = 0.2
-"""Seconds for some attempts: a single one may meet a lock file that is being deleted."""
+"""The least seconds to try: a single attempt may meet a lock file that is being deleted."""
 _PAUSE = 0.05
 """Seconds between two attempts."""
 
@@ -43,8 +43,8 @@ class Lock:
     def acquire(self, waiting: Callable[[], object] = lambda: None) -> None:
         """Take the lock, unless this object holds it already and the file is still there.
 
-        Calls `waiting` repeatedly. Raises LockedError after `wait` seconds, the second time at once; OutputError if the
-        file can't be locked.
+        Calls `waiting` repeatedly. Raises LockedError after `wait` seconds; the next call then raises it at once.
+        Raises OutputError if the file can't be locked.
         """
         if self._descriptor is not None and self._file.exists():
             return
@@ -73,7 +73,7 @@ class Lock:
             self._descriptor = None
 
     def holder(self) -> str:
-        """The process that holds the lock, or held it last, in words."""
+        """The process that holds the lock, or that held it last, in words."""
         number = ""
         with contextlib.suppress(OSError), os.fdopen(os.open(self._file, os.O_RDONLY | _FLAGS), "rb") as file:
             number = (file.read(20) or b"").decode(errors="replace").strip()
@@ -110,7 +110,7 @@ def _lock(file: Path) -> int | None:
                 msvcrt.locking(descriptor, msvcrt.LK_NBLCK, 1)
             else:
                 fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            if os.path.samestat(os.fstat(descriptor), os.lstat(file)):  # else the file was replaced meanwhile
+            if os.path.samestat(os.fstat(descriptor), os.lstat(file)):  # otherwise the file was replaced meanwhile
                 stack.pop_all()
                 return descriptor
     return None

@@ -1,7 +1,7 @@
 """This machine's notes on its own work on one robot, `.urdfsync/notes/<robot>.json`.
 
-Not committed, and safe to lose. Only these notes skip work, never the committed state. They hold only in the file that
-this machine wrote: a copy, such as a committed one, is ignored.
+They are not committed, and safe to lose. Builds skip work only by these notes, never by the committed state. Notes
+count only in the very file that this machine wrote: a copy, such as a committed one, is ignored.
 """
 
 from __future__ import annotations
@@ -32,9 +32,9 @@ class Notes(file_operations.Bound, frozen=True, kw_only=True, omit_defaults=True
     """This machine's work on one robot."""
 
     program: str = ""
-    """Hash of the program and the templates that made the texts and imports; another program makes them anew."""
+    """Hash of the program and the templates that made the texts and imports; if it differs, they are made again."""
     texts: Mapping[str, tuple[str, str]] = {}
-    """By path below the package: hash of template and data, and hash of their text."""
+    """Two hashes for each text, by path below the package: that of its template and data, and that of the text."""
     imports: frozenset[str] = frozenset()
     """Hashes of the imports that this machine converted."""
     expansion: str = ""
@@ -44,13 +44,13 @@ class Notes(file_operations.Bound, frozen=True, kw_only=True, omit_defaults=True
     renamed: Mapping[str, str] = {}
     """New identifiers by the old ones, of the last build that wrote anything."""
     proposals: Mapping[str, tuple[str, str]] = {}
-    """Hash of each proposed merge and of its two sides, by path; other files there are a person's."""
+    """Hash of each proposed merge and of its two sides, by path; a proposal with another hash is a person's."""
     model: str = ""
     """Hash of the last recorded model."""
     edited: Mapping[str, str] = {}
     """Hashes of the user's texts in generated files at the last build, by key."""
     uses: Mapping[str, Use] = {}
-    """By absolute path of a user's file."""
+    """Names that mean other parts now, by absolute path of the user's file."""
     said: frozenset[str] = frozenset()
     """Hashes of the findings of the last build."""
 

@@ -1,8 +1,8 @@
-"""The record of a robot: urdfsync's last files, to tell edits from exports.
+"""The record of a robot: the files that urdfsync wrote last, to tell edits from exports.
 
-It is committed, so it is only a hint: it never decides which text is generated, restored or left out. Its model
-advances only as a whole. A build that ends with a conflict keeps the recorded model, and renews the bases of its
-written files.
+It is committed, so anybody may have changed it: it never decides which text is generated, restored or left out. Its
+model changes only as a whole. A build that ends with a conflict keeps the recorded model, and renews the bases of the
+files that it writes.
 """
 
 from __future__ import annotations
@@ -20,14 +20,14 @@ RESOURCES = "Resources/"
 
 
 def as_recorded(snapshot: Snapshot) -> dict[str, Any]:
-    """Return a snapshot as states keep it: plain data, lists of named elements as mappings from their names, if any."""
+    """Return a snapshot as the state keeps it: plain data, with lists of named elements as mappings by name."""
     data: dict[str, Any] = plain(snapshot)
     parts = {part: data.pop(part) for part in _named(snapshot.__class__)}
     return data | {part: {one.pop("name"): one for one in elements} for part, elements in parts.items() if elements}
 
 
 def as_read(data: Mapping[str, Any], model: Any) -> Snapshot:
-    """Return the snapshot that was recorded so. Raises ValueError, TypeError or AttributeError for other data."""
+    """Return the snapshot that `as_recorded` got. Raises ValueError, TypeError or AttributeError for other data."""
     parts = {part: data.get(part, {}) for part in _named(model)}
     lists = {part: [{"name": name, **one[name]} for name in sorted(one)] for part, one in parts.items()}
     return msgspec.convert({**data, **lists}, model)
@@ -57,8 +57,8 @@ class FileRecord(msgspec.Struct, frozen=True):
     def base(self, mine: object, generated: str | None) -> str | None:
         """Return the base to compare with; None if urdfsync never wrote the file.
 
-        An unedited file has any of the hashes. An edited file with an ambiguous base has to conflict, so its
-        base is one that differs from the generated text.
+        The base of an unedited file is the hash that the file has. An edited file with an ambiguous base has to
+        conflict, so its base is a hash that differs from the generated one.
         """
         if not self.hashes:
             return None
@@ -72,7 +72,7 @@ class Generator(msgspec.Struct, frozen=True):
 
     domain: str
     release: str
-    """Of urdfsync, such as `1.4.0`."""
+    """The version of urdfsync, such as `1.4.0`."""
     templates: str
     """Hash of the templates."""
 
@@ -82,15 +82,15 @@ class Open(msgspec.Struct, frozen=True):
 
     seen: Mapping[str, Any] = {}
     renamed: Mapping[ElementKey, str] = {}
-    """Elements of the last complete build and their names in it, if they were renamed."""
+    """The elements of the last complete build that were renamed, with their names in this model."""
     asked: frozenset[str] = frozenset()
     """The keys of files that may belong to other parts."""
 
 
 class Record(msgspec.Struct, frozen=True, kw_only=True):
-    """The last files of urdfsync for one robot.
+    """The files that urdfsync wrote last for one robot.
 
-    Keys of `files` are POSIX paths relative to the configuration's folder, like `folder`, the package's own. Derived
+    Keys of `files` are POSIX paths from the configuration's folder; so is `folder`, the folder of the package. Derived
     values are not recorded.
     """
 
@@ -99,15 +99,15 @@ class Record(msgspec.Struct, frozen=True, kw_only=True):
     folder: str
     generator: Generator
     options: Mapping[str, Any] = {}
-    """The domain's options as JSON has them, without those that are None."""
+    """The domain's options as JSON data, without those that are None."""
     snapshot: Mapping[str, Any] | None = None
-    """The model of the last complete build, `as_recorded`; None for none, and if git has left an element twice."""
+    """The model of the last complete build, see `as_recorded`; None without one, or if an element is there twice."""
     renamed: Mapping[str, str] = {}
     """The declared renames that the last complete build has applied: they are not applied again."""
     confirmed: frozenset[str] = frozenset()
-    """Hashes of the user's texts in confirmed places."""
+    """Hashes of the user's texts that he has confirmed to be in the right file."""
     imports: Mapping[str, tuple[Import, ...]] = {}
-    """Several for one file if git has united two states, or if it was renewed."""
+    """The imports by key; a file has several if git has united two states, or if it was renewed."""
     files: Mapping[str, FileRecord] = {}
     open: Open | None = None
     """None if the last build was complete."""

@@ -1,8 +1,8 @@
 """Reads and writes the recorded state of one robot: `.urdfsync/robots/<robot>.state`, which is committed.
 
-Each line stands alone and says one fact; blank lines between them keep neighbours apart. So git unites two states line
-by line (`merge=union`). A fact with two values is ambiguous until the next complete build. The file has no absolute
-path, no time and no host name. An unreadable line is skipped, with a warning.
+Each line states one fact alone; blank lines keep the lines apart. So git can unite two states line by line
+(`merge=union`). A fact with two values is ambiguous until the next complete build. The file has no absolute path, no
+time and no host name. An unreadable line is skipped, with a warning.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from urdfsync.state.record import RESOURCES, FileRecord, Generator, Open, Record
 _HEADER = "# What urdfsync built last for this robot. Written by urdfsync: commit it, don't edit it.\n"
 _HASH = re.compile(r"[0-9a-f]{64}")
 _PLAIN = re.compile(r"\w[\w.-]*(?:/\w[\w.-]*)*")
-"""Form of nearly all paths; such a path can't lead out of the package."""
+"""Matches nearly all paths of packages; a path that matches can't lead out of the package."""
 _HINT = "the next build writes it anew; restore it from version control to keep more of it"
 
 _FACTS: Mapping[str, Any] = {
@@ -44,10 +44,10 @@ _FACTS: Mapping[str, Any] = {
     "renamed": tuple[str, str, str],
     "asked": str,
 }
-"""The first words of lines, and the type of the JSON value behind each. A `file` has its hash and its path."""
+"""The first words of lines, and the type of the JSON value after each. After `file` come a hash and a path."""
 _DECODERS = {word: msgspec.json.Decoder(kind) for word, kind in _FACTS.items()}
 _SUM = "sum "
-"""Begins the line with the hash of all others. If git has united two states, it does not fit, or is left out."""
+"""Begins the line with the hash of all other lines. If git has united two states, the hash does not fit."""
 _PLACE = ("package", "class", "folder")
 _HEADINGS = (*_PLACE, "domain", "release", "templates")
 
@@ -84,7 +84,7 @@ def _facts(record: Record) -> Iterator[tuple[str, object]]:
 
 
 def _elements(snapshot: Mapping[str, Any]) -> Iterator[tuple[Any, ...]]:
-    """Each element of a model: its kind, its name and itself; without a name what is no mapping of elements."""
+    """Yield each element of a model: its kind, its name and itself; the name is None for a value that is no mapping."""
     for part, value in snapshot.items():
         if isinstance(value, Mapping) and value:
             yield from ((part, name, element) for name, element in value.items())
@@ -94,7 +94,7 @@ def _elements(snapshot: Mapping[str, Any]) -> Iterator[tuple[Any, ...]]:
 
 @functools.lru_cache(maxsize=8)  # the daemon reads each state after a build and before the next: 3 of 90 ms
 def loads(text: str, file: str) -> tuple[Record | None, Diagnostic | None]:
-    """Return the record in `text`, None for none, and a warning of the first unreadable line.
+    """Return the record in `text`, None if there is none, and a warning about the first unreadable line.
 
     `file` is its name in diagnostics. Lines that name files outside of the package are skipped. Raises StateError for
     the state of a newer urdfsync.
@@ -152,11 +152,11 @@ def _parse(content: str) -> tuple[str, Any]:
 
 
 def _record(values: Mapping[str, list[Any]], *, is_whole: bool) -> Record:
-    """Return the record from facts; of repeated headings, the last one counts."""
+    """Return the record from facts; if a heading is repeated, the last one counts."""
     package, class_, folder, domain, _, templates = (values[word][-1] for word in _HEADINGS)
     is_placed = all(len(values[word]) == 1 for word in _PLACE)
     hashes: dict[str, list[str]] = {}
-    for path, sha256 in values["file"] if is_placed else ():  # else the places of these files are unknown
+    for path, sha256 in values["file"] if is_placed else ():  # if two folders are named, the files' paths are unknown
         hashes.setdefault(f"{folder}/{path}", []).append(sha256)
     imports: dict[str, tuple[Import, ...]] = {}
     for key, entry in values["import"]:
@@ -184,7 +184,7 @@ def _record(values: Mapping[str, list[Any]], *, is_whole: bool) -> Record:
 
 
 def _snapshot(facts: list[tuple[str, str | None, Any]]) -> Mapping[str, Any] | None:
-    """Return the model that its elements make; None if there are none, or if one stands twice."""
+    """Return the model with these elements; None if there are none, or if one is there twice."""
     elements = {(part, name): element for part, name, element in facts}
     if not facts or len(elements) < len(facts):
         return None
@@ -211,7 +211,7 @@ def damage(file: str, line: int, message: str) -> Diagnostic:
 
 
 def _belongs(path: str, *, is_import: bool) -> bool:
-    """Return whether a build of a package may write a file of this path: the state may be a stranger's."""
+    """Return whether a build may write a file at this path below the package: a stranger may have written the state."""
     return is_inside(path) and (path.startswith(RESOURCES) or (path.endswith(".mo") and not is_import))
 
 

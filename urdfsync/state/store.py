@@ -45,11 +45,11 @@ class Aside(msgspec.Struct, frozen=True, omit_defaults=True):
     """One replaced text; it is a plain file below `.urdfsync/aside/`."""
 
     file: str
-    """Its path below the robot's folder there."""
+    """Its path below the robot's folder in `.urdfsync/aside/`."""
     after: str | None = None
-    """Hash of the written text; None if the file was deleted."""
+    """Hash of the text that replaced it; None if the file was deleted."""
     bases: tuple[str, ...] = ()
-    """Hashes of the text's bases after `--undo`."""
+    """Hashes of the bases that the text has after `--undo`."""
     texts: Mapping[str, str] = {}
     """The known texts of these bases, by hash."""
     beside: Mapping[str, str] = {}
@@ -63,7 +63,7 @@ class Store:
         self.folder = root / STATE_FOLDER
         self._tree = Tree(root)
         self._contents: dict[Path, bytes | None] = {}
-        """Content of each loaded file; None for no file."""
+        """Content of each loaded file; None for a missing file."""
         self._notes: dict[str, Notes] = {}
 
     def names(self) -> list[str]:
@@ -101,12 +101,12 @@ class Store:
         return (self.bases(robot, sha256[0]) or {}).get(sha256)
 
     def bases(self, robot: str, digit: str) -> Mapping[str, str] | None:
-        """Return a robot's generated texts whose hashes begin with a digit, by these hashes; None for no file."""
+        """Return a robot's generated texts whose hashes begin with a digit, by hash; None if the file is missing."""
         content = self._bytes(self.base_file(robot, digit))
         return None if content is None else bases.loads(content)
 
     def find_damaged_base(self, robot: str) -> Diagnostic | None:
-        """Return a warning of the first unreadable line in the bases."""
+        """Return a warning about the first unreadable line in the bases; None if there is none."""
         for file in self.base_files(robot):
             if line := bases.find_damage(self._bytes(file) or b""):
                 return statefile.damage(shown(file), line, "it has no text of this hash")
@@ -159,7 +159,7 @@ class Store:
     # --- changes --------------------------------------------------------------------------------------------------
 
     def save(self, path: Path, content: bytes | None) -> list[FileChange]:
-        """Return the write of a file's content, or its deletion for None.
+        """Return the write of a file's content; if the content is None, return the deletion of the file.
 
         A file that differs only in line ends needs no write.
         """
@@ -177,14 +177,14 @@ class Store:
     def conflict_files(self, robot: str) -> dict[str, bytes]:
         """Return the versions of conflicts on disk, by path below the robot's folder."""
         folder = self.conflicts(robot)
-        # raises OutputError for a link: it may lead to the whole disk
+        # raises OutputError for a symbolic link: it may lead to the whole disk
         existing = map(Path, walk_files(folder)) if self._tree.check_folder(folder) else ()
         return {path.relative_to(folder).as_posix(): self._bytes(path) or b"" for path in existing}
 
     def persons_proposals(self, robot: str, noted: Mapping[str, tuple[str, str]]) -> set[str]:
         """Return the proposed merges that differ from the `noted` hashes, by path: a person changed them.
 
-        A blank one does not count.
+        A blank proposal does not count.
         """
         proposals = {path: text for path, text in self.conflict_files(robot).items() if ".merge" in path}
         return {path for path, text in proposals.items() if text.strip() and digest(text) != noted.get(path, ("",))[0]}
@@ -217,14 +217,14 @@ class Store:
     def hashes(self) -> StateHashes:
         """The hashes of all loaded files, without bases.
 
-        To hash bases takes 20 ms with 1,000 links, and a transaction checks those that it replaces.
+        Hashing the bases takes 20 ms with 1,000 links, and a transaction checks the bases that it replaces anyway.
         """
         loaded, below = self._contents.items(), self.folder / "bases"
         files = ((path, content) for path, content in loaded if below not in path.parents)
         return {path: None if content is None else digest(content) for path, content in files}
 
     def is_unchanged(self, hashes: StateHashes) -> bool:
-        """Whether all files are unchanged since then."""
+        """Whether all files still have these hashes."""
         tree = Tree(self._tree.root)  # a new Tree finds new folders
         contents = ((tree.read(path), before) for path, before in hashes.items())
         return all((None if content is None else digest(content)) == before for content, before in contents)

@@ -1,18 +1,17 @@
 """Writes a set of files. A crash, a full disk or a save at any moment loses nothing.
 
 1. The planned hashes are put aside under a temporary name.
-2. All new files are written beside their targets under temporary names, and brought to the disk.
-3. The planned hashes take their place. Until then nothing has changed, and an error leaves no trace.
-4. Each target is exchanged with its new file, bases first, deletions last. The old file stands under the temporary
-   name then, where its hash shows whether it is the one that was planned with. If it is not, somebody has saved the
-   target in between: the two are exchanged back, and the target is *overtaken*.
-5. The recorded state takes its place, unless a target was overtaken.
-6. What is left under temporary names is removed, and then the planned hashes. If a target was overtaken, the next
-   plan knows the texts that were written by their bases.
+2. All new files are written beside their targets under temporary names, and written through to the disk.
+3. The planned hashes get their final name. Until then nothing has changed, and an error leaves no trace.
+4. Each target is exchanged with its new file, bases first, deletions last. The old file then has the temporary name.
+   Its hash shows whether it is the file of the plan. If it is not, somebody has saved the target meanwhile: the two
+   files are exchanged back, and the target is *overtaken*.
+5. The recorded state is replaced, unless a target was overtaken.
+6. The files under temporary names are removed, and then the planned hashes. If a target was overtaken, the next
+   plan recognises the written texts by their bases.
 
-From the fourth on, every write can be done twice: recovery resumes at step 4. A
-temporary name that holds bytes that nobody planned with holds a save of the user's. It is put back, or kept beside the
-target under a name that people see.
+From step 4 on, every write can be repeated, and recovery resumes there. If a file under a temporary name has a content
+that was not planned, it is a save of the user's. It is put back, or kept beside the target under a visible name.
 """
 
 from __future__ import annotations
@@ -31,9 +30,9 @@ from urdfsync.files import TEMPORARY, Tree, digest, failure, placed, shown
 from urdfsync.state import file_operations
 
 PLANNED = "planned.json"
-"""The file of the planned hashes: of a build that is at work, or was killed."""
+"""The file of the planned hashes, while a build is at work, or after it was killed."""
 DRAFT = f".{PLANNED}{TEMPORARY}"
-"""The file's name until all new files are written; until then, nothing has changed."""
+"""The name of this file until all new files are written; until then, nothing has changed."""
 _OTHER = "no regular file"
 """Stands for the hash of a folder, a link or a device."""
 
@@ -51,7 +50,7 @@ class FileChange(msgspec.Struct, frozen=True):
     old: str | None
     """SHA-256 (hex) of the bytes at the time of the plan; None if there was no file."""
     is_moved: bool = False
-    """Whether this is a user's text from another place; it is kept if it can't be moved here."""
+    """Whether this is a user's text that moves here from another path; if it can't, it is kept under another name."""
 
 
 class PlannedFile(msgspec.Struct, frozen=True, omit_defaults=True):
@@ -80,15 +79,15 @@ class Applied(msgspec.Struct, frozen=True):
     """The outcome of a transaction."""
 
     not_done: tuple[Path, ...] = ()
-    """Targets that somebody saved in between, and the recorded state that therefore stays."""
+    """Targets that somebody saved meanwhile, and the recorded state, which therefore stays."""
     diagnostics: tuple[Diagnostic, ...] = ()
 
 
 class Transactions:
-    """The writer of one configuration; for the holder of the build lock only."""
+    """Writes all files of one configuration. Only the holder of the build lock may use it."""
 
     def __init__(self, root: Path, state_folder: Path, outputs: Collection[Path] = ()) -> None:
-        """`root` is the configuration's folder; `outputs` may be written to as well."""
+        """`root` is the configuration's folder; files in `outputs` may be written, too."""
         self._root, self._state_folder, self._outputs = root, state_folder, outputs
         self._prefix = os.path.join(root, "")  # noqa: PTH118 - strings: there are thousands of files
         self._planned, self._draft = state_folder / PLANNED, state_folder / DRAFT
@@ -154,10 +153,10 @@ class Transactions:
         return is_interrupted(self._state_folder) or file_type(self._draft, follow=False) != 0
 
     def _load(self, file: Path) -> PlannedBuild | None:
-        """Return the planned hashes of a file; None if they were not written in this very place.
+        """Return the planned hashes in a file; None if it is not the very file that this machine wrote.
 
-        A stranger may have committed the file: then files under temporary names would count as urdfsync's. Raises
-        OutputError for links.
+        A stranger may have committed the file: his files under temporary names must not count as urdfsync's. Raises
+        OutputError for symbolic links.
         """
         content = Tree(self._root).read(file)
         try:
@@ -175,7 +174,7 @@ class Transactions:
             file_operations.make_folder(self._state_folder)
             place = self._planned
             file_operations.remove(self._draft)
-            file_operations.write_bound(self._draft, build)  # before the first temporary file, whose name it has
+            file_operations.write_bound(self._draft, build)  # it has the names of the temporary files
             file_operations.sync([self._draft])
             for place in made:
                 file_operations.make_folder(place)
@@ -274,7 +273,7 @@ class _Target(msgspec.Struct, frozen=True):
     def change(self) -> bool:
         """Change the target, unless that is done.
 
-        Returns False if somebody saved it in between: then the save stays. Raises OSError.
+        Returns False if somebody saved it meanwhile: then the save stays. Raises OSError.
         """
         try:
             if self.old is None:
@@ -286,8 +285,8 @@ class _Target(msgspec.Struct, frozen=True):
     def clear(self, temporary_files: Collection[str]) -> Iterator[Path]:
         """Remove files under temporary names.
 
-        Unplanned contents are kept, and so is a user's text that was to move here; yields their new names. `left` are
-        the paths of all temporary files.
+        Contents that were not planned are kept, and so is a user's text that could not move here; yields their new
+        names. `temporary_files` are the paths of all temporary files.
         """
         for path in (self.temporary, file_operations.spare(self.temporary)):
             if str(path) not in temporary_files:
@@ -347,9 +346,9 @@ def is_interrupted(state_folder: Path) -> bool:
 
 
 def save(file: Path, old: bytes, new: bytes) -> None:
-    """Replace a file that no build owns; a link to it and its permissions stay.
+    """Replace a file that no build owns; a symbolic link to it and its permissions stay.
 
-    Raises OutputError if it differs from `old`: somebody's save stays. Raises OSError.
+    Raises OutputError if the file differs from `old`: then somebody has saved it, and it stays. Raises OSError.
     """
     path = file.resolve()
     temporary = path.with_name(f".{os.urandom(8).hex()}{TEMPORARY}")
@@ -372,7 +371,7 @@ def save(file: Path, old: bytes, new: bytes) -> None:
 
 
 def hash_of(path: Path) -> str | None:
-    """Return the SHA-256 (hex) of a file, None for nothing; a word for anything but a regular file. Raises OSError."""
+    """Return the SHA-256 (hex) of a file; None if nothing is there; a word for any irregular file. Raises OSError."""
     try:
         content = file_operations.read(path)
     except IsADirectoryError:
@@ -381,7 +380,7 @@ def hash_of(path: Path) -> str | None:
 
 
 def _temporary_files(folders: Iterable[str]) -> set[str]:
-    """Return the paths of all temporary files in some folders. Three renames leave `….urdfsync-tmp~`."""
+    """Return the paths of all temporary files in some folders, also those of three renames (`….urdfsync-tmp~`)."""
     paths = set[str]()
     for folder in folders:
         with contextlib.suppress(FileNotFoundError, NotADirectoryError):

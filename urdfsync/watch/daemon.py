@@ -1,10 +1,10 @@
 """The daemon: one thread that waits for events, lets files settle, and builds.
 
-1. Wait for an event, or for the next due look. An event only says where to look: at inputs of the
-   last build. The files on disk decide about builds, so a wrong or lost event costs only time.
-2. The robots with a change have to settle: no event for some time, and two equal looks.
-3. All that have settled are built together. An exporter may still be writing an invalid source: it is an error only if
-   it stays as it is.
+1. Wait for an event, or until it is time to look at the files. An event says only which files to look at. The files on
+   disk decide about builds, so a wrong or lost event costs only time.
+2. The robots with a changed file have to settle: no event for some time, and two equal looks.
+3. All settled robots are built together. An exporter may still be writing an invalid source: it is an error only if it
+   stays unchanged for some time.
 4. If a build wrote a file, or a file was saved meanwhile, another build follows once the files have settled. A robot
    rests after a build that wrote nothing.
 """
@@ -38,7 +38,7 @@ from urdfsync.watch.paths import find_watched_folders
 from urdfsync.watch.robot import WatchedRobot, look_at
 
 _REST = 3.0
-"""Factor of the pause after a look, by the duration of the look."""
+"""The pause after a look, as a multiple of the duration of the look."""
 _PAUSE = 0.25
 """Seconds between two checks for the end of pre-commit."""
 
@@ -81,7 +81,7 @@ class Daemon:
         self._unwatched: tuple[Diagnostic, ...] = ()
         self._stop_signal = ""
         self._building: Sequence[str] = ()
-        """Robots in the present build; empty once a wait for another process is shown."""
+        """Robots in the present build; empty after the wait for another process was shown."""
         self._is_working = True
         self._is_paused = False
         self._next_rescan = 0.0
@@ -131,7 +131,7 @@ class Daemon:
             if has_looked:
                 self._look()
             if time.monotonic() >= self._next_rescan:
-                with contextlib.suppress(OutputError):  # where this daemon can't write the lock, no other can
+                with contextlib.suppress(OutputError):  # if this daemon can't write the lock, no other daemon can
                     self._acquire(lock)
                 self._rescan()
             settled = self._find_settled(has_looked=has_looked)
@@ -171,7 +171,7 @@ class Daemon:
     # The configuration
 
     def _use(self, loaded: Config, again: bool = False) -> None:
-        """Use a configuration from now on, and build all robots. Raises ConfigError for robots that it lacks."""
+        """Use a configuration from now on, and build all robots. Raises ConfigError if it lacks a chosen robot."""
         robots = loaded.select(self._options.robots)
         self._config = loaded
         self._checks.use(loaded)
@@ -262,7 +262,7 @@ class Daemon:
         self._look()
 
     def _find_settled(self, *, has_looked: bool) -> list[WatchedRobot]:
-        """Look at the due robots, unless `has_looked`; return those that have not changed since the look before."""
+        """Look at the robots whose time has come, unless `has_looked`; return those unchanged since the last look."""
         now, settled = time.monotonic(), []
         for watched in self._robots.values():
             if watched.due > now:

@@ -22,9 +22,9 @@ class WatchedFolders(msgspec.Struct, frozen=True):
     """Folders to watch; without symbolic links, as events have none."""
 
     singles: frozenset[str] = frozenset()
-    """Without folders below."""
+    """Folders to watch without the folders below them."""
     trees: frozenset[str] = frozenset()
-    """With all folders below."""
+    """Folders to watch with all folders below them."""
 
 
 def find_watched_folders(
@@ -32,7 +32,7 @@ def find_watched_folders(
 ) -> WatchedFolders:
     """Return the folders to watch for changes of entries, and of each folder and link on the way to one.
 
-    Of folders above the configuration's, only those that hold a file are watched.
+    A folder above the configuration's is watched only if it holds one of the files.
     """
     ways, places, listed = dict[str, list[str]](), set[str](), set[str]()
     for check, path in entries:

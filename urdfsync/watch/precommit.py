@@ -1,4 +1,4 @@
-"""Finds out whether pre-commit has stashed unstaged changes: then the files lack these.
+"""Finds out whether pre-commit has stashed unstaged changes: then the files on disk lack these changes.
 
 While its hooks run, pre-commit keeps these changes in a file of its store named `patch<time>-<process>`. It never
 deletes the file, so only a patch of a running process counts.

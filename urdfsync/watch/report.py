@@ -37,7 +37,7 @@ _FEW = 2
 """The most changes of a model that are spelled out, and their most characters; more changes are counted."""
 _MAX_LENGTH = 100
 _SPACED = 4
-"""The fewest rows of a terminal that has an empty row above the status."""
+"""With fewer rows, a terminal has no empty row above the status."""
 
 
 class Activity(enum.StrEnum):
@@ -77,7 +77,7 @@ _STEPS: dict[type[events.Event], tuple[str, Activity | None]] = {
     events.Resumed: ("building again", None),
     events.Stopping: ("stopped by {0.signal}", None),
 }
-"""Events that are one line, shown only with `--verbose` but for the last one; and the activity that they begin."""
+"""Events with one line, and the activity that they begin. Only the last one is shown without `--verbose`."""
 
 
 class RobotStatus(NamedTuple):

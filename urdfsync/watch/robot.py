@@ -58,7 +58,7 @@ class WatchedRobot(msgspec.Struct):
     is_told: bool = False
     """Whether `Settling` was reported; looks after the daemon's own builds are not."""
     sample: Looks | None = None
-    """The look before, if no event came since then, else None. After two equal looks the robot has settled."""
+    """The state at the look before the last; None if an event came since. Two equal looks: the robot has settled."""
     invalid_until: float = 0.0
     """The time until an invalid source becomes an error; 0 if it is valid, or an error already."""
     is_confirmed: bool = False
@@ -66,9 +66,9 @@ class WatchedRobot(msgspec.Struct):
     failure: tuple[Diagnostic, ...] | None = None
     """Why the last build failed; None if it did not."""
     left_alone: frozenset[tuple[str, str]] = frozenset()
-    """Misfits, and the stale files that the last build did not write, with the kinds of their actions."""
+    """What the last build left: misfits, and stale files that it did not write, with the kinds of their actions."""
     pending: tuple[Path, ...] = ()
-    """Files that were written while the package is broken: the command of `--exec` waits for its repair."""
+    """Files that were written while the package is broken: the command of `--exec` waits until it is repaired."""
 
     @property
     def name(self) -> str:

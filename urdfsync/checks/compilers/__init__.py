@@ -29,10 +29,10 @@ _BOTH = ("rumoca", "omc")
 
 
 def choose(config: Config, name: str | None = None, *, trusted: bool = False) -> tuple[Tool, ...]:
-    """Return the compilers that `--tool` chooses, one or both; None: that the configuration chooses.
+    """Return the one or two compilers that `--tool` chooses; if `name` is None, those that the configuration chooses.
 
-    `trusted` says whether the user trusts the configuration: it may name a program, or a compiler by which models start
-    programs. `--tool omc` is the user's own choice.
+    `trusted` says whether the user trusts the configuration: it may choose a compiler by which models start programs,
+    or name the compiler's program. `--tool omc` is the user's own choice.
     """
     chosen = name or config.check.tool
     if chosen not in {*COMPILERS, BOTH}:

@@ -28,14 +28,14 @@ class Tool(msgspec.Struct, frozen=True):
 class Simulation(msgspec.Struct, frozen=True):
     """One run from 0 to `stop` s with results every `step` s.
 
-    `parameters` get other values than in the text. Tests alone set some: they run a model that is compiled once.
+    `parameters` get other values than in the text. Only tests set them, to compile a model once for several runs.
     """
 
     stop: float
     step: float
     parameters: Mapping[str, float] = {}
     tolerance: float | None = None
-    """Of the integration, relative and absolute; None leaves it to the compiler."""
+    """Relative and absolute tolerance of the integration; None leaves it to the compiler."""
     method: str = ""
     """One of `Compiler.METHODS`; empty leaves it to the compiler."""
 
@@ -44,7 +44,7 @@ class Export(msgspec.Struct, frozen=True):
     """An FMU of a model."""
 
     version: str
-    """Of FMI: `2.0` or `3.0`."""
+    """The version of FMI: `2.0` or `3.0`."""
     kind: str
     """`me` (model exchange), `cs` (co-simulation) or `me_cs`."""
 
@@ -63,11 +63,11 @@ class CompileTask(msgspec.Struct, frozen=True):
     pattern: str = ""
     """A regular expression for whole names: matching variables and parameters are returned as well."""
     parameters: tuple[str, ...] = ()
-    """Parameters that the text sets. The task fails if one is missing, or if nothing depends on it."""
+    """Parameters that the text sets. The task fails if the model lacks one, or if nothing depends on it."""
     title: str = ""
     """The name of the model in messages."""
     export: Export | None = None
-    """Instead of a simulation; by OpenModelica alone."""
+    """The FMU to export instead of a simulation; only OpenModelica can."""
 
 
 class SimulationResult(msgspec.Struct, frozen=True):
@@ -87,11 +87,11 @@ class CompileResult(msgspec.Struct, frozen=True):
     problem: str = ""
     """Why the model does not compile, in the compiler's words; empty if it does."""
     unknowns: int = 0
-    """Scalar unknowns of the compiled model; so many equations as well."""
+    """Number of scalar unknowns of the compiled model; it has as many equations."""
     warnings: str = ""
     """Findings about a model that compiles, in the compiler's words."""
     runs: tuple[SimulationResult, ...] = ()
-    """One for each of the task's, in order, unless there is a `problem`."""
+    """A result for each run of the task, in order, unless there is a `problem`."""
     parameters: tuple[str, ...] = ()
     """All parameters of the model, if it lacks one that the task sets."""
     without_effect: tuple[str, ...] = ()
@@ -99,7 +99,7 @@ class CompileResult(msgspec.Struct, frozen=True):
     version: str = ""
     """The version that the compiler states."""
     seconds: float = 0.0
-    """CPU time that the task took; 0 if the compiler does not tell it of one task."""
+    """CPU time that the task took; 0 if the compiler does not tell the time of a single task."""
     fmu: bytes = b""
 
 

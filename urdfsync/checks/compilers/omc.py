@@ -41,8 +41,8 @@ _TOLERANCE = 1e-8
 _PATIENCE = 30.0
 """Seconds in which OpenModelica has to tell its version."""
 _MATCHING = "--matchingAlgorithm=PFPlus"
-"""The default, PFPlusExt, does the same and takes five times as long for robots with many joints in loops: it looks at
-all equations again for each state that index reduction adds."""
+"""The default, PFPlusExt, gives the same result. For robots with many joints in loops it takes five times as long: it
+looks at all equations again for each state that index reduction adds."""
 _NOBODY = "http://127.0.0.1:9"
 _VALUE = re.compile(
     r"\s*(?:(?P<record>record (?P<name>\w+)\n.*?\nend (?P=name);)"
@@ -114,8 +114,8 @@ def environment(cache: str, folder: str) -> dict[str, str]:  # noqa: ARG001 - se
 def complaints(problem: str) -> list[Complaint]:
     """See `Compiler`.
 
-    A message ends where the next one begins; notifications do not count. If an error in a library has two places, the
-    first one counts; a notification tells it.
+    A message ends where the next one begins; notifications are no complaints. If an error in a library has two places,
+    the first place counts; a notification names it.
     """
     result, origin = list[Complaint](), Complaint("")
     messages = list(_MESSAGE.finditer(problem))
@@ -156,7 +156,7 @@ def work(job: CompileJob) -> Iterator[CompileResult]:
     for task, some in zip(job.tasks, calls, strict=True):
         given = [next(answers) for _ in some]
         result = CompileResult(problem) if problem else _result(task, given, folder)
-        # faults in the task's own text are in no file of the user's
+        # the task's own text is no file of the user's
         own = re.compile(rf"\[{re.escape((folder / 'task').as_posix())}\d+\.mo:[^\]]*\] ")
         result = msgspec.structs.replace(result, problem=own.sub("", result.problem))
         yield msgspec.structs.replace(result, version=version.removeprefix("OpenModelica ").removeprefix("v"))
@@ -188,9 +188,9 @@ def _settings(run: Simulation) -> str:
 
 
 def _ask(job: CompileJob, folder: Path, calls: Sequence[str], seconds: float | None = None) -> list[_Answer]:
-    """Return the answers to all calls. Raises ImportError or CompilerError if OpenModelica does not give them.
+    """Return the answers to all calls. Raises ImportError or CompilerError if OpenModelica does not answer them.
 
-    Raises TimeoutExpired after `seconds`; None for a process that has a limit already.
+    Raises TimeoutExpired after `seconds`; None means no limit here, since the process already has one.
     """
     script = folder / "script.mos"
     script.write_text("".join(f"{call}; getErrorString();\n" for call in calls), encoding="utf-8")

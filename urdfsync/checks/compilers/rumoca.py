@@ -48,7 +48,7 @@ _STUCK = (
 _SPAN = re.compile(r" @ Span \{.*?\) \}")
 
 _SHADOW = "variability violation: "
-"""If anything else is wrong, rumoca 0.10.2 also reports this about sound models of the Modelica Standard Library."""
+"""If a model has another error, rumoca 0.10.2 also reports this about sound models of the Modelica Standard Library."""
 _COLOURS = re.compile(r"\x1b\[[0-9;]*m")
 _FRAMED = re.compile(r"×(?P<words>[^╭]*?)\n\s*╭─+\[(?P<file>[^\n]*?):(?P<line>\d+):(?P<column>\d+)\]")
 _PIECES = re.compile(r"\n|; (?=\S)")
@@ -163,7 +163,7 @@ def _unknowns(model: rumoca.Model) -> int:
 def _without_effect(model: rumoca.Model, names: tuple[str, ...]) -> tuple[str, ...]:
     """Return the parameters among `names` that no equation uses, neither directly nor through a binding.
 
-    rumoca 0.10.2 accepts such a modifier of a record that is handed down as a whole, and ignores it.
+    If a record is passed on as a whole, rumoca 0.10.2 accepts a modifier of one of its parts, and ignores it.
     """
     if not names:
         return ()
