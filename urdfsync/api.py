@@ -268,7 +268,7 @@ def record(
     _, reading = sources.read_permissively(form, text)
     recorder: Recorder | None = form.record
     if recorder is None:
-        message = f"the domain `{form.name}` has no record of a whole model"
+        message = f"the domain `{form.name}` has no record approach"
         raise ConfigError.of("no-record", message, hint="use `urdfsync build`")
     artifact, told = recorder(reading, shown(source), target, form.options())
     generated = Package([artifact], sources.domain_templates(form), target.package)

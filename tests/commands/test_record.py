@@ -161,5 +161,5 @@ def test_a_robot_without_tables_is_written_with_a_warning(execute: Execute) -> N
 def test_a_domain_without_a_record_says_so(rc_domain: None, execute: Execute) -> None:
     ladder = REPOSITORY / "tests/rcnetwork/examples/ladder.json"
     assert execute("record", ladder, "--domain", "rcnetwork", code=2).err == (
-        "error: the domain `rcnetwork` has no record of a whole model; use `urdfsync build` [no-record]\n"
+        "error: the domain `rcnetwork` has no record approach; use `urdfsync build` [no-record]\n"
     )

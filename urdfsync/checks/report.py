@@ -180,7 +180,7 @@ def to_section(result: CheckResult, *, verbose: bool | None = None) -> Section:
 
 
 def _by_kind(deviations: Sequence[Deviation], owners: Collection[str] = ()) -> Iterator[tuple[Deviation, str]]:
-    """Yield one deviation of each kind, and which other elements differ; `owners` are the elements that were edited.
+    """Yield the first deviation of each kind, with the names of the other elements that have one; `owners` were edited.
 
     The element nearest to the cause comes first: an edited one. Else it is the first from the root, since a displaced
     link moves all links behind it. Of efforts it is the last joint, since each joint carries all links behind it.

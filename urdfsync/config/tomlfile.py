@@ -56,7 +56,7 @@ def parse(text: str, file: str, error: type[UrdfsyncError]) -> dict[str, Any]:
 
 
 def strings(document: dict[str, Any]) -> Iterator[tuple[tuple[str, ...], str]]:
-    """Yield every key and every string of a document, with its path; a list's items count by their number."""
+    """Yield every key and every string of a document, with its path; the key of a list's item is its index."""
     waiting: list[tuple[tuple[str, ...], dict[str, Any] | list[Any]]] = [((), document)]
     while waiting:
         path, table = waiting.pop()

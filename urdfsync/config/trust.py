@@ -42,7 +42,7 @@ def find_untrusted_command(config: Config, robot: RobotConfig) -> Diagnostic | N
 def find_untrusted_compiler(config: Config, compiler: str, title: str) -> Diagnostic | None:
     """Return an error if the configuration of an untrusted folder chooses a compiler, or its program.
 
-    Raises ConfigError. A compiler may run programs that external functions of models and libraries name.
+    Raises ConfigError. Models and libraries have external functions, by which a compiler may run other programs.
     """
     key, reason = "tool", "models can start programs by it"
     if program := config.check.program(compiler):

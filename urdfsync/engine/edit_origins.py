@@ -208,7 +208,7 @@ def _named(
 
 
 def _has_followed(generation: Generation, action: Action, name: str, edit: _Edit, lines: Counter[str]) -> bool:
-    """Return whether the file of the element's new name has the edit as well: then this edit is another one."""
+    """Return whether the file under the element's new name has this edit, too: then the edit has followed already."""
     inputs, owner = generation.inputs, f"{action.owner.partition(' ')[0]} {name}"
     if (path := generation.package.find_like(inputs.folder.path(action.path), owner)) is None:
         return False

@@ -128,7 +128,7 @@ class _CodeCache(jinja2.BytecodeCache):
             bucket.load_bytecode(file)
 
     def dump_bytecode(self, bucket: Bucket) -> None:
-        """See Jinja; if nothing can be written, each process compiles the template."""
+        """Save a compiled template; if the cache cannot be written, each process compiles it again."""
         if not sys.dont_write_bytecode:
             with contextlib.suppress(OSError):
                 put(Path(f"{self._stem}.{bucket.key}"), bucket.bytecode_to_string())

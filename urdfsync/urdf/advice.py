@@ -51,7 +51,7 @@ def option_for(name: str, robot: Robot, target: Target, options: Options) -> str
 def guess_base(robot: Robot) -> Proposal:
     """Guess from names whether a robot moves freely: it stands on the ground, flies or swims.
 
-    The reason has the name that decides.
+    The reason quotes the name that the guess rests on.
     """
     root = KinematicTree.of(robot).links[0].name
     if root.lower() == "world":

@@ -97,7 +97,7 @@ def read_notes(element: str) -> tuple[list[str], list[str]]:
     ("<gazebo reference='elbow'><springStiffness>5</springStiffness></gazebo>",
      "springStiffness 5 of 'elbow' acts in Gazebo, but not in the model"),
     ("<force_element name='s'><torsional_spring/></force_element>",
-     "<force_element> s acts between links, but not in the model"),
+     "<force_element> s acts between links in Gazebo, and is left out of the model"),
 ])  # fmt: skip
 def test_what_changes_the_motion_is_a_warning(element: str, words: str) -> None:
     (warning,), notes = read_notes(element)

@@ -86,4 +86,4 @@ def warn_of_left_out(reader: Reader, root: Element) -> None:
     for part in root:
         if FORCES.search(part.tag):
             words = f"<{part.tag}> {part.get('name', '')}".rstrip()
-            reader.add(part, "force-left-out", f"{words} acts between links, but not in the model")
+            reader.add(part, "force-left-out", f"{words} acts between links in Gazebo, and is left out of the model")

@@ -112,6 +112,6 @@ class Subject:
         mass, _ = self.reference.solve(self._state(Instant.STANDING, self.courses)).mass_and_centre()
         self.stand = contacts.stand(self.tree, imports, mass * motion.GRAVITY)
         if self.stand is None:
-            self.unchecked["contacts, and the height at the beginning: no shape of the robot touches the ground"] = None
+            self.unchecked["contacts and the first height, since no shape of the robot touches the ground"] = None
         else:
             self.base = motion.base_courses(self.stand.depth)
