@@ -132,7 +132,7 @@ def moving_probe(
         drive = MOTION_KINDS[joint.type].capitalize()
         declarations.append(f"{drive}Drive drive{k}(ways = {matrix(motion.ways(courses), 6)})")
         connections.append(f"drive{k}.flange, {names.flanges[joint.name]}")
-    turning = {joint.name for joint in subject.axes if MOTION_KINDS[joint.type] == "rotational"}
+    turning = {joint.name for joint in subject.axes if MOTION_KINDS.get(joint.type) == "rotational"}
     for k, joint_name in enumerate(gears, 1):
         gear = f"{names.records[joint_name]}.transmission"
         # that of a joint that slides moves no other one
