@@ -660,6 +660,8 @@ def meetings(source: bytes, random: Random) -> Iterator[tuple[Renumbering, str, 
             continue
         Path("r.urdf").write_bytes(exported.source)
         result = plan()
+        if any(found.code == "loop-open" for found in result.diagnostics):
+            continue  # a part in another place holds the loop open
         assert not result.failed, result.diagnostics
         part, _, name = owner.partition(" ")
         expected = exported.names.get((part, name), name)
