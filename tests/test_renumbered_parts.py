@@ -56,6 +56,16 @@ def edited(folder: Path, execute: Execute) -> Path:
     return folder
 
 
+@pytest.fixture
+def repository(folder: Path, monkeypatch: pytest.MonkeyPatch, execute: Execute) -> Repository:
+    """A repository with a built arm, which is not committed yet."""
+    Path("urdfsync.toml").write_text(CONFIGURATION)
+    Path("arm.urdf").write_text(arm(1.1, 2.2, 3.3))
+    repository = Repository(folder, monkeypatch)
+    execute("build")
+    return repository
+
+
 EXPORTS = {
     "exchanged": (arm(1.1, 2.2, 3.3, order="132"), 3),
     "inserted": (arm(1.1, 5.5, 2.2, 3.3), 3),
@@ -234,14 +244,8 @@ def test_an_edit_of_a_common_file_that_names_what_may_be_another_part_is_asked_a
 
 
 @NEEDS_GIT
-def test_a_clone_asks_nothing_about_words_in_a_remark(
-    folder: Path, monkeypatch: pytest.MonkeyPatch, execute: Execute
-) -> None:
+def test_a_clone_asks_nothing_about_words_in_a_remark(repository: Repository, execute: Execute) -> None:
     """The edit was made before the export; this machine knows that, and a clone looks for it in the commits."""
-    Path("urdfsync.toml").write_text(CONFIGURATION)
-    repository = Repository(folder, monkeypatch)
-    Path("arm.urdf").write_text(arm(1.1, 2.2, 3.3))
-    execute("build")
     edit("modelica/Arm/Links/package.mo", "\n  annotation", '\n  constant Real mine = 1 "Of link_2";\n\n  annotation')
     repository.commit()
     Path("arm.urdf").write_text(arm(1.1, 2.2, 3.3, order="213"))
@@ -352,12 +356,8 @@ def test_a_model_that_extends_the_robot_uses_names_alone(edited: Path, execute: 
 
 @NEEDS_GIT
 def test_edits_that_git_left_with_exchanged_names_change_places_together(
-    folder: Path, monkeypatch: pytest.MonkeyPatch, execute: Execute
+    repository: Repository, execute: Execute
 ) -> None:
-    Path("urdfsync.toml").write_text(CONFIGURATION)
-    repository = Repository(folder, monkeypatch)
-    Path("arm.urdf").write_text(arm(1.1, 2.2, 3.3))
-    execute("build")
     repository.commit()
     repository.git("checkout", "-q", "-b", "export")
     Path("arm.urdf").write_text(arm(1.1, 2.2, 3.3, order="132"))
@@ -384,14 +384,8 @@ def test_edits_that_git_left_with_exchanged_names_change_places_together(
 
 
 @NEEDS_GIT
-def test_ordinary_edits_after_an_exchange_are_not_asked_about(
-    folder: Path, monkeypatch: pytest.MonkeyPatch, execute: Execute
-) -> None:
+def test_ordinary_edits_after_an_exchange_are_not_asked_about(repository: Repository, execute: Execute) -> None:
     """An earlier commit has another edit in the same place, which was another part's."""
-    Path("urdfsync.toml").write_text(CONFIGURATION)
-    repository = Repository(folder, monkeypatch)
-    Path("arm.urdf").write_text(arm(1.1, 2.2, 3.3))
-    execute("build")
     for effort, order in (("12", ""), ("", "132"), ("15", "132")):
         if effort:
             edit(JOINT.format(2), "effort = 10", f"effort = {effort}")
@@ -572,13 +566,9 @@ def test_a_recorded_model_that_lacks_parts_loses_no_edit(
     [(False, True), (True, False), *(pytest.param(both, both, marks=pytest.mark.large) for both in (False, True))],
 )
 def test_one_branch_exchanges_names_and_the_other_edits(
-    folder: Path, monkeypatch: pytest.MonkeyPatch, execute: Execute, way: str, edits_first: bool, driver: bool
+    repository: Repository, execute: Execute, way: str, edits_first: bool, driver: bool
 ) -> None:
     """Whichever side git takes an edit from: it is with its part, or asked about."""
-    Path("urdfsync.toml").write_text(CONFIGURATION)
-    repository = Repository(folder, monkeypatch)
-    Path("arm.urdf").write_text(arm(1.1, 2.2, 3.3))
-    execute("build")
     if driver:
         execute("merge-driver", "--install")
     repository.commit()

@@ -168,11 +168,11 @@ def _look(generation: Generation, commit: Revision, edits: Mapping[Action, _Edit
     except (KeyError, SourceError, StateError, *NO_MODEL):
         return {}
     formers, moved = {(key[0], new): key[1] for key, new in matching.renames.items()}, dict(matching.doubts)
-    now = inputs.domain.features(generation.now.snapshot)
     for key in known:
         if key in matching.renames or key in formers:
             moved_to = matching.renames.get(key, "")
             moved[key] = Doubt(" ".join(key), formers.get(key, ""), (), moved_to, is_certain=True)
+    existing = {key: doubt for key, doubt in moved.items() if key in generation.elements_now}  # others report the rest
     doubts = dict[str, Doubt]()
     for action, lines in shared.items():
         recorded = record.files.get(action.path)
@@ -182,8 +182,7 @@ def _look(generation: Generation, commit: Revision, edits: Mapping[Action, _Edit
             doubt = moved.get(element)
             if doubt and not _has_followed(generation, action, doubt.moved_to, edits[action], lines):
                 doubts[action.path] = doubt
-        # `now`: other findings report names that are gone
-        elif doubt := _named(generation, lines, {key: moved[key] for key in moved if key in now}, snapshot):
+        elif doubt := _named(generation, lines, existing, snapshot):
             doubts[action.path] = doubt
     return doubts
 

@@ -82,9 +82,8 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
         last = self.inputs.last
         if not (self.renames and last.version):
             return {}
-        now = self.inputs.domain.features(self.now.snapshot)
         gone = {name: f"{name}{GONE}" for _, name in displaced(self.renames)}
-        return {**gone, **{name: new for (kind, name), new in self.renames.items() if (kind, name) in now}}
+        return {**gone, **{key[1]: new for key, new in self.renames.items() if key in self.elements_now}}
 
     @cached_property
     def has_exchanges(self) -> bool:
@@ -96,6 +95,11 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
         """The elements of the last complete build, with their features."""
         last = self.inputs.last.version
         return {} if last is None else self.inputs.domain.features(last.snapshot)
+
+    @cached_property
+    def elements_now(self) -> Mapping[ElementKey, Features]:
+        """The elements of the source, with their features."""
+        return self.inputs.domain.features(self.now.snapshot)
 
     @property
     def undeclared_renames(self) -> Mapping[ElementKey, str]:

@@ -190,7 +190,7 @@ def _find_target(generation: Generation, action: Action, new: str) -> str:
     """Return the path of the corresponding file of the element `new`. Raises ConfigError if there is none."""
     inputs, (kind, _, name) = generation.inputs, action.owner.partition(" ")
     path = generation.package.find_like(inputs.folder.path(action.path), f"{kind} {new}")
-    known = {known for one, known in inputs.domain.features(generation.now.snapshot) if one == kind}
+    known = {known for one, known in generation.elements_now if one == kind}
     near, message = nearest(new, sorted(known - {name})), ""
     hint = "name the part that the edit belongs to: --moved NAME"
     if not name:

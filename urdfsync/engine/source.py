@@ -8,7 +8,7 @@ import os
 import re
 import stat
 from bisect import bisect_right
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -317,28 +317,34 @@ def check_options(config: Config, robot: RobotConfig, reading: Reading) -> tuple
     return findings
 
 
-def read(
-    domain: Domain, options: Any, content: bytes, name: str, cured: Collection[str] = ()
-) -> tuple[Snapshot, Reading]:
+def read(domain: Domain, options: Any, content: bytes, name: str) -> tuple[Snapshot, Reading]:
     """Return the model in a source, and its reading; `name` is the source's name in diagnostics.
 
-    Errors with `cured` codes become warnings. Raises SourceError with all faults.
+    Raises SourceError with all faults.
     """
-    reading = _read_model(domain, msgspec.json.encode(options), content, name)  # type: ignore[arg-type] # it is an object
-    mild = {"severity": Severity.WARNING}
-    diagnostics = tuple(
-        msgspec.structs.replace(finding, **mild if finding.code in cured else {}) for finding in reading.diagnostics
-    )
-    reading = msgspec.structs.replace(reading, diagnostics=diagnostics)
+    return _without_errors(_read_model(domain, msgspec.json.encode(options), content, name))  # type: ignore[arg-type] # it is an object
+
+
+def _without_errors(reading: Reading) -> tuple[Snapshot, Reading]:
+    """Return the model, and its reading. Raises SourceError with all faults."""
     if reading.snapshot is None or any(finding.severity is Severity.ERROR for finding in reading.diagnostics):
         raise SourceError(*reading.diagnostics)
     return reading.snapshot, reading
 
 
 def read_permissively(domain: Domain, text: Source) -> tuple[Snapshot, Reading]:
-    """Read a source outside of a project, as `read` does, with the domain's permissive options."""
+    """Read a source outside of a project, as `read` does, with the domain's permissive options.
+
+    Errors that the domain cures become warnings.
+    """
+    options = msgspec.json.encode(domain.permissive_options or domain.options())
     with text.locating():
-        return read(domain, domain.permissive_options or domain.options(), text.content, text.name, domain.cured)
+        reading = _read_model(domain, options, text.content, text.name)  # type: ignore[arg-type] # it is an object
+        diagnostics = tuple(
+            msgspec.structs.replace(one, severity=Severity.WARNING) if one.code in domain.cured else one
+            for one in reading.diagnostics
+        )
+        return _without_errors(msgspec.structs.replace(reading, diagnostics=diagnostics))
 
 
 @functools.lru_cache(maxsize=4)

@@ -58,6 +58,7 @@ def robot_data(tree: KinematicTree, names: Connectors, dependent: frozenset[str]
             gear = {"component": tree.joint(name).component, "motor": drive.motor}
             gears[name].append(gear | {"factor": "reduction"})
             gears[drive.other].append(gear | {"factor": "otherReduction"})
+    with_motor = {name for name, drive in names.drives.items() if drive.motor and not drive.gear}
     diagram, top, rows = layout(tree, names), _icon_top(names), _frame_rows(names)
     return {
         "frames": [
@@ -77,7 +78,7 @@ def robot_data(tree: KinematicTree, names: Connectors, dependent: frozenset[str]
                 "title": joint_title(joint),
                 "start": joint.start is not None,
                 "axis": names.drives[joint.name].axis if joint.name in names.drives else None,
-                "motor": any(drive.motor and not drive.gear for drive in (names.drives.get(joint.name),) if drive),
+                "motor": joint.name in with_motor,
                 "follows": couplings.get(joint.name),
                 "followers": followers[tree.joint(joint.name).component],
                 "gears": gears[joint.name],

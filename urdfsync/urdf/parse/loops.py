@@ -112,16 +112,15 @@ def _find_pairs(element: Element, links: Collection[str]) -> Iterator[tuple[Elem
 
 def read_loops(reader: Reader, root: Element, robot: Robot, options: Options) -> tuple[Loop, ...]:
     """Return the loops of a robot whose other parts are read; `robot` is a tree. Loops with a fault are left out."""
-    poses: Mapping[str, Pose] | None = None
     loops = list[Loop]()
     elements = list(find_loop_elements(root))
+    poses = link_poses(KinematicTree.of(robot), {}) if elements else {}
     links = {link.name for link in robot.links}
     ends = {joint.name: joint.child for joint in robot.joints if joint.name not in links}
     names = [element.get("name") or f"loop_{number}" for number, element in enumerate(elements, start=1)]
     in_gazebo = {link.get("name") for part in root.iterfind("gazebo") for link in part.iterfind("link")} - links
     for element, name, path in zip(elements, names, validate.element_paths("loop", names), strict=True):
         reader.place(element, path)
-        poses = poses or link_poses(KinematicTree.of(robot), {})
         if element.tag == "joint":
             loop = _read_joint(reader, element, path, name, poses, in_gazebo)
         else:

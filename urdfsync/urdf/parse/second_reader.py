@@ -130,10 +130,12 @@ def _compare_poses(robot: Robot, theirs: Any) -> Iterator[Finding]:
 
 def _compare_loops(root: Element, robot: Robot, theirs: Any) -> Iterator[Finding]:
     """Compare the frames of each `<loop_joint>` with its texts; with all joints at zero, by yourdfpy's poses."""
+    if not (elements := root.findall("loop_joint")):
+        return
     loops = {loop.name: loop for loop in robot.loops}
     with _silence(), np.errstate(all="ignore"):
         scene = yourdfpy.URDF(robot=theirs, build_scene_graph=True, load_meshes=False)
-    for element in root.iterfind("loop_joint"):
+    for element in elements:
         ends = [part for part in element if part.tag in ("link1", "link2", "parent", "child")]
         loop = loops.get(element.get("name", ""))
         if loop is None or len(ends) != 2 or {end.get("link") for end in ends} - {link.name for link in robot.links}:

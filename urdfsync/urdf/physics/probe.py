@@ -15,7 +15,6 @@ from urdfsync.checks.experiment import Probe
 from urdfsync.domain import Target
 from urdfsync.modelica.literals import matrix, vector
 from urdfsync.urdf.connectors import connector_names
-from urdfsync.urdf.drives import sharing_joint
 from urdfsync.urdf.kinematics.poses import roll_pitch_yaw
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.physics import motion
@@ -238,11 +237,8 @@ def limit_variable(subject: Subject, joint: Joint, ending: str) -> str:
 
     The robot itself checks the effort of a leader, which carries its followers' load, and of joints that share a motor.
     """
-    tree = subject.tree
-    component, name = tree.joint(joint.name).component, "warning_getInstanceName"
-    shared = ((other.name, sharing_joint(other, subject.options.drives)) for other in tree.joints)
-    checked = {name for names in shared if names[1] for name in names} | tree.followers_by_leader().keys()
-    if ending.endswith("effort_limit") and joint.name in checked:
+    component, name = subject.tree.joint(joint.name).component, "warning_getInstanceName"
+    if ending.endswith("effort_limit") and joint.name in subject.checked_by_robot:
         return f"robot.{name}_{component}_joint_{component}_parameters_name_{ending}"
     return f"robot.{component}.{name}_joint_parameters_name_{ending}"
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 import contextlib
 import itertools
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
+from functools import cached_property
 from xml.etree.ElementTree import Element
 
 import numpy as np
@@ -13,7 +14,7 @@ from numpy.polynomial import Polynomial
 
 from urdfsync.checks.experiment import Sample
 from urdfsync.domain import Import
-from urdfsync.urdf.drives import assembly
+from urdfsync.urdf.drives import assembly, sharing_joint
 from urdfsync.urdf.kinematics.poses import start_positions
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options
@@ -63,6 +64,15 @@ class Subject:
             self._put_down(sample.imports)
         self.states = {float(instant): self._state(instant, self.courses) for instant in Instant}
         self.solved = {time: self.reference.solve(state) for time, state in self.states.items()}
+
+    @cached_property
+    def checked_by_robot(self) -> Collection[str]:
+        """The joints whose effort the robot's model checks: leaders, and those that share a motor."""
+        checked = {*self.tree.followers_by_leader()}
+        for joint in self.tree.joints:
+            if other := sharing_joint(joint, self.options.drives):
+                checked |= {joint.name, other}
+        return checked
 
     def is_in_loop(self, joint: Joint) -> bool:
         """Return whether loops restrict the motion of a joint."""
