@@ -63,7 +63,6 @@ PACKAGE: Mapping[str, Fault] = {
     "no friction": Fault(L, "Joints/ShoulderParameters.mo", "friction = 0.4", "friction = 0"),
     "damping of another number": Fault(L, "Joints/ShoulderParameters.mo", "damping = 0.5", "damping = 0.4"),
     "reduction": Fault(L, "Joints/ElbowParameters.mo", "reduction = 50", "reduction = 5"),
-    "offset of a gear": Fault(L, "Joints/ElbowParameters.mo", "offset = 0.2", "offset = -0.2"),
     "multiplier of a mimic": Fault(B, "Joints/GripParameters.mo", "multiplier = 0.1", "multiplier = -0.1"),
     "offset of a mimic": Fault(B, "Joints/GripParameters.mo", "offset = 0.02", "offset = 0"),
     "start that is not applied": Fault(F, SHOULDER, "phi(start = phi_start, ", "phi(start = 0, "),

@@ -9,7 +9,6 @@ from typing import Any, Protocol
 
 import msgspec
 
-from urdfsync.diagnostics import Diagnostic
 from urdfsync.domain import Import, Snapshot, Target
 
 
@@ -42,8 +41,6 @@ class Quantity(enum.StrEnum):
     ACCELERATION = "acceleration"
     READING = "reading"
     """Of a sensor."""
-    GEAR = "gear"
-    """Reduction, offset and inertia of the rotor."""
     WARNING = "warning"
     """Whether a limit is passed: 1 if so, else 0."""
     CONNECTION = "connection"
@@ -102,6 +99,43 @@ class Deviation(msgspec.Struct, frozen=True):
     def agrees(self) -> bool:
         """Whether the difference is within the tolerance."""
         return self.relative <= self.tolerance
+
+
+class Difference(msgspec.Struct, frozen=True):
+    """A number or name of the package that differs from an independent reading of the source."""
+
+    element: str
+    quantity: str
+    """Its path in the record, such as `limits.effort`."""
+    expected: str
+    """As the source has it."""
+    given: str
+    """As the package has it."""
+    file: str
+    """Below the package's folder."""
+    line: int
+    source: str
+    """The source's file."""
+    source_line: int
+
+
+class Numbers(msgspec.Struct, frozen=True):
+    """The numbers and names of a package, compared with an independent reading of the source."""
+
+    right: int = 0
+    total: int = 0
+    differences: tuple[Difference, ...] = ()
+    edits: tuple[Difference, ...] = ()
+    """Differences that the user has made."""
+    uncompared: tuple[str, ...] = ()
+    """What nothing compares: one sentence each, without a full stop."""
+
+    @property
+    def summary(self) -> str:
+        """A few words for the verdict."""
+        words = "differ" if self.differences else "right"
+        edited = f", {len(self.edits)} edited" if self.edits else ""
+        return f"numbers {words} ({self.right} of {self.total}{edited})"
 
 
 class Probe(msgspec.Struct, frozen=True):
@@ -188,10 +222,10 @@ class Sample(msgspec.Struct, frozen=True):
 class Checks(Protocol):
     """What `check` asks of a domain; its attribute `checks`."""
 
-    def cross_check(self, content: bytes, file: str) -> Sequence[Diagnostic]:
-        """Return differences from the model that another reader finds in a source without errors. It may take long.
+    def numbers(self, sample: Sample, *packages: Mapping[str, bytes]) -> Sequence[Numbers]:
+        """Return the numbers of packages, by the texts of each, compared with another reading of the source.
 
-        `file` is the source's name in diagnostics.
+        It may take a second. Raises SourceError if the other reader fails.
         """
         ...
 
