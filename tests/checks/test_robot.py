@@ -131,22 +131,25 @@ def test_a_robot_of_which_a_joint_is_left_out_agrees_with_nothing(
     assert "agree" not in result.summary
 
 
-def test_an_edited_number_and_an_exchanged_input_are_told_without_a_compiler(
+def test_an_edited_number_and_exchanged_inputs_are_told_without_a_compiler(
     arm: Path, modelica_library: Path, compiler: Compiling
 ) -> None:
     """An edit that no number tells is named, too; one of a comment is none."""
     replace(arm / "Joints" / "ElbowParameters.mo", "damping = 0.1", "damping = 0.2")
     replace(arm / "ArmRun.mo", "connect(elbow_phi, elbowDrive", "connect(shoulder_phi, elbowDrive")
+    replace(arm / "ArmRun.mo", "connect(shoulder_phi, shoulderDrive", "connect(elbow_phi, shoulderDrive")
     replace(arm / "Joints" / "Elbow.mo", "animation = false", "animation = true")
     replace(arm / "Links" / "Base.mo", "model Base", "// looked at\nmodel Base")
     result = check()
     assert result.numbers is not None
     total = result.numbers.total
-    assert f"right: numbers right ({total - 2} of {total}, 2 edited); " in result.summary
+    assert f"right: numbers right ({total - 3} of {total}, 3 edited); " in result.summary
     assert [sentence for sentence, _ in report._sentences(result)] == [
         "Joints/ElbowParameters.mo (edited) changes dynamics.damping of joint elbow: 0.1 in arm.urdf:7, 0.2 in line 16",
-        "ArmRun.mo (edited) changes input of Run of joint elbow: elbow_phi (position) in arm.urdf:7, "
-        "shoulder_phi (position) in line 50",
+        "ArmRun.mo (edited) changes elbowDrive.phi_ref of joint elbow: elbow_phi in arm.urdf:7, "
+        "shoulder_phi in line 50",
+        "ArmRun.mo (edited) changes shoulderDrive.phi_ref of joint shoulder: shoulder_phi in arm.urdf:6, "
+        "elbow_phi in line 44",
         "Joints/Elbow.mo (edited): what it does is not compared",
     ]
     assert (status(result, strict=False), status(result, strict=True)) == (CheckStatus.RIGHT, CheckStatus.DIFFERS)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import enum
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, Protocol
 
 import msgspec
@@ -21,7 +21,6 @@ class Part(enum.StrEnum):
     """Accelerations that follow from efforts."""
     LOOPS = "loops"
     """Gaps, and the forces that close them."""
-    BENCHES = "Run and Test"
     SENSORS = "sensors"
     LIMITS = "limits"
     CONTACTS = "contacts"
@@ -43,8 +42,6 @@ class Quantity(enum.StrEnum):
     """Of a sensor."""
     WARNING = "warning"
     """Whether a limit is passed: 1 if so, else 0."""
-    CONNECTION = "connection"
-    """Whether a bench is connected as it should be: 0 if so, else 1."""
     GROUND = "ground force"
     CLOSURE = "gap"
     """From one frame of a loop to the other."""
@@ -244,10 +241,4 @@ class Checks(Protocol):
         something to draw: `Trial.over_time`. It runs in a process of its own. Raises SourceError if the reference can't
         be had or can't read it.
         """
-        ...
-
-    def wiring(
-        self, texts: Mapping[str, bytes], snapshot: Snapshot, target: Target, options: Any
-    ) -> Iterable[Deviation]:
-        """Return whether the benches of a generated package are connected as they should be, by their texts."""
         ...

@@ -28,7 +28,6 @@ _MOST = 3
 """The most differing numbers of one file that are told."""
 _STATED = {
     Quantity.WARNING: "the warning “{detail}” is missing, or comes elsewhere",
-    Quantity.CONNECTION: "{detail} is not connected as it should be",
 }
 """Differences that are no amounts."""
 

@@ -5,9 +5,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
-from urdfsync.checks.experiment import Deviation, Experiment, Numbers, Sample
+from urdfsync.checks.experiment import Experiment, Numbers, Sample
 from urdfsync.domain import Target
 from urdfsync.simulation.bench import Axis, Bench, LoopSignals, Signal
 from urdfsync.urdf.artifacts import has_bench
@@ -128,11 +128,3 @@ def experiment(sample: Sample, step: float | None = None) -> Experiment | str:
     from urdfsync.urdf.physics.experiment import experiment  # with numpy, which no build needs
 
     return experiment(sample, step)
-
-
-def wiring(texts: Mapping[str, bytes], robot: Robot, target: Target, options: Options) -> Iterable[Deviation]:
-    """Look at the connections of Run and Test, which only the package approach has."""
-    from urdfsync.urdf.physics.wiring import wiring  # no build needs it
-
-    tree = KinematicTree.of(robot, (target.name,))
-    return wiring(texts, tree, target, options) if "package" in options.approach else ()

@@ -33,8 +33,8 @@ from urdfsync.urdf.second.tables import expected_tables
 
 _RECORDS = "UrdfSync.Records."
 _SHAPE = re.compile(r"((?:visual|collision)\d+)(?:_\d+)?(\.|Corners)")
-_INPUTS = {True: "phi phi_ref w w_ref tau tau", False: "s s_ref v v_ref f f"}
-"""Endings of Run's inputs, each with the input of its source, for joints that turn and that slide, as `COMMANDS`."""
+_LETTERS = {True: ("phi", "w", "tau"), False: ("s", "v", "f")}
+"""Position, speed and effort in Modelica, of joints that turn and of joints that slide, as `COMMANDS`."""
 _TENSOR = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 _CLOSED = 1e-6
 """The greatest gap of a closed loop, in m."""
@@ -67,12 +67,14 @@ class _Comparison:
 
     def __init__(self, texts: Mapping[str, bytes], reading: Reading, sample: Sample) -> None:
         self.reading, self.sample, self.name = reading, sample, sample.target.name
-        suffixes = ("", "Run", "Parameters", "Start", "Sensors", "Stance")
+        suffixes = ("", "Run", "Test", "Parameters", "Start", "Sensors", "Stance")
         needed = {f"{sample.target.name}{suffix}.mo" for suffix in suffixes}
         needed |= {path for path in texts if path.startswith(("Links/", "Joints/")) and path.endswith("Parameters.mo")}
         read = {path: read_values(texts[path].decode(errors="replace")) for path in sorted(needed & texts.keys())}
         self.values = {path: each.values for path, each in read.items()}
         self.titles = {path: each.titles for path, each in read.items()}
+        self.ends = _ends(self.values.get(f"{self.name}.mo", ()))
+        """Connections in the robot model."""
         self.right = self.total = 0
         self.differences = list[Difference]()
         self.uncompared = Counter[str]()
@@ -106,9 +108,11 @@ class _Comparison:
                 self._lack(f"joint {name}", "start", stated.value, f"{self.name}Start.mo", 0, stated.line)
         for value in self.values.get(f"{self.name}Stance.mo", ()):
             self._judge(f"{self.name}Stance.mo", value, "robot", self._height(literals(value.text)))
-        if f"{self.name}Run.mo" in self.values:
+        if f"{self.name}.mo" in self.values:
             self._connections(f"{self.name}.mo")
-            self._inputs(f"{self.name}Run.mo")
+        for bench in (f"{self.name}Run.mo", f"{self.name}Test.mo"):
+            if bench in self.values:
+                self._bench(bench)
         for kind, elements in self.elements.items():
             for name in elements.keys() - {name for of, name in self.components if of == kind}:
                 if kind != "sensor" or "package" in self.sample.options.approach:
@@ -269,7 +273,7 @@ class _Comparison:
 
     def _connections(self, file: str) -> None:
         """Compare which links the model connects with joints, loops and sensors, and who leads whom."""
-        ends, pairs = _ends(self.values.get(file, ())), list[tuple[Element, str, str, str, str, str]]()
+        ends, pairs = self.ends, list[tuple[Element, str, str, str, str, str]]()
         for kind in ("joint", "loop", "sensor"):
             for name, element in self.elements[kind].items():
                 own = self.components.get((kind, name))
@@ -307,35 +311,62 @@ class _Comparison:
                 expected, given = f"{'-' * is_reversed}{vector}", re.sub(r"\s", "", value.text)
                 self._judge(file, value, f"sensor {name}", expected, sensor.line, f"{letter}_joint", given)
 
-    def _inputs(self, file: str) -> None:
-        """Compare the inputs of Run: which joint each one moves, and by which quantity."""
+    def _bench(self, file: str) -> None:
+        """Compare what Run or Test connects with the axis of each joint, and the outputs of sensors."""
         values, joints = self.values[file], self.reading.joints
-        ends, robot = _ends(values), _ends(self.values.get(f"{self.name}.mo", ()))
-        limited = re.compile(r"UrdfSync\.Functions\.limitedEffort\(\s*([^,\s]+)")
+        texts = {end: Value(end, "", *others[0]) for end, others in _ends(values).items()}
+        texts |= {value.path: value for value in values if value.path != "connect"}
         for value in values:
-            if match := limited.match(value.text):  # a drive that keeps its limits
-                ends[value.path].append((match[1], value.line))
-        vector = next((v.path.partition(".")[0] for v in values if v.type.endswith("RealInput") and "." in v.path), "")
-        sources = [name.removesuffix("Drive") for name in self.titles[file] if name.endswith("Drive")]
+            if value.path.startswith("world."):
+                self._judge(file, value, "robot", "that of the bench", given=value.text)
         named = any(joint.is_named for joint in joints.values() if joint.in_loop and not joint.leader)
         for (kind, name), component in self.components.items():
-            joint = joints.get(name) if kind == "joint" else None
-            if joint is None or joint.type not in MOVES or joint.leader:
-                continue
-            given, words = list[tuple[str, int]](), _INPUTS[joint.type in TURNS].split()
-            for axis, _ in robot[f"{component}.axis"]:
-                for source in (
-                    end.removesuffix(".flange") for end, _ in ends[f"robot.{axis}"] if end.endswith(".flange")
-                ):
-                    for command, reference in zip(COMMANDS, words[1::2], strict=True):
-                        given += [(f"{end} ({command})", line) for end, line in ends[f"{source}.{reference}"]]
-            expected = "nothing"
-            if joint.command and not (joint.in_loop and ((named and not joint.is_named) or not given)):
-                expected = f"{component}_{words[2 * COMMANDS.index(joint.command)]} ({joint.command})"
-                if self.sample.options.inputs == "vector" and component in sources:
-                    expected = f"{vector}[{sources.index(component) + 1}] ({joint.command})"
-            shown, line = ", ".join(words for words, _ in given) or "nothing", given[0][1] if given else 0
-            self._judge(file, Value("input of Run", "", "", line), f"joint {name}", expected, joint.line, given=shown)
+            expected, element = dict[str, str](), self.elements[kind][name]
+            if kind == "sensor":
+                expected = {f"{component}_{output}": f"robot.{component}.{output}" for output in "awft"}
+                expected = {path: text for path, text in expected.items() if path in texts}
+            elif kind == "joint" and element.type in MOVES and not element.leader:
+                flanges = [self._flange(component, side) for side in ("axis", "support")]
+                # which joints of a loop are driven may be left to urdfsync
+                is_driven = not element.in_loop or (element.is_named if named else flanges[0] in texts)
+                expected = {flanges[0]: "nothing"}
+                if element.command and is_driven:
+                    expected = self._source(element, component, flanges, texts, is_run=file.endswith("Run.mo"))
+            for path, text in expected.items():
+                value = texts.get(path, Value(path, "", "nothing", 0))
+                given = re.sub(r"\s", "", value.text)
+                self._judge(file, value, f"{kind} {name}", text, element.line, given=given)
+
+    def _flange(self, component: str, side: str) -> str:
+        """Return the connector of the robot for the axis or the support of a joint."""
+        return next((f"robot.{end}" for end, _ in self.ends[f"{component}.{side}"] if "." not in end), "")
+
+    def _source(
+        self, joint: Element, component: str, flanges: Sequence[str], texts: Mapping[str, Value], *, is_run: bool
+    ) -> dict[str, str]:
+        """Return what moves a joint in Run or Test: texts by the ends of connections, outputs and modifiers."""
+        source, (q, speed, effort) = f"{component}Drive", _LETTERS[joint.type in TURNS]
+        (axis, _), own = flanges, f"robot.{component}"
+        expected = {flange: f"{source}.{end}" for flange, end in zip(flanges, ("flange", "support"), strict=True)}
+        if not is_run:
+            expected |= {f"{source}.{field}": f"{own}.{field}" for field in (f"{q}_start", f"{q}_min", f"{q}_max")}
+            expected[f"{source}.{speed}_max"] = f"{own}.{speed}_max"
+            reach = f"{source}.reach"
+            return expected | ({reach: f"robot.startPositions.{component}Reach"} if reach in texts else {})
+        variable = (q, speed, effort)[COMMANDS.index(joint.command)]
+        end, command = f"{source}.{variable}{'_ref' * (joint.command != 'effort')}", f"{component}_{variable}"
+        if self.sample.options.inputs == "vector":
+            order = [name.removesuffix("Drive") for name in self.titles[f"{self.name}Run.mo"] if name.endswith("Drive")]
+            vectors = (v.path.partition(".")[0] for v in texts.values() if v.type.endswith("RealInput"))
+            command = f"{next(vectors, '')}[{order.index(component) + 1 if component in order else 0}]"
+        if end in texts and "limitedEffort" in texts[end].text:  # a drive that keeps its limits
+            limits = f"{own}.parameters.limits.effort,{own}.parameters.limits.velocity"
+            command = f"UrdfSync.Functions.limitedEffort({command},{component}_{speed},{limits})"
+        expected[end] = command
+        if joint.command == "effort":
+            place = f"{component}_{q}"
+            return expected | {place: f"{axis}.{q}-{flanges[1]}.{q}", f"{component}_{speed}": f"der({place})"}
+        return expected | {f"{component}_{effort}": f"{axis}.{effort}"}
 
     # Records of several elements
 
