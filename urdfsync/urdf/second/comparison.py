@@ -13,6 +13,7 @@ import numpy as np
 from urdfsync.checks.experiment import Difference, Numbers, Sample
 from urdfsync.diagnostics import SourceError
 from urdfsync.domain import further_key
+from urdfsync.modelica.literals import string
 from urdfsync.modelica.values import Value, literals, read_values
 from urdfsync.spelling import counted
 from urdfsync.urdf.second.reading import (
@@ -35,13 +36,18 @@ _RECORDS = "UrdfSync.Records."
 _SHAPE = re.compile(r"((?:visual|collision)\d+)(?:_\d+)?(\.|Corners)")
 _LETTERS = {True: ("phi", "w", "tau"), False: ("s", "v", "f")}
 """Position, speed and effort in Modelica, of joints that turn and of joints that slide, as `COMMANDS`."""
-_TENSOR = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+_NO_MASS = {
+    **dict.fromkeys(("inertial.origin.xyz", "inertial.origin.rpy"), ZERO),
+    **dict.fromkeys(
+        ("inertial.mass", *(f"inertial.inertia.{part}" for part in "ixx ixy ixz iyy iyz izz".split())), (0.0,)
+    ),
+}
 _CLOSED = 1e-6
 """The greatest gap of a closed loop, in m."""
 
 
 def compare_numbers(sample: Sample, packages: Sequence[Mapping[str, bytes]]) -> list[Numbers]:
-    """Compare all literals in the records of packages, and the names in the robot model and in Run.
+    """Compare all literals in the records of packages, and the names in the robot model, Run and Test.
 
     Raises SourceError if the source can't be read again.
     """
@@ -50,16 +56,7 @@ def compare_numbers(sample: Sample, packages: Sequence[Mapping[str, bytes]]) -> 
     except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
         message = f"the second reader fails: {type(error).__name__}: {error}"
         raise SourceError.of("second-reader", message, sample.file) from None
-    comparisons = [_Comparison(texts, reading, sample) for texts in packages]
-    by_yourdfpy = f"the reading by yourdfpy, which can't read {sample.file} ({reading.unread})"
-    numbers = list[Numbers]()
-    for each in comparisons:
-        each.run()
-        counts = sorted(each.uncompared.items())
-        uncompared = [by_yourdfpy] * bool(reading.unread)
-        uncompared += [f"{path} of records ({counted(count, 'number')})" for path, count in counts]
-        numbers.append(Numbers(each.right, each.total, tuple(each.differences), uncompared=tuple(uncompared)))
-    return numbers
+    return [_Comparison(texts, reading, sample).numbers() for texts in packages]
 
 
 class _Comparison:
@@ -67,8 +64,9 @@ class _Comparison:
 
     def __init__(self, texts: Mapping[str, bytes], reading: Reading, sample: Sample) -> None:
         self.reading, self.sample, self.name = reading, sample, sample.target.name
-        suffixes = ("", "Run", "Test", "Parameters", "Start", "Sensors", "Stance")
-        needed = {f"{sample.target.name}{suffix}.mo" for suffix in suffixes}
+        needed = {
+            f"{self.name}{suffix}.mo" for suffix in ("", "Run", "Test", "Parameters", "Start", "Sensors", "Stance")
+        }
         needed |= {path for path in texts if path.startswith(("Links/", "Joints/")) and path.endswith("Parameters.mo")}
         read = {path: read_values(texts[path].decode(errors="replace")) for path in sorted(needed & texts.keys())}
         self.values = {path: each.values for path, each in read.items()}
@@ -76,121 +74,172 @@ class _Comparison:
         self.ends = _ends(self.values.get(f"{self.name}.mo", ()))
         """Connections in the robot model."""
         self.right = self.total = 0
-        self.differences = list[Difference]()
-        self.uncompared = Counter[str]()
-        self.components: dict[tuple[str, str], str] = {}
-        """Components of links, joints, loops and sensors, by kind and name."""
+        self.differences, self.uncompared = list[Difference](), Counter[str]()
         self.elements = {
             "link": reading.links,
             "joint": reading.joints,
             "loop": reading.loops,
             "sensor": reading.sensors,
         }
-
         roots = reading.links.keys() - {joint.child for joint in reading.joints.values()}
         has_masses = any("inertial.mass" in link.values for link in reading.links.values())
         self.massless_root = None if has_masses else reading.links[next(iter(roots))]
+        self.components = dict[tuple[str, str], str]()
+        """Components of links, joints, loops and sensors, by kind and name."""
 
-    def run(self) -> None:
+    def numbers(self) -> Numbers:
         """Compare all files."""
         for path, values in self.values.items():
             if path.startswith(("Links/", "Joints/")):
                 type_ = next((value.type for value in values if value.path == "name"), "").removeprefix(_RECORDS)
                 stem = path.rpartition("/")[2].removesuffix("Parameters.mo")
                 self._element(path, stem[:1].lower() + stem[1:], type_, values)
-        for suffix, compare in (("Parameters", self._whole), ("Start", self._starts), ("Sensors", self._sensors)):
-            if f"{self.name}{suffix}.mo" in self.values:
+        for suffix, compare in (
+            *(("Parameters", self._whole), ("Sensors", self._sensors), ("Start", self._starts)),
+            *(("Stance", self._stance), ("", self._connections), ("Run", self._bench), ("Test", self._bench)),
+        ):
+            if f"{self.name}{suffix}.mo" in self.values or suffix == "Start":
                 compare(f"{self.name}{suffix}.mo")
-        begun = {value.path for value in self.values.get(f"{self.name}Start.mo", ())}
-        for name, joint in self.reading.joints.items():
-            if "start" in joint.values and self.components.get(("joint", name)) not in begun:
-                stated = joint.values["start"]
-                self._lack(f"joint {name}", "start", stated.value, f"{self.name}Start.mo", 0, stated.line)
-        for value in self.values.get(f"{self.name}Stance.mo", ()):
-            self._judge(f"{self.name}Stance.mo", value, "robot", self._height(literals(value.text)))
-        if f"{self.name}.mo" in self.values:
-            self._connections(f"{self.name}.mo")
-        for bench in (f"{self.name}Run.mo", f"{self.name}Test.mo"):
-            if bench in self.values:
-                self._bench(bench)
         for kind, elements in self.elements.items():
             for name in elements.keys() - {name for of, name in self.components if of == kind}:
                 if kind != "sensor" or "package" in self.sample.options.approach:
-                    self._lack(f"{kind} {name}", "name", name, f"{self.name}.mo", 0, elements[name].line)
+                    self._compare(f"{self.name}.mo", f"{kind} {name}", (), {"name": Stated(name, elements[name].line)})
         for contradiction in self.reading.contradictions:
-            self._differ("robot", "elements", contradiction, "another one by yourdfpy", f"{self.name}.mo", 0, 0)
+            self._differ(
+                f"{self.name}.mo",
+                "robot",
+                Value("elements", "", "", 0),
+                Stated(contradiction, 0),
+                "another one by yourdfpy",
+            )
+        uncompared = [
+            f"{path} of records ({counted(count, 'number')})" for path, count in sorted(self.uncompared.items())
+        ]
+        if self.reading.unread:
+            uncompared.insert(
+                0, f"the reading by yourdfpy, which can't read {self.sample.file} ({self.reading.unread})"
+            )
+        return Numbers(self.right, self.total, tuple(self.differences), uncompared=tuple(uncompared))
 
-    def _lack(self, element: str, quantity: str, expected: Any, file: str, line: int, at: int) -> None:
-        self.total += 1
-        self._differ(element, quantity, expected, "nothing", file, line, at)
+    def _compare(self, file: str, element: str, values: Sequence[Value], expected: Mapping[str, Stated]) -> None:
+        """Count values, and compare them: one that is not expected is not compared, one that lacks is a difference."""
+        given, line = {value.path for value in values}, values[0].line if values else 0
+        for value in (*values, *(Value(path, "", "nothing", line) for path in expected if path not in given)):
+            own, stated = _read(value.text), expected.get(value.path)
+            count = len(own) if isinstance(own, tuple) else 1
+            self.total += count
+            if stated is None:
+                self.uncompared[re.sub(r"[\d_\[\]]+", "", value.path)] += count
+            elif same(stated.value, own):
+                self.right += count
+            else:
+                if isinstance(own, tuple) and np.shape(stated.value) == np.shape(own):
+                    self.right += sum(same(a, b) for a, b in zip(stated.value, own, strict=True))
+                self._differ(file, element, value, stated, own)
 
-    def _differ(self, element: str, quantity: str, expected: Any, given: Any, file: str, line: int, at: int) -> None:
-        words = _shown(expected), _shown(given)
-        self.differences.append(Difference(element, quantity, *words, file, line, self.sample.file, at))
-
-    def _judge(
-        self, file: str, value: Value, element: str, expected: Any, at: int = 0, path: str = "", given: Any = None
-    ) -> None:
-        """Count a value, and compare it; with nothing expected it is not compared."""
-        given, path = literals(value.text) if given is None else given, path or value.path
-        given = value.text if given is None else given  # an expression of the user's
-        count = len(given) if isinstance(given, tuple) else 1
-        self.total += count
-        if expected is None:
-            self.uncompared[re.sub(r"[\d_]+", "", path)] += count
-        elif same(expected, given):
-            self.right += count
-        else:
-            if isinstance(given, tuple) and np.shape(expected) == np.shape(given):
-                self.right += sum(same(a, b) for a, b in zip(expected, given, strict=True))
-            self._differ(element, path, expected, given, file, value.line, at)
+    def _differ(self, file: str, element: str, value: Value, stated: Stated, given: Any) -> None:
+        words = _shown(stated.value), _shown(given)
+        place = file, value.line, self.sample.file, stated.line
+        self.differences.append(Difference(element, value.path, *words, *place))
 
     def _element(self, file: str, component: str, type_: str, values: Sequence[Value], *, whole: bool = False) -> None:
         """Compare the record of a link, joint or loop, or its part of the `whole` robot's record."""
         kind = {"Link": "link", "Loop": "loop"}.get(type_, "joint")
-        name = next((str(literals(value.text)) for value in values if value.path == "name"), "")
-        element, label, line = self.elements[kind].get(name), f"{kind} {name}", values[0].line if values else 0
+        named = next((value for value in values if value.path == "name"), Value("name", "", "", 0))
+        name = str(literals(named.text))
+        element = self.elements[kind].get(name)
         if element is None:
-            self.total += 1
-            self._differ(label, "name", "nothing", name, file, line, 0)
+            self._compare(file, f"{kind} {name}", [named], {"name": Stated("nothing", 0)})
             return
         self.components[kind, name] = component
-        expected = dict(element.values)
+        shapes = [(value, _SHAPE.match(value.path)) for value in values]
+        given = [value._replace(path=f"{s[1]}{s[2]}{value.path[s.end() :]}") if s else value for value, s in shapes]
+        owners = {value.path.partition(".")[0] for value in given}
+        elsewhere = ("start", "contact", "collision") if whole else ("start",)
+        elsewhere = elsewhere if self.sample.options.collisions else (*elsewhere, "collision")
+        expected = dict[str, Stated]()
+        for path, stated in element.values.items():
+            owner = path.partition(".")[0]
+            # a mesh that can't be read is left out
+            is_drawn = owner in owners or f"{owner}.uri" not in element.values
+            if is_drawn and not path.startswith(elsewhere) and not path.endswith(".shape"):
+                expected[path] = stated
         if kind == "joint":
-            place, stated_type = Value("type", "", "", line), f"{element.type.capitalize()}Joint"
-            self._judge(file, place, label, stated_type, element.line, given=type_)
+            given.append(Value("type", "", type_, named.line))
+            expected["type"] = Stated(f"{element.type.capitalize()}Joint", element.line)
         elif kind == "loop":
             expected |= _equations(element, {value.path: literals(value.text) for value in values})
         elif not whole and element is self.massless_root:  # Modelica's frames need a body there
             del expected["hasInertial"]
-            numbers: dict[str, Any] = {"mass": (0.0,), "origin.xyz": ZERO, "origin.rpy": ZERO}
-            numbers |= {f"inertia.{part}": (0.0,) for part in _TENSOR}
-            expected |= {f"inertial.{path}": Stated(number, element.line) for path, number in numbers.items()}
-        given = set[str]()
-        for value in values:
-            shape = _SHAPE.match(value.path)
-            path = f"{shape[1]}{shape[2]}{value.path[shape.end() :]}" if shape else value.path
-            given |= {path, path.partition(".")[0]}
-            stated: Any = None
-            stated, at = expected.get(path) or (None, 0)
-            if stated is not None and path.endswith(".uri"):
-                stated = self._uri(stated, str(literals(value.text)))
-            self._judge(file, value, label, stated, at, path)
-        for path, (stated, at) in expected.items():
-            owner = path.partition(".")[0]
-            is_elsewhere = path == "start" or path.endswith(".shape") or (whole and path.startswith("contact"))
-            is_elsewhere |= path.startswith("collision") and (whole or not self.sample.options.collisions)
-            if path not in given and not is_elsewhere and (owner in given or f"{owner}.uri" not in expected):
-                self._lack(label, path, stated, file, line, at)
+            expected |= {path: Stated(number, element.line) for path, number in _NO_MASS.items()}
+        for k, value in enumerate(given):
+            if value.path.endswith(".uri") and value.path in expected:
+                uris = self._uris(element.values[value.path].value)
+                expected[value.path] = Stated(uris[0], expected[value.path].line)
+                if literals(value.text) in uris:  # a mesh may have several parts
+                    given[k] = value._replace(text=string(uris[0]))
+        self._compare(file, f"{kind} {name}", given, expected)
 
-    def _uri(self, mesh: tuple[str, Sequence[float]], given: str) -> str:
-        """Return the URI of an imported mesh; the given one if it is that of one of its parts."""
+    def _uris(self, mesh: tuple[str, Sequence[float]]) -> Sequence[str]:
+        """Return the URIs of the parts of an imported mesh; its key if it was not imported."""
         key = f"{mesh[0]} scale {' '.join(repr(float(number)) for number in mesh[1])}"
         keys, imports = [key, *(further_key(key, number) for number in range(1, 100))], self.sample.imports
-        uris = [f"modelica://{self.sample.target.package}/{imports[k].target}" for k in keys if k in imports]
-        return given if given in uris else next(iter(uris), key)
+        return [f"modelica://{self.sample.target.package}/{imports[k].target}" for k in keys if k in imports] or [key]
+
+    # Records of several elements
+
+    def _sensors(self, file: str) -> None:
+        parts = defaultdict[str, list[Value]](list)
+        for value in self.values[file]:
+            component, _, path = value.path.partition(".")
+            parts[component].append(value._replace(path=path))
+        for component, values in parts.items():
+            name = next((str(literals(value.text)) for value in values if value.path == "name"), "")
+            self.components["sensor", name] = component
+            sensor = self.reading.sensors.get(name)
+            self._compare(file, f"sensor {name}", values, sensor.values if sensor else {})
+
+    def _whole(self, file: str) -> None:
+        """Compare the record of the whole robot: its elements, then the tables that count these."""
+        parts, types, owner = defaultdict[str, list[Value]](list), dict[str, str](), ""
+        own, shapes, titles = list[Value](), dict[str, tuple[str, int]](), self.titles[file]
+        for value in self.values[file]:
+            component, _, path = value.path.partition(".")
+            type_, number = value.type.removeprefix(_RECORDS), re.match(r"Visual (\d+)", titles.get(component, ""))
+            if type_ == "Robot" or type_.startswith("constant"):
+                own.append(value)
+            elif number:
+                shapes.setdefault(component, (type_, [*types.values()].count("Link")))
+                parts[owner].append(value._replace(path=f"visual{number[1]}.{path}"))
+            else:
+                owner = component
+                types.setdefault(component, type_)
+                parts[component].append(value._replace(path=path))
+        for component, type_ in types.items():
+            self._element(file, component, type_, parts[component], whole=True)
+        elements = {component: self.elements[kind][name] for (kind, name), component in self.components.items()}
+        tables = expected_tables([(elements[c], c) for c in types if c in elements], shapes)
+        for value in own:
+            expected = {"name": Stated(self.reading.name, 0)}
+            if value.path == "standingHeight":
+                expected[value.path] = self._height(value)
+            if value.path in ("name", "standingHeight"):
+                self._compare(file, "robot", [value], {value.path: expected[value.path]})
+                continue
+            items = [item for item in re.split("[,;]", re.sub(r"[\s{}]|^\[|\]$|fill.*", "", value.text)) if item]
+            match = re.match('Number of joint "(.*)" in', titles.get(value.path, ""))
+            column = tables.get(f"{self.components.get(('joint', match[1]))}Axis" if match else value.path)
+            places = [f"{value.path}[{k}]" for k in range(1, max(len(items), len(column or ())) + 1)]
+            texts = (*(column or ()), *["nothing"] * len(items))
+            expected = {place: Stated(_read(text), 0) for place, text in zip(places, texts, strict=False)}
+            given = [value._replace(path=place, text=item) for place, item in zip(places, items, strict=False)]
+            self._compare(file, "robot", given, expected if column is not None else {})
 
     # Values that follow from others
+
+    def _joint(self, component: str) -> Element | None:
+        names = (name for (kind, name), other in self.components.items() if (kind, other) == ("joint", component))
+        return next((self.reading.joints[name] for name in names), None)
 
     def _positions(self) -> dict[str, float]:
         """Return where the joints begin: by the start record, or as near to zero as all limits allow."""
@@ -204,7 +253,6 @@ class _Comparison:
             lower, upper = joint.number("limits.lower"), joint.number("limits.upper")
             for other in joints.values():
                 if other.leader == joint.name and abs(factor := other.number("mimic.multiplier")) > math.ulp(1):
-                    factor = other.number("mimic.multiplier")
                     ends = sorted((end - other.number("mimic.offset")) / factor for end in limits(other))
                     lower, upper = max(lower, ends[0]), min(upper, ends[1])
             return lower, upper
@@ -220,26 +268,29 @@ class _Comparison:
 
         return {name: position(name) for name in joints}
 
-    def _joint(self, component: str) -> Element | None:
-        names = (name for (kind, name), other in self.components.items() if (kind, other) == ("joint", component))
-        return next((self.reading.joints[name] for name in names), None)
-
     def _starts(self, file: str) -> None:
         """Compare where joints begin: those in loops close these, all others begin where the source says."""
-        placed, gap = poses(self.reading, self._positions()), 0.0
+        values, gap = {value.path: value for value in self.values.get(file, ())}, 0.0
+        placed = poses(self.reading, self._positions()) if self.reading.loops else {}
         for loop in self.reading.loops.values():
             between = placed[loop.parent] @ origin(loop) - placed[loop.child] @ origin(loop, "childOrigin")
             gap = max(gap, float(np.linalg.norm(between[:3, 3])))
-        for value in self.values[file]:
-            joint, given = self._joint(value.path), literals(value.text)
-            stated = joint.values.get("start") if joint else None
-            expected: Any = stated.value if stated else None
-            if joint and joint.in_loop and not (joint.command and stated):
-                expected = given if gap < _CLOSED else f"a position that closes the loops, open by {1000 * gap:.3g} mm"
-            label, path = (f"joint {joint.name}", "start") if joint else ("robot", "reach")
-            self._judge(file, value, label, expected, joint.line if joint else 0, path)
+        for name, joint in self.reading.joints.items():
+            value = values.pop(self.components.get(("joint", name), ""), None)
+            expected = {"start": joint.values["start"]} if "start" in joint.values else {}
+            if value and joint.in_loop and not (joint.command and expected):
+                closed = literals(value.text) or value.text
+                opened = f"a position that closes the loops, open by {1000 * gap:.3g} mm"
+                expected = {"start": Stated(closed if gap < _CLOSED else opened, joint.line)}
+            if value or expected:
+                self._compare(file, f"joint {name}", [value._replace(path="start")] if value else [], expected)
+        self._compare(file, "robot", [value._replace(path="reach") for value in values.values()], {})
 
-    def _height(self, given: Any) -> Any:
+    def _stance(self, file: str) -> None:
+        for value in self.values[file]:
+            self._compare(file, "robot", [value], {value.path: self._height(value)})
+
+    def _height(self, given: Value) -> Stated:
         """Return the height of the root at which the lowest collision shape begins to carry the robot."""
         lowest, placed = INF, poses(self.reading, self._positions())
         for (kind, name), component in self.components.items():
@@ -247,14 +298,14 @@ class _Comparison:
             if kind != "link" or link is None:
                 continue
             file = f"Links/{component[0].upper()}{component[1:]}Parameters.mo"
-            shapes = [path.partition(".")[0] for path in link.values if re.match(r"collision\d+\.shape", path)]
             corners = {value.path: literals(value.text) for value in self.values.get(file, ())}
-            for shape in shapes:
+            for path in [path for path in link.values if re.match(r"collision\d+\.shape", path)]:
+                shape = path.partition(".")[0]
                 at = placed[name] @ origin(link, f"{shape}.origin")
                 up, middle = at[2, :3], at[2, 3]
                 if "contact.minDepth" in link.values:
                     middle += link.number("contact.minDepth")
-                match link.values[f"{shape}.shape"].value:
+                match link.values[path].value:
                     case "mesh":
                         points: Any = corners.get(f"{shape}Corners") or ()
                         below = max(-np.reshape(points, (-1, 3)) @ up, default=-INF)
@@ -262,66 +313,63 @@ class _Comparison:
                         below = np.abs(up) @ link.values[f"{shape}.size"].value / 2
                     case "sphere":
                         below = link.number(f"{shape}.radius")
-                    case kind:
-                        width = math.hypot(up[0], up[1]) if kind == "cylinder" else 1.0
+                    case kind_of_round:
+                        width = math.hypot(up[0], up[1]) if kind_of_round == "cylinder" else 1.0
                         below = abs(up[2]) * link.number(f"{shape}.length") / 2
                         below += link.number(f"{shape}.radius") * width
                 lowest = min(lowest, middle - below)
-        return given if given and np.allclose(given, -lowest, rtol=0, atol=1e-9) else (float(-lowest),)
+        number: Any = literals(given.text)
+        is_near = number and np.allclose(number, -lowest, rtol=0, atol=1e-9)
+        return Stated(number if is_near else (float(-lowest),), 0)
 
-    # The robot model and Run
+    # The robot model, Run and Test
 
     def _connections(self, file: str) -> None:
         """Compare which links the model connects with joints, loops and sensors, and who leads whom."""
-        ends, pairs = self.ends, list[tuple[Element, str, str, str, str, str]]()
-        for kind in ("joint", "loop", "sensor"):
-            for name, element in self.elements[kind].items():
-                own = self.components.get((kind, name))
-                sides = (("frame_a", "parent", element.parent), ("frame_b", "child", element.child))
-                for side, word, link in sides[: 1 if kind == "sensor" else 2] if own else ():
-                    if element.type != "force_torque":
-                        pairs.append((element, f"{kind} {name}", word, f"{own}.{side}", link, "link"))
-        for value in self.values.get(file, ()):
+        expected = list[tuple[str, Element, str, str, str, str]]()
+        for (kind, name), component in self.components.items():
+            if kind == "link" or (element := self.elements[kind].get(name)) is None or element.type == "force_torque":
+                continue
+            expected.append((kind, element, "parent", f"{component}.frame_a", "link", element.parent))
+            if kind != "sensor":
+                expected.append((kind, element, "child", f"{component}.frame_b", "link", element.child))
+        for value in self.values[file]:
             component, _, path = value.path.partition(".")
             if value.type.startswith("UrdfSync.Couplings.") and path == "parameters":
                 follower = self._joint(value.text.partition(".")[0])
                 leader = self.reading.joints.get(follower.leader) if follower else None
                 if follower and leader and leader.type in MOVES:
-                    pairs.append(
-                        (follower, f"joint {follower.name}", "mimic", f"{component}.leader", leader.name, "joint")
-                    )
+                    expected.append(("joint", follower, "mimic", f"{component}.leader", "joint", leader.name))
             elif value.type.startswith("UrdfSync.Sensors.Force") and path in ("f_joint", "t_joint"):
-                self._wrench(file, value, component, path[0])
-        for element, label, word, end, expected, kind in pairs:
-            names = {component: name for (of, name), component in self.components.items() if of == kind}
-            near = [
-                (names[c], line) for c, line in ((o.partition(".")[0], line) for o, line in ends[end]) if c in names
-            ]
-            given, line = ", ".join(name for name, _ in near) or "nothing", near[0][1] if near else 0
-            self._judge(file, Value(word, "", "", line), label, expected, element.line, given=given)
+                self._wrench(file, value._replace(path=path), component)
+        for kind, element, word, end, other, name in expected:
+            known = {component for (of, _), component in self.components.items() if of == other}
+            near = [(c, line) for c, line in ((o.partition(".")[0], line) for o, line in self.ends[end]) if c in known]
+            given = Value(word, "", ", ".join(c for c, _ in near) or "nothing", near[0][1] if near else 0)
+            stated = Stated(self.components.get((other, name), ""), element.line)
+            self._compare(file, f"{kind} {element.name}", [given], {word: stated})
 
-    def _wrench(self, file: str, value: Value, component: str, letter: str) -> None:
+    def _wrench(self, file: str, value: Value, component: str) -> None:
         """Compare the joint, the axes and the direction of a force-torque sensor."""
         for (kind, name), other in self.components.items():
-            if (kind, other) == ("sensor", component):
+            if (kind, other) == ("sensor", component) and name in self.reading.sensors:
                 sensor = self.reading.sensors[name]
                 (in_parent, is_reversed), joint = sensor.axes, self.components.get(("joint", sensor.parent))
-                vector = f"{joint}.frame_b.{letter}"
+                vector = f"{joint}.frame_b.{value.path[0]}"
                 vector = f"{joint}.frame_a.R.T*({vector}*{joint}.frame_b.R.T)" if in_parent else vector
-                expected, given = f"{'-' * is_reversed}{vector}", re.sub(r"\s", "", value.text)
-                self._judge(file, value, f"sensor {name}", expected, sensor.line, f"{letter}_joint", given)
+                stated = Stated(f"{'-' * is_reversed}{vector}", sensor.line)
+                self._compare(file, f"sensor {name}", [value], {value.path: stated})
 
     def _bench(self, file: str) -> None:
         """Compare what Run or Test connects with the axis of each joint, and the outputs of sensors."""
         values, joints = self.values[file], self.reading.joints
         texts = {end: Value(end, "", *others[0]) for end, others in _ends(values).items()}
         texts |= {value.path: value for value in values if value.path != "connect"}
-        for value in values:
-            if value.path.startswith("world."):
-                self._judge(file, value, "robot", "that of the bench", given=value.text)
+        worlds = [value for value in values if value.path.startswith("world.")]
+        self._compare(file, "robot", worlds, {value.path: Stated("that of the bench", 0) for value in worlds})
         named = any(joint.is_named for joint in joints.values() if joint.in_loop and not joint.leader)
         for (kind, name), component in self.components.items():
-            expected, element = dict[str, str](), self.elements[kind][name]
+            expected, element = dict[str, str](), self.elements[kind].get(name, Element(name, 0))
             if kind == "sensor":
                 expected = {f"{component}_{output}": f"robot.{component}.{output}" for output in "awft"}
                 expected = {path: text for path, text in expected.items() if path in texts}
@@ -332,10 +380,9 @@ class _Comparison:
                 expected = {flanges[0]: "nothing"}
                 if element.command and is_driven:
                     expected = self._source(element, component, flanges, texts, is_run=file.endswith("Run.mo"))
-            for path, text in expected.items():
-                value = texts.get(path, Value(path, "", "nothing", 0))
-                given = re.sub(r"\s", "", value.text)
-                self._judge(file, value, f"{kind} {name}", text, element.line, given=given)
+            given = [texts[path] if path in texts else Value(path, "", "nothing", 0) for path in expected]
+            stated = {path: Stated(text, element.line) for path, text in expected.items()}
+            self._compare(file, f"{kind} {name}", given, stated)
 
     def _flange(self, component: str, side: str) -> str:
         """Return the connector of the robot for the axis or the support of a joint."""
@@ -368,61 +415,11 @@ class _Comparison:
             return expected | {place: f"{axis}.{q}-{flanges[1]}.{q}", f"{component}_{speed}": f"der({place})"}
         return expected | {f"{component}_{effort}": f"{axis}.{effort}"}
 
-    # Records of several elements
 
-    def _sensors(self, file: str) -> None:
-        names = {v.path.partition(".")[0]: str(literals(v.text)) for v in self.values[file] if v.path.endswith(".name")}
-        self.components |= {("sensor", name): component for component, name in names.items()}
-        for value in self.values[file]:
-            component, _, path = value.path.partition(".")
-            sensor = self.reading.sensors.get(names.get(component, ""))
-            stated = sensor.values.get(path) if sensor else None
-            label = f"sensor {names.get(component, component)}"
-            self._judge(file, value, label, stated.value if stated else None, stated.line if stated else 0, path)
-
-    def _whole(self, file: str) -> None:
-        """Compare the record of the whole robot: its elements, then the tables that count these."""
-        parts, types, owner = defaultdict[str, list[Value]](list), dict[str, str](), ""
-        own, shapes, titles = list[Value](), dict[str, tuple[str, int]](), self.titles[file]
-        for value in self.values[file]:
-            component, _, path = value.path.partition(".")
-            type_, number = value.type.removeprefix(_RECORDS), re.match(r"Visual (\d+)", titles.get(component, ""))
-            if type_ == "Robot" or type_.startswith("constant"):
-                own.append(value)
-            elif number:
-                shapes.setdefault(component, (type_, [*types.values()].count("Link")))
-                parts[owner].append(value._replace(path=f"visual{number[1]}.{path}"))
-            else:
-                owner = component
-                types.setdefault(component, type_)
-                parts[component].append(value._replace(path=path))
-        for component, type_ in types.items():
-            self._element(file, component, type_, parts[component], whole=True)
-        elements = {component: self.elements[kind][name] for (kind, name), component in self.components.items()}
-        tables = expected_tables([(elements[c], c) for c in types if c in elements], shapes)
-        for value in own:
-            text = (
-                re.sub(r"[\s{}]|^\[|\]$|fill.*", "", value.text)
-                if value.text[:1] in "[f"
-                else re.sub(r"[\s{}]", "", value.text)
-            )
-            items = [item for item in re.split("[,;]", text) if item]
-            if value.path == "name":
-                self._judge(file, value, "robot", self.reading.name)
-            elif value.path == "standingHeight":
-                self._judge(file, value, "robot", self._height(literals(value.text)))
-            else:
-                match = re.match('Number of joint "(.*)" in', titles.get(value.path, ""))
-                expected = tables.get(f"{self.components.get(('joint', match[1]))}Axis" if match else value.path)
-                self.total += len(items)
-                if expected is None:
-                    self.uncompared[value.path] += len(items)
-                    continue
-                wrong = [k for k in range(max(len(items), len(expected))) if items[k : k + 1] != expected[k : k + 1]]
-                self.right += len(items) - len(wrong)
-                if wrong:
-                    shown = [next(iter(side[wrong[0] : wrong[0] + 1]), "nothing") for side in (expected, items)]
-                    self._differ("robot", f"{value.path}[{wrong[0] + 1}]", shown[0], shown[1], file, value.line, 0)
+def _read(text: str) -> Any:
+    """Return the value of a literal; an expression without its blanks."""
+    value = literals(text)
+    return re.sub(r"\s", "", text) if value is None else value
 
 
 def _ends(values: Sequence[Value]) -> defaultdict[str, list[tuple[str, int]]]:
