@@ -22,7 +22,7 @@ record B "Numbers, of (something; else)"
   replaceable Inner inner(each final a = b + c, redeclare model D = E, f = g(1, 2));
 
 equation
-  connect(a.b, c[2]);
+  connect(a[1, 2].b, c[2]);
   inner.u = limited(x, 1);
   annotation (Icon(x = 1));
 end B;
@@ -38,7 +38,7 @@ def test_values_are_found_with_their_lines() -> None:
         Value("corners", "parameterModelica.Units.SI.Angle", "{{0, 0, 1},\n    {0, 1, 0}}", 10),
         Value("inner.a", "replaceableInner", "b + c", 14),
         Value("inner.f", "replaceableInner", "g(1, 2)", 14),
-        Value("connect", "equation", "a.b,c[2]", 17),
+        Value("connect", "equation", "a[1,2].b c[2]", 17),
         Value("inner.u", "equation", "limited(x, 1)", 18),
     ]
     assert titles["corners"] == "Corners"

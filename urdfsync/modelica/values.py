@@ -13,6 +13,7 @@ from urdfsync.modelica.lexer import Token, lex
 _NUMBER = r"[-+]?\s*(?:Modelica\.Constants\.inf\b|(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][-+]?\d+)?)"
 _NUMBERS = re.compile(rf"(?:\s|[{{}}\[\],;]|{_NUMBER})*")
 _EMPTY = re.compile(r"fill\(0, 0, \d+\)")
+_ENDS_OF_CONNECTION = re.compile(r"connect\(((?:\[[^\]]*\]|[^,\[])*),((?:\[[^\]]*\]|[^)\[])*)\)")
 _SECTIONS = ("equation", "public", "protected", "initial")
 _CLASSES = ("record", "model")
 _PASSED = ("within", "end", "annotation", "assert", "import", "if", "for", "when", "algorithm")
@@ -28,7 +29,7 @@ class Value(NamedTuple):
     type: str
     """The base class, or the type of the component with its prefixes; `equation`."""
     text: str
-    """The expression; of a connection both ends with a comma, of an equation all of it."""
+    """The expression; of a connection both ends with a blank, of an equation all of it."""
     line: int
 
 
@@ -75,7 +76,9 @@ def _of_statement(text: str, tokens: list[Token], titles: dict[str, str]) -> Ite
     if words[0] in _PASSED:
         return
     if words[0] == "connect":
-        yield Value("connect", "equation", "".join(words[2 : words.index(")")]), _line(text, tokens[0]))
+        ends = _ENDS_OF_CONNECTION.match("".join(words))
+        if ends:
+            yield Value("connect", "equation", f"{ends[1]} {ends[2]}", _line(text, tokens[0]))
         return
     at = next(k for k, word in enumerate(words) if word in _ENDS or word.startswith('"'))
     last = 0 if words[0] == "extends" else at - 1

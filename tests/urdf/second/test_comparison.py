@@ -264,6 +264,7 @@ TEMPLATES = {
     "an expression": ("Joints/SlideParameters.mo", "upper = 0.5", "upper = 2*x", "limits.upper"),
     "two numbers of three": ("Joints/SlideParameters.mo", "rpy = {0.5, -0.6, 0.7}", "rpy = {0.5}", "origin.rpy"),
     "a height that is not that of the lowest shape": ("BotStance.mo", "height = ", "height = 1", "height"),
+    "a height of several numbers": ("BotStance.mo", "height = ", "height = {1, 2} + ", "height"),
 }  # fmt: skip
 """A text, what a template would write in it otherwise, and the quantity that differs."""
 
@@ -303,8 +304,8 @@ def test_a_loop_that_is_read_otherwise_is_found(fault: str) -> None:
 @pytest.mark.parametrize(("old", "new", "file", "quantity"), [
     ("crank_pin = -0.88", "crank_pin = 0.88", "BotStart.mo", "start"),
     ("crank_pivot = 1.2", "crank_pivot = -1.2", "BotStart.mo", "start"),
-    ("translations = [1, 0, 0; 0, 1, 0]", "translations = [1, 0, 0; 1, 0, 0]", "Joints/Rocker_pinParameters.mo",
-     "translations"),
+    *(("translations = [1, 0, 0; 0, 1, 0]", f"translations = {other}", "Joints/Rocker_pinParameters.mo", "translations")
+      for other in ("[1, 0, 0; 1, 0, 0]", "{1, 2}", "2*x")),
 ])  # fmt: skip
 def test_a_loop_that_does_not_close_is_found(old: str, new: str, file: str, quantity: str) -> None:
     def change(texts: Any) -> Any:
@@ -313,6 +314,11 @@ def test_a_loop_that_does_not_close_is_found(old: str, new: str, file: str, quan
 
     numbers = compare(FOUR_BAR.source, change, **msgspec.structs.asdict(FOUR_BAR.options))
     assert (file, quantity) in {(each.file, each.quantity) for each in numbers.differences}
+
+
+def test_a_record_alone_has_no_loops() -> None:
+    options = msgspec.structs.asdict(FOUR_BAR.options) | {"approach": ("record",)}
+    assert compare(FOUR_BAR.source, **options).differences == ()
 
 
 def test_another_joint_that_drives_a_loop_is_found() -> None:

@@ -20,6 +20,7 @@ from urdfsync.urdf.second.reading import (
     COMMANDS,
     INF,
     MOVES,
+    TENSOR,
     TURNS,
     ZERO,
     Element,
@@ -38,10 +39,9 @@ _LETTERS = {True: ("phi", "w", "tau"), False: ("s", "v", "f")}
 """Position, speed and effort in Modelica, of joints that turn and of joints that slide, as `COMMANDS`."""
 _NO_MASS = {
     **dict.fromkeys(("inertial.origin.xyz", "inertial.origin.rpy"), ZERO),
-    **dict.fromkeys(
-        ("inertial.mass", *(f"inertial.inertia.{part}" for part in "ixx ixy ixz iyy iyz izz".split())), (0.0,)
-    ),
+    **{f"inertial.{path}": (0.0,) for path in ("mass", *(f"inertia.{part}" for part in TENSOR))},
 }
+"""Values in the record of a link without mass."""
 _CLOSED = 1e-6
 """The greatest gap of a closed loop, in m."""
 
@@ -51,12 +51,13 @@ def compare_numbers(sample: Sample, packages: Sequence[Mapping[str, bytes]]) -> 
 
     Raises SourceError if the source can't be read again.
     """
-    try:
-        reading = read_again(sample.content, sample.options)
-    except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
-        message = f"the second reader fails: {type(error).__name__}: {error}"
-        raise SourceError.of("second-reader", message, sample.file) from None
-    return [_Comparison(texts, reading, sample).numbers() for texts in packages]
+    with np.errstate(all="ignore"):  # infinite numbers in the source, or in edits
+        try:
+            reading = read_again(sample.content, sample.options)
+        except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
+            message = f"the second reader fails: {type(error).__name__}: {error}"
+            raise SourceError.of("second-reader", message, sample.file) from None
+        return [_Comparison(texts, reading, sample).numbers() for texts in packages]
 
 
 class _Comparison:
@@ -64,9 +65,8 @@ class _Comparison:
 
     def __init__(self, texts: Mapping[str, bytes], reading: Reading, sample: Sample) -> None:
         self.reading, self.sample, self.name = reading, sample, sample.target.name
-        needed = {
-            f"{self.name}{suffix}.mo" for suffix in ("", "Run", "Test", "Parameters", "Start", "Sensors", "Stance")
-        }
+        suffixes = ("", "Run", "Test", "Parameters", "Start", "Sensors", "Stance")
+        needed = {f"{self.name}{suffix}.mo" for suffix in suffixes}
         needed |= {path for path in texts if path.startswith(("Links/", "Joints/")) and path.endswith("Parameters.mo")}
         read = {path: read_values(texts[path].decode(errors="replace")) for path in sorted(needed & texts.keys())}
         self.values = {path: each.values for path, each in read.items()}
@@ -75,12 +75,9 @@ class _Comparison:
         """Connections in the robot model."""
         self.right = self.total = 0
         self.differences, self.uncompared = list[Difference](), Counter[str]()
-        self.elements = {
-            "link": reading.links,
-            "joint": reading.joints,
-            "loop": reading.loops,
-            "sensor": reading.sensors,
-        }
+        kinds = ("link", "joint", "loop", "sensor")
+        all_elements = (reading.links, reading.joints, reading.loops, reading.sensors)
+        self.elements = dict(zip(kinds, all_elements, strict=True))
         roots = reading.links.keys() - {joint.child for joint in reading.joints.values()}
         has_masses = any("inertial.mass" in link.values for link in reading.links.values())
         self.massless_root = None if has_masses else reading.links[next(iter(roots))]
@@ -89,6 +86,7 @@ class _Comparison:
 
     def numbers(self) -> Numbers:
         """Compare all files."""
+        model = f"{self.name}.mo"
         for path, values in self.values.items():
             if path.startswith(("Links/", "Joints/")):
                 type_ = next((value.type for value in values if value.path == "name"), "").removeprefix(_RECORDS)
@@ -101,24 +99,15 @@ class _Comparison:
             if f"{self.name}{suffix}.mo" in self.values or suffix == "Start":
                 compare(f"{self.name}{suffix}.mo")
         for kind, elements in self.elements.items():
-            for name in elements.keys() - {name for of, name in self.components if of == kind}:
-                if kind != "sensor" or "package" in self.sample.options.approach:
-                    self._compare(f"{self.name}.mo", f"{kind} {name}", (), {"name": Stated(name, elements[name].line)})
+            for name in sorted(elements.keys() - {name for of, name in self.components if of == kind}):
+                if kind in ("link", "joint") or "package" in self.sample.options.approach:
+                    self._compare(model, f"{kind} {name}", (), {"name": Stated(name, elements[name].line)})
         for contradiction in self.reading.contradictions:
-            self._differ(
-                f"{self.name}.mo",
-                "robot",
-                Value("elements", "", "", 0),
-                Stated(contradiction, 0),
-                "another one by yourdfpy",
-            )
-        uncompared = [
-            f"{path} of records ({counted(count, 'number')})" for path, count in sorted(self.uncompared.items())
-        ]
-        if self.reading.unread:
-            uncompared.insert(
-                0, f"the reading by yourdfpy, which can't read {self.sample.file} ({self.reading.unread})"
-            )
+            place = Value("elements", "", "", 0)
+            self._differ(model, "robot", place, Stated(contradiction, 0), "another one by yourdfpy")
+        uncompared = [f"{path} of records ({counted(n, 'number')})" for path, n in sorted(self.uncompared.items())]
+        if unread := self.reading.unread:
+            uncompared.insert(0, f"the reading by yourdfpy, which can't read {self.sample.file} ({unread})")
         return Numbers(self.right, self.total, tuple(self.differences), uncompared=tuple(uncompared))
 
     def _compare(self, file: str, element: str, values: Sequence[Value], expected: Mapping[str, Stated]) -> None:
@@ -247,7 +236,7 @@ class _Comparison:
         begin = {name: joint.number("start") for name, joint in joints.items() if "start" in joint.values}
         for value in self.values.get(f"{self.name}Start.mo", ()):
             if (joint := self._joint(value.path)) and isinstance(numbers := literals(value.text), tuple):
-                begin[joint.name] = numbers[0]
+                begin[joint.name] = next(iter(numbers), 0.0)
 
         def limits(joint: Element) -> tuple[float, float]:
             lower, upper = joint.number("limits.lower"), joint.number("limits.upper")
@@ -307,7 +296,8 @@ class _Comparison:
                     middle += link.number("contact.minDepth")
                 match link.values[path].value:
                     case "mesh":
-                        points: Any = corners.get(f"{shape}Corners") or ()
+                        points: Any = corners.get(f"{shape}Corners")
+                        points = points if isinstance(points, tuple) and len(points) % 3 == 0 else ()
                         below = max(-np.reshape(points, (-1, 3)) @ up, default=-INF)
                     case "box":
                         below = np.abs(up) @ link.values[f"{shape}.size"].value / 2
@@ -319,7 +309,7 @@ class _Comparison:
                         below += link.number(f"{shape}.radius") * width
                 lowest = min(lowest, middle - below)
         number: Any = literals(given.text)
-        is_near = number and np.allclose(number, -lowest, rtol=0, atol=1e-9)
+        is_near = isinstance(number, tuple) and np.allclose(number, [-lowest], rtol=0, atol=1e-9)
         return Stated(number if is_near else (float(-lowest),), 0)
 
     # The robot model, Run and Test
@@ -427,7 +417,7 @@ def _ends(values: Sequence[Value]) -> defaultdict[str, list[tuple[str, int]]]:
     ends = defaultdict[str, list[tuple[str, int]]](list)
     for value in values:
         if value.path == "connect":
-            first, second = value.text.split(",")
+            first, second = value.text.split(" ")
             ends[first].append((second, value.line))
             ends[second].append((first, value.line))
     return ends
@@ -436,7 +426,9 @@ def _ends(values: Sequence[Value]) -> defaultdict[str, list[tuple[str, int]]]:
 def _equations(loop: Element, given: Mapping[str, Any]) -> dict[str, Stated]:
     """Return the equations of a loop: the given ones, if they are some of those that a joint of its kind has."""
     keys = ("translations", "rotations", "childRotations")
-    moves, u, v = (np.reshape(given.get(key) or (), (-1, 3)) for key in keys)
+    numbers = [given.get(key) for key in keys]
+    whole = [each if isinstance(each, tuple) and len(each) % 3 == 0 else (math.nan,) * 3 for each in numbers]
+    moves, u, v = (np.reshape(each, (-1, 3)) for each in whole)
     axis, child_axis = loop.axes
     is_right = len(moves) + len(u) > 0 and len(u) == len(v) and np.allclose(moves @ moves.T, np.eye(len(moves)))
     match loop.type if is_right else "":
@@ -448,7 +440,8 @@ def _equations(loop: Element, given: Mapping[str, Any]) -> dict[str, Stated]:
             is_right = len(u) <= 3 and np.allclose((u * v).sum(axis=1), 0)
         case _:
             is_right = is_right and not len(u)
-    return {key: Stated(given.get(key) if is_right else f"those of a {loop.type} joint", loop.line) for key in keys}
+    right = dict(zip(keys, numbers if is_right else [f"those of a {loop.type} joint"] * 3, strict=True))
+    return {key: Stated(value, loop.line) for key, value in right.items()}
 
 
 def _shown(value: Any) -> str:

@@ -30,6 +30,7 @@ INF, ZERO = float("inf"), (0.0, 0.0, 0.0)
 TURNS = ("revolute", "continuous")
 MOVES = (*TURNS, "prismatic")
 COMMANDS = ("position", "velocity", "effort")
+TENSOR = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 _LOSSES = {
     **dict.fromkeys(MOVES, ("dynamics.damping", "dynamics.friction")),
     "planar": ("translation.damping", "translation.friction", "rotation.damping", "rotation.friction"),
@@ -256,7 +257,7 @@ def _links(root: Any, version: tuple[int, ...]) -> Iterator[Element]:
         else:
             _put_origin(link, inertial, version, "inertial.origin")
             link.put("inertial.mass", _at(inertial, "mass@value", 1, 0.0), inertial)
-            for name in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz"):
+            for name in TENSOR:
                 link.put(f"inertial.inertia.{name}", _at(inertial, f"inertia@{name}", 1, 0.0), inertial)
         for kind, name, block in (("link", link.name, element), *blocks):
             for field, *places in (words.split() for words in _CONTACT[kind].split(", ") if name == link.name):
@@ -582,32 +583,30 @@ def _ask_yourdfpy(reading: Reading, root: Any) -> None:
     for elements, theirs in zip((reading.links, reading.joints), sides[1], strict=True):
         for their in theirs:
             own = elements[their.name].values if their.name in elements else {}
-            for path, value in _of_yourdfpy(their):
+            for path, (value, line) in own.items():
+                other = _of_yourdfpy(their, path)
                 # it reads no quaternions, which are matrices here
-                if path in own and not isinstance(own[path].value, np.ndarray) and not same(own[path].value, value):
-                    own[path] = Stated(value, own[path].line)
+                if other is not None and not isinstance(value, np.ndarray) and not same(value, other):
+                    own[path] = Stated(other, line)
 
 
-def _of_yourdfpy(their: Any) -> Iterator[tuple[str, Any]]:
-    """Yield what yourdfpy reads of a link or joint, by the paths of the records; as matrices, angles are turns."""
-    origins, parts = {}, list[tuple[str, Any, str]]()
-    if isinstance(their, yourdfpy.Joint):
-        origins["origin"] = their.origin
-        fields = "effort velocity" if their.type == "continuous" else "effort velocity lower upper"
-        parts += [("limits", their.limit, fields), ("mimic", their.mimic, "multiplier offset")]
-    else:
-        if their.inertial is not None:
-            origins["inertial.origin"] = their.inertial.origin
-            parts.append(("inertial", their.inertial, "mass"))
-        for tag, shapes in (("visual", their.visuals), ("collision", their.collisions)):
-            for number, shape in enumerate(shapes, 1):
-                origins[f"{tag}{number}.origin"] = shape.origin
-                kinds = ((getattr(shape.geometry, kind, None), fields) for kind, fields in _SHAPES.items())
-                parts += [(f"{tag}{number}", form, fields) for form, fields in kinds if form is not None]
-    for path, matrix in origins.items():
-        if matrix is not None:
-            yield from ((f"{path}.xyz", tuple(map(float, matrix[:3, 3]))), (f"{path}.rpy", matrix[:3, :3]))
-    for path, part, fields in parts:
-        for field in fields.split():
-            if (value := getattr(part, field, None)) is not None:
-                yield f"{path}.{field}", tuple(map(float, np.atleast_1d(value)))
+def _of_yourdfpy(their: Any, path: str) -> Any:
+    """Return what yourdfpy reads of a link or joint at a path of the records; None for nothing.
+
+    Angles are a matrix. It has axes of any length, and limits of continuous joints.
+    """
+    if path in ("name", "axis") or (path in ("limits.lower", "limits.upper") and their.type == "continuous"):
+        return None
+    value = their
+    for word in path.split("."):
+        if shape := re.fullmatch(r"(visual|collision)(\d+)", word):
+            value = getattr(value, f"{shape[1]}s")[int(shape[2]) - 1]
+        elif word in ("xyz", "rpy"):
+            value = value[:3, 3] if word == "xyz" else value[:3, :3]
+        else:
+            form = getattr(value, "geometry", None) if word != "origin" else None
+            value = next((part for kind in _SHAPES if (part := getattr(form, kind, None)) is not None), value)
+            value = getattr(value, "limit" if word == "limits" else word, None)
+        if value is None:
+            return None
+    return value if len(np.shape(value)) == 2 else tuple(map(float, np.atleast_1d(value)))
