@@ -183,7 +183,7 @@ READER: dict[str, tuple[Callable[[Robot], Robot], str, str]] = {
     "an offset with the other sign": (
         of("joints", "twist", mimic=lambda j: replace(j.mimic, offset=-0.1)), "Joints/TwistParameters.mo",
         "mimic.offset"),
-    "another leader": (of("joints", "twist", mimic=lambda j: replace(j.mimic, joint="slide")), "Bot.mo", "mimic"),
+    "another leader": (of("joints", "twist", mimic=lambda j: replace(j.mimic, joint="slide")), "Bot.mo", "leader"),
     "another parent": (of("joints", "twist", parent="arm"), "Bot.mo", "parent"),
     "damping and friction exchanged": (
         of("joints", "shoulder", dynamics=lambda j: replace(j.dynamics, damping=0.2, friction=0.5)),

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import pytest
-from support.numbers import differences
+from support.numbers import BOT, compare, differences, of_package
+from support.packages import generate
 from support.urdfs import joint, links, parsed, robot
 
 SIMPLE = {
@@ -53,3 +56,33 @@ def test_both_readers_find_the_same_gears_of_two_joints(kind: str, joint_type: s
     geared = any(each.transmission for each in parsed(text).joints)
     assert geared == ((joint_type == "continuous" and "Unknown" not in kind) or "FourBar" in kind)
     assert differences(text.encode()) == []
+
+
+PAIR = robot(
+    *links(base=1.0, arm=1.0, hand=1.0),
+    joint("elbow", "continuous", "base", "arm"),
+    joint("wrist", "continuous", "arm", "hand"),
+    f'<transmission name="t"><type>DifferentialTransmission</type>{PARTS}</transmission>',
+).encode()
+
+
+@pytest.mark.parametrize(("old", "new", "quantity"), [
+    ("</role><mechanical_reduction>-3<", "</role><mechanical_reduction>3<", "transmission.otherReduction"),
+    (">DifferentialT", ">FourBarLinkageT", "transmission.otherReduction"),
+    ("<offset>0.5<", "<offset>-0.5<", "transmission.offset"),
+    ("'1e-4'", "'1e-3'", "transmission.rotorInertia"),
+])  # fmt: skip
+def test_gears_that_are_read_otherwise_are_found(old: str, new: str, quantity: str) -> None:
+    assert old in PAIR.decode()
+    package = generate(PAIR.decode().replace(old, new).encode(), BOT)
+    found = of_package(package, PAIR, package.texts).differences
+    assert quantity in {each.quantity for each in found}
+    assert {each.source_line for each in found} == {PAIR[: PAIR.index(b"<transmission")].count(b"\n") + 1}
+
+
+def test_a_gear_at_another_joint_is_found() -> None:
+    def change(texts: Mapping[str, str]) -> Mapping[str, str]:
+        return {**texts, "Bot.mo": texts["Bot.mo"].replace("elbowGear.flange_c, wrist", "elbowGear.flange_c, elbow")}
+
+    (found,) = compare(PAIR, change).differences
+    assert (found.element, found.quantity, found.given) == ("joint elbow", "flange_c", "elbow")

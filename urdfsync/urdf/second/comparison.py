@@ -315,7 +315,7 @@ class _Comparison:
     # The robot model, Run and Test
 
     def _connections(self, file: str) -> None:
-        """Compare which links the model connects with joints, loops and sensors, and who leads whom."""
+        """Compare which links the model connects with joints, loops and sensors, and which joints each coupling has."""
         expected = list[tuple[str, Element, str, str, str, str]]()
         for (kind, name), component in self.components.items():
             if kind == "link" or (element := self.elements[kind].get(name)) is None or element.type == "force_torque":
@@ -325,11 +325,14 @@ class _Comparison:
                 expected.append((kind, element, "child", f"{component}.frame_b", "link", element.child))
         for value in self.values[file]:
             component, _, path = value.path.partition(".")
-            if value.type.startswith("UrdfSync.Couplings.") and path == "parameters":
-                follower = self._joint(value.text.partition(".")[0])
-                leader = self.reading.joints.get(follower.leader) if follower else None
-                if follower and leader and leader.type in MOVES:
-                    expected.append(("joint", follower, "mimic", f"{component}.leader", "joint", leader.name))
+            owner, ends = self._joint(value.text.partition(".")[0]) if path == "parameters" else None, {}
+            if owner and value.type.startswith("UrdfSync.Couplings."):
+                leads = owner.leader in self.reading.joints and self.reading.joints[owner.leader].type in MOVES
+                ends = {"leader": owner.leader, "follower": owner.name} if leads else {}
+            elif owner and value.type == "UrdfSync.Drives.SharedGear":
+                ends = {"flange_b": owner.name, "flange_c": owner.shares}
+            if owner:
+                expected += [("joint", owner, end, f"{component}.{end}", "joint", name) for end, name in ends.items()]
             elif value.type.startswith("UrdfSync.Sensors.Force") and path in ("f_joint", "t_joint"):
                 self._wrench(file, value._replace(path=path), component)
         for kind, element, word, end, other, name in expected:
