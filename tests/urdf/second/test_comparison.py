@@ -332,9 +332,8 @@ def test_another_joint_that_drives_a_loop_is_found() -> None:
     wrong = tuple(replace(joint, actuated=joint.name == "rocker_pivot" or None) for joint in own.robot.joints)
     texts = generate_robot(replace(own.robot, joints=wrong), BOT, **options).texts
     found = of_package(own, content, texts).differences
-    assert {(each.element, each.quantity, each.given) for each in found} >= {
-        ("joint rocker_pivot", "robot.rocker_pivotAxis", "rocker_pivotDrive.flange"),
-        ("joint crank_pivot", "robot.crank_pivotAxis", "nothing"),
+    assert {(each.element, each.quantity, each.given) for each in found if each.file == "BotRun.mo"} == {
+        ("joint rocker_pivot", "robot.rocker_pivotAxis", "rocker_pivotDrive.flange")
     }
 
 
