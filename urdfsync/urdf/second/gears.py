@@ -45,9 +45,10 @@ def read_gears(root: Any) -> dict[str, Gear]:
 def _shared_gears(element: Any, kind: str) -> dict[str, Gear] | None:
     """Return the gears of two joints by the documented positions of joints; None for another kind of transmission."""
     roles = {"flexJoint": "joint1", "rollJoint": "joint2", "rightActuator": "actuator1", "leftActuator": "actuator2"}
-    parts = dict[str, Any]()
+    parts, count = dict[str, Any](), 0
     for ending in ("joint", "actuator"):
         for k, part in enumerate((part for part in element if part.tag.rstrip("12").lower().endswith(ending)), 1):
+            count += 1
             role = part.get("role") or part.findtext("role", "").strip() or roles.get(part.tag, f"{ending}{k}")
             parts[role if role.startswith(ending) else ""] = part
     holders = [parts.get(role, Element(role)) for role in roles.values()]
@@ -61,7 +62,7 @@ def _shared_gears(element: Any, kind: str) -> dict[str, Gear] | None:
     if ways is None:
         return None
     joints = np.array(ways) / np.outer(reductions[:2], reductions[2:])
-    is_whole = parts.keys() == {*roles.values()} and len({*names[:2]}) == 2
+    is_whole = count == len(roles) and parts.keys() == {*roles.values()} and len({*names[:2]}) == 2
     if not is_whole or not np.isfinite(joints).all() or not np.linalg.det(joints):
         return {}
     motors, gears = np.linalg.inv(joints), dict[str, Gear]()

@@ -54,7 +54,9 @@ def plain_root(content: bytes, joints: Collection[str] | None = None) -> Any:
         if place is not None and len(numbers) == 6:
             place.tag = "origin"
             place.attrib.update({"xyz": " ".join(numbers[:3]), "rpy": " ".join(numbers[3:])})
-        texts = {part.tag: part.text for part in element if part.tag in _NAMES.split() and not part.attrib}
+        texts = {
+            part.tag: part.text for part in element if part.tag in _NAMES.split() and not part.attrib and not len(part)
+        }
         if element.tag in _ALONE and not element.attrib:
             texts = texts or {_ALONE[element.tag]: element.text}
         for name, text in texts.items():
