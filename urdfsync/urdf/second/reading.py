@@ -7,7 +7,6 @@ the source, so faults are not reported here: a value that can't be read is a mis
 from __future__ import annotations
 
 import contextlib
-import copy
 import io
 import logging
 import re
@@ -124,9 +123,14 @@ def read_again(content: bytes, options: Options, names: Collection[str] | None =
     A chain stands for each ball that is none of the `names` of joints.
     """
     root = plain_root(content, names)
+    gears = read_gears(root)
+    for part in root.iter():  # yourdfpy refuses prefixes
+        part.tag = part.tag.replace(":", "_")
+        for name in [name for name in part.attrib if ":" in name]:
+            part.set(name.replace(":", "_"), part.attrib.pop(name))
     version = tuple(map(int, re.findall(r"\d+", root.get("version", "1.0"))[:2]))
     links = {each.name: each for each in _links(root, version)}
-    joints = {each.name: each for each in _joints(root, options, version)}
+    joints = {each.name: each for each in _joints(root, gears, options, version)}
     reading = Reading(root.get("name", ""), links, joints)
     _ask_yourdfpy(reading, root)
     reading.sensors = {each.name: each for each in _sensors(root, reading)}
@@ -199,13 +203,6 @@ def _cross(axis: Any) -> Any:
 # XML
 
 
-def _find(element: Any, path: str) -> list[Any]:
-    found = [element]
-    for step in filter(None, path.split("/")):
-        found = [child for part in found for child in part if child.tag == step]
-    return found
-
-
 def _numbers(text: str | None, count: int = 1) -> tuple[float, ...] | None:
     with contextlib.suppress(ValueError):
         numbers = tuple(float(word) + 0.0 for word in (text or "").split())
@@ -217,7 +214,7 @@ def _at(element: Any, places: str, count: int = 1, default: Any = None) -> Any:
     """Return the numbers at the first existing place, the only number by itself: a path, an attribute behind `@`."""
     for place in places.split():
         path, _, attribute = place.partition("@")
-        holder = next(iter(_find(element, path)), None)
+        holder = element.find(path or ".")
         if holder is not None and (not attribute or attribute in holder.attrib):
             numbers = _numbers(holder.get(attribute or "value") or (None if attribute else holder.text), count)
             return default if numbers is None else numbers[0] if count == 1 else numbers
@@ -225,7 +222,7 @@ def _at(element: Any, places: str, count: int = 1, default: Any = None) -> Any:
 
 
 def _text(element: Any, path: str) -> str:
-    return next(((part.text or "").strip() for part in _find(element, path)), "")
+    return (element.findtext(path) or "").strip()
 
 
 def _put_origin(element: Element, around: Any, version: tuple[int, ...] = (1, 0), path: str = "origin") -> None:
@@ -244,7 +241,7 @@ def _put_origin(element: Element, around: Any, version: tuple[int, ...] = (1, 0)
 
 def _links(root: Any, version: tuple[int, ...]) -> Iterator[Element]:
     colors = dict[str, tuple[float, ...]]()
-    for material in (*root.iterchildren("material"), *_find(root, "link/visual/material")):
+    for material in (*root.iterchildren("material"), *root.findall("link/visual/material")):
         if rgba := _at(material, "color@rgba", 4):
             colors.setdefault(material.get("name", ""), rgba)
     blocks = [("gazebo", block.get("reference"), block) for block in root.iterchildren("gazebo")]
@@ -294,13 +291,13 @@ def _put_shape(
 # Joints
 
 
-def _joints(root: Any, options: Options, version: tuple[int, ...]) -> Iterator[Element]:
-    drives, gears, joints = defaultdict[str, list[dict[str, Any]]](list), read_gears(root), list[Element]()
+def _joints(root: Any, gears: Mapping[str, Gear], options: Options, version: tuple[int, ...]) -> Iterator[Element]:
+    drives, joints = defaultdict[str, list[dict[str, Any]]](list), list[Element]()
     for drive in _drives(root):
         drives[drive["joint"]].append(drive)
     for element in root.iterchildren("joint"):
         joint = Element(element.get("name"), element.sourceline, element.get("type"))
-        joint.parent, joint.child = (_find(element, tag)[0].get("link") for tag in ("parent", "child"))
+        joint.parent, joint.child = (element.find(tag).get("link") for tag in ("parent", "child"))
         joint.is_named = any(drive.get("is_driven") for drive in drives[joint.name])
         joint.is_measured = any(drive.get("is_measured") for drive in drives[joint.name])
         joint.put("name", joint.name, element)
@@ -341,7 +338,7 @@ def _put_axis(joint: Element, element: Any, version: tuple[int, ...]) -> None:
         joint.put(f"limits.{field}", infinite if is_open else _at(element, f"limit@{field}", 1, 0.0), at)
     for field in ("velocity", "effort"):
         joint.put(f"limits.{field}", _at(element, f"limit@{field}", 1, INF), at)
-    own = {name.removeprefix("drake:"): text for name, text in at.items() if version >= (1, 2) or ":" in name}
+    own = {name.removeprefix("drake_"): text for name, text in at.items() if version >= (1, 2) or "drake" in name}
     for field in ("acceleration", "deceleration", "jerk"):
         if limit is not None and (numbers := _numbers(own.get(field))):
             joint.put(f"limits.{field}", numbers, at)
@@ -396,11 +393,11 @@ def _drives(root: Any) -> Iterator[dict[str, Any]]:
             drive["is_measured"] = not names and joint.find("state_interface") is not None
             drive["command"] = next((command for command in COMMANDS if command in names), None)
             for param in joint.xpath("state_interface[@name='position']/param[@name='initial_value']"):
-                drive["start"], drive["at"] = _at(param, "/"), param
+                drive["start"], drive["at"] = _at(param, "."), param
             yield drive
         yield from (drive for part in control.iterchildren("transmission") for drive in _transmission(part))
     yield from (drive for part in root.iterchildren("transmission") for drive in _transmission(part))
-    for plugin in _find(root, "gazebo/plugin"):
+    for plugin in root.findall("gazebo/plugin"):
         parts = {part.tag: part for part in plugin}
         if name := _text(plugin, "mimicJoint"):
             yield {"joint": name, "at": plugin, **_coupling(parts, "joint" if "joint" in parts else "jointName")}
@@ -411,7 +408,7 @@ def _drives(root: Any) -> Iterator[dict[str, Any]]:
 def _coupling(parts: Mapping[Any, Any], leader: str) -> dict[str, Any]:
     name = (parts[leader].text or "").strip() if leader in parts else ""
     defaults = {"multiplier": 1.0, "offset": 0.0}
-    numbers = (_at(parts[key], "/", 1, value) if key in parts else value for key, value in defaults.items())
+    numbers = (_at(parts[key], ".", 1, value) if key in parts else value for key, value in defaults.items())
     return {"mimic": (name, *numbers)} if name else {}
 
 
@@ -475,7 +472,7 @@ def _find_sensors(root: Any) -> Iterator[tuple[Any, str, str, str]]:
             at = place if parent is None else parent.get("link") or parent.get("joint", place)
             if kind and at:
                 yield element, element.get("name") or f"{at} {kind}", kind, at
-    for element in _find(root, "ros2_control/sensor"):
+    for element in root.findall("ros2_control/sensor"):
         states = [state.get("name", "").partition(".")[0] for state in element.iterchildren("state_interface")]
         kind = next((_SENSORS[state] for state in states if state in _SENSORS), "")
         frames = [(param.text or "").strip() for param in element.xpath("param[@name='frame_id']")]
@@ -512,7 +509,7 @@ def _loop(name: str, kind: str, element: Any, places: Sequence[Any], axis: Any, 
 
 
 def _loops_in(root: Any, reading: Reading) -> Iterator[tuple[Any, ...]]:
-    within = {"loop_joint": "self::*", "drake:ball_constraint": "self::*", "gazebo": "joint"}
+    within = {"loop_joint": "self::*", "drake_ball_constraint": "self::*", "gazebo": "joint"}
     elements = [part for top in root if top.tag in within for part in top.xpath(within[top.tag])]
     placed = poses(reading, {})
     for number, element in enumerate(elements, 1):
@@ -529,11 +526,11 @@ def _loops_in(root: Any, reading: Reading) -> Iterator[tuple[Any, ...]]:
             (first, _, rpy), (last, xyz, _) = places
             if element.xpath("child_origin[not(@rpy)]") and {first, last} <= placed.keys():  # it is parallel
                 places[1] = last, xyz, placed[last][:3, :3].T @ placed[first][:3, :3] @ rotation(rpy)
-        elif element.tag == "drake:ball_constraint":
+        elif element.tag == "drake_ball_constraint":
             kind = "ball"
             for body, point in (("body_A", "p_AP"), ("body_B", "p_BQ")):
-                link = _find(element, f"drake:ball_constraint_{body}")[0].get("name")
-                places.append((link, _at(element, f"drake:ball_constraint_{point}@value", 3, ZERO), ZERO))
+                link = element.find(f"drake_ball_constraint_{body}").get("name")
+                places.append((link, _at(element, f"drake_ball_constraint_{point}@value", 3, ZERO), ZERO))
         else:
             parent, child = (_text(element, tag) for tag in ("parent", "child"))
             axis, second = _at(element, "axis/xyz", 3, axis), _at(element, "axis2/xyz", 3)
@@ -559,16 +556,10 @@ def _loops_by_name(reading: Reading) -> Iterator[tuple[Any, ...]]:
 
 def _ask_yourdfpy(reading: Reading, root: Any) -> None:
     """Take the values in which yourdfpy differs, of all that it reads."""
-    plain = copy.deepcopy(root)  # yourdfpy refuses prefixes
-    for part in [part for part in plain.iter() if ":" in part.tag]:
-        part.getparent().remove(part)
-    for part in plain.iter():
-        for name in [name for name in part.attrib if ":" in name]:
-            del part.attrib[name]
     logger = logging.getLogger("yourdfpy.urdf")
     before, logger.disabled = logger.disabled, True
     try:
-        robot = yourdfpy.URDF.load(io.BytesIO(etree.tostring(plain)), load_meshes=False, build_scene_graph=False).robot
+        robot = yourdfpy.URDF.load(io.BytesIO(etree.tostring(root)), load_meshes=False, build_scene_graph=False).robot
     except _FAILURES as error:
         reading.unread = f"{type(error).__name__}: {' '.join(str(error).split())}"[:120]
         return
