@@ -56,6 +56,17 @@ def test_values_have_the_lines_of_their_elements() -> None:
     assert (read.joints["j"].parent, read.joints["j"].child) == ("a", "b")
 
 
+def test_the_parts_of_a_chain_have_the_line_of_its_joint() -> None:
+    """A second child of the joint has no effect, as for the first reader."""
+    ends = '<parent link="a"/><child link="b"/><child link="a"/>'
+    text = robot(*links(a=1.0, b=1.0), f'<drake:joint name="j" type="universal">{ends}</drake:joint>').encode()
+    read = read_again(text, Options())
+    parts = read.joints["j_x"], read.joints["j_y"], read.links["j_x"]
+    assert {part.line for part in parts} == {5}
+    assert (read.joints["j_x"].child, read.joints["j_y"].child) == ("j_x", "b")
+    assert compare(text, approach=("package",)).differences == ()
+
+
 @pytest.mark.parametrize(("part", "place"), [("limit", "limits.lower"), ("mimic", "mimic.offset")])
 def test_yourdfpy_counts_where_it_reads_a_thing(part: str, place: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """A misreading in both of our readers shows, too."""

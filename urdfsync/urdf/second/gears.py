@@ -62,7 +62,7 @@ def _shared_gears(element: Any, kind: str) -> dict[str, Gear] | None:
     if ways is None:
         return None
     joints = np.array(ways) / np.outer(reductions[:2], reductions[2:])
-    is_whole = count == len(roles) and parts.keys() == {*roles.values()} and len({*names[:2]}) == 2
+    is_whole = count == len(roles) and parts.keys() == {*roles.values()} and len({*names[:2]} - {None, ""}) == 2
     if not is_whole or not np.isfinite(joints).all() or not np.linalg.det(joints):
         return {}
     motors, gears = np.linalg.inv(joints), dict[str, Gear]()

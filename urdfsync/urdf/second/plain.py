@@ -33,7 +33,7 @@ def plain_root(content: bytes, joints: Collection[str] | None = None) -> Any:
     """
     root = _parse(content)
     for joint in [part for part in root if part.tag in ("joint", "drake:joint")]:
-        name, kind = joint.get("name"), joint.get("type")
+        name, kind = joint.get("name", ""), joint.get("type")
         if joint.tag == "drake:joint" and kind in ("ball", "planar", "universal"):
             joint.tag = "joint"
             if kind == "universal":
@@ -80,21 +80,22 @@ def _make_chain(root: Any, joint: Any, axes: str, *, has_damping: bool) -> None:
         joint.remove(part)
     if damping:
         etree.SubElement(joint, "dynamics", damping=damping[0])
-    names = [f"{joint.get('name')}_{axis}" for axis in axes]
+    names = [f"{joint.get('name', '')}_{axis}" for axis in axes]
     if not axes:
         joint.set("type", "fixed")
         root.append(joint)
     for number, (name, axis) in enumerate(zip(names, axes, strict=True)):
         root.append(hinge := copy.deepcopy(joint))
         hinge.attrib.update({"name": name, "type": "continuous"})
-        etree.SubElement(hinge, "axis", xyz=" ".join(str(int(axis == other)) for other in "xyz"))
-        for part in hinge.xpath("origin | pose | parent") if number else ():
+        for part in hinge.xpath("*[not(self::child or self::dynamics)]") if number else ():
             hinge.remove(part)
+        etree.SubElement(hinge, "axis", xyz=" ".join(str(int(axis == other)) for other in "xyz"))
         if number:
             etree.SubElement(hinge, "parent", link=names[number - 1])
         if name != names[-1]:
-            hinge.remove(hinge.find("child"))
+            for part in hinge.findall("child"):
+                hinge.remove(part)
             etree.SubElement(hinge, "child", link=name)
-            etree.SubElement(root, "link", name=name)
+            etree.SubElement(root, "link", name=name).sourceline = joint.sourceline
         control = etree.SubElement(root, "ros2_control", name=name)
         etree.SubElement(etree.SubElement(control, "joint", name=name), "state_interface", name="position")
