@@ -14,6 +14,7 @@ SIMPLE = {
     "<mechanicalReduction>-2</mechanicalReduction>": True,
     "<actuator><drake:gear_ratio value='9'/><drake:rotor_inertia value='1e-4'/></actuator>": True,
     "<mechanicalReduction>0</mechanicalReduction>": False,
+    "<mechanicalReduction>1_000</mechanicalReduction>": False,
 }
 
 

@@ -9,6 +9,8 @@ from xml.etree.ElementTree import Element
 
 import numpy as np
 
+from urdfsync.urdf.second.plain import decimal
+
 
 class Gear(NamedTuple):
     """The gear of a joint: its numbers, and those of another joint that its motor turns, too."""
@@ -81,7 +83,7 @@ def _numbers(*elements: Any, with_attributes: bool = False) -> dict[str, float]:
         texts = [(part.tag, part.get("value", part.text or "")) for part in element]
         for name, text in (*texts, *(element.attrib.items() if with_attributes else ())):
             with contextlib.suppress(ValueError):
-                numbers.setdefault(name.rpartition(":")[2].replace("_", "").lower(), float(text))
+                numbers.setdefault(name.rpartition(":")[2].replace("_", "").lower(), decimal(text))
     return numbers
 
 

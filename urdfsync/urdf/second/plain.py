@@ -65,6 +65,13 @@ def plain_root(content: bytes, joints: Collection[str] | None = None) -> Any:
     return root
 
 
+def decimal(text: str) -> float:
+    """Return a number. Raises ValueError, also for what only Python takes for one, such as `1_000`."""
+    if "_" in text or not text.isascii():
+        raise ValueError(text)
+    return float(text)
+
+
 def _parse(content: bytes) -> Any:
     """Return the root, without comments and namespaces: tags and attributes keep their prefixes."""
     text = re.sub(r"""\sxmlns(:\w+)?\s*=\s*("[^"]*"|'[^']*')""", "", xml.parse(content).text)

@@ -21,7 +21,7 @@ from lxml import etree
 
 from urdfsync.urdf.options import LoopFrame, Options
 from urdfsync.urdf.second.gears import Gear, read_gears
-from urdfsync.urdf.second.plain import plain_root
+from urdfsync.urdf.second.plain import decimal, plain_root
 
 # yourdfpy raises these for valid files, since it expects optional attributes.
 _FAILURES = (ArithmeticError, AttributeError, LookupError, SyntaxError, TypeError, ValueError)
@@ -205,7 +205,7 @@ def _cross(axis: Any) -> Any:
 
 def _numbers(text: str | None, count: int = 1) -> tuple[float, ...] | None:
     with contextlib.suppress(ValueError):
-        numbers = tuple(float(word) + 0.0 for word in (text or "").split())
+        numbers = tuple(decimal(word) + 0.0 for word in (text or "").split())
         return numbers if len(numbers) == count else None
     return None
 
@@ -259,7 +259,7 @@ def _links(root: Any, version: tuple[int, ...]) -> Iterator[Element]:
         for kind, name, block in (("link", link.name, element), *blocks):
             for field, *places in (words.split() for words in _CONTACT[kind].split(", ") if name == link.name):
                 number = _at(block, " ".join(places), 1, -1.0)
-                if f"contact.{field}" not in link.values and (number > 0 or (number == 0 and field != "kp")):
+                if f"contact.{field}" not in link.values and (0 < number < INF or (number == 0 and field != "kp")):
                     link.put(f"contact.{field}", number, block)
         for tag in ("visual", "collision"):
             shapes = ((s, [part for part in s.xpath("geometry[1]/*") if part.tag in _SHAPES]) for s in element)
