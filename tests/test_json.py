@@ -19,7 +19,7 @@ from support.commands import Execute
 from support.documents import is_described
 
 from urdfsync import cli, config
-from urdfsync.checks.experiment import Deviation, Part, Quantity
+from urdfsync.checks.experiment import Deviation, Difference, Numbers, Part, Quantity
 from urdfsync.checks.results import CheckResult, CheckStatus, CompiledModel, EditEffect, ToolResult, TrialTime
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import ChangeClass, ChangeKind, Role
@@ -255,6 +255,7 @@ def checked() -> CheckResult:
     hand = Deviation(Quantity.POSITION, "link tip", math.inf, 0.5, 0.5, "m")
     swing = Deviation(Quantity.EFFORT, "joint hold", 0.025, 1.25, 1.25, "N·m")
     exact = msgspec.structs.replace(swing, difference=2.5e-16)
+    differing = Difference("joint hold", "limits.effort", "130", "150", "Joints/HoldParameters.mo", 12, "arm.urdf", 34)
     return CheckResult(
         "arm",
         "Arm",
@@ -280,6 +281,8 @@ def checked() -> CheckResult:
         seconds=4.25,
         megabytes=310.5,
         reference="Pinocchio 4.1.0",
+        numbers=Numbers(411, 412, (differing,), (differing,), ("reach of records (1 number)",)),
+        edited=("Joints/Hold_joint.mo",),
     )
 
 

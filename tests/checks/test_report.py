@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from urdfsync.checks.experiment import Deviation, Part, Quantity
+from urdfsync.checks.experiment import Deviation, Difference, Numbers, Part, Quantity
 from urdfsync.checks.report import closing_lines
 from urdfsync.checks.results import CheckResult, CompiledModel, EditEffect, ToolResult
 from urdfsync.commands.check import show_result
@@ -36,6 +36,7 @@ AGREEING = (
     Deviation(Quantity.CENTRE, "robot", 1.1e-16, 0.3, 0.3, "m"),
     Deviation(Quantity.WARNING, "joint elbow", 0.0, 1.0, 1.0, "", Part.LIMITS, "is above its upper position limit"),
 )
+LIMIT = Difference("joint elbow", "limits.effort", "130", "150", "Joints/ElbowParameters.mo", 12, "arm.urdf", 34)
 BROKEN = Diagnostic(
     Severity.ERROR, "syntax", "the file does not end with `end Wheel;`", "modelica/Cart/Joints/Wheel.mo", 14
 )
@@ -50,6 +51,7 @@ def tools(**facts: Any) -> tuple[ToolResult, ...]:
 RIGHT = CheckResult(
     "arm",
     "Arm",
+    numbers=Numbers(412, 412),
     freedoms=6,
     tools=(TOOL,),
     notes=("inertias were made up for 3 links",),
@@ -61,6 +63,8 @@ EDITED = msgspec.structs.replace(
     RIGHT,
     robot="loader",
     notes=(),
+    numbers=Numbers(411, 412, edits=(LIMIT,)),
+    edited=(LIMIT.file, "Joints/Elbow.mo", "Links/Hand.mo"),
     tools=tools(
         effects=(
             EditEffect(("Joints/Elbow.mo",), (load("joint elbow", 0.672, 21.0),), ("joint elbow",)),
@@ -133,6 +137,23 @@ def test_lines_are_as_on_the_page(capsys: Capture, monkeypatch: pytest.MonkeyPat
     assert [line.rstrip() for line in shown(capsys, *ALL)][: len(example)] == example
 
 
+def test_differing_numbers_come_first_and_those_of_one_file_are_counted(capsys: Capture) -> None:
+    numbers = Numbers(408, 412, tuple(msgspec.structs.replace(LIMIT, line=line) for line in (12, 13, 14, 15)))
+    lines = shown(capsys, msgspec.structs.replace(RIGHT, folder="modelica/Arm", numbers=numbers, edited=("Arm.mo",)))
+    assert lines[0].startswith("arm: differs: numbers differ (408 of 412); ")
+    place, fault = (
+        "  modelica/Arm/Joints/ElbowParameters.mo",
+        "limits.effort of joint elbow is 150, and 130 in arm.urdf:34",
+    )
+    assert lines[1:5] == [
+        f"{place}:12: {fault}; your edits are not the cause: check your own `templates`, or report a bug, with the "
+        "source",
+        f"{place}:13: {fault}",
+        f"{place}:14: {fault} (and 1 more there)",
+        "  Arm.mo (edited): what it does is not compared",
+    ]
+
+
 def test_one_robot_needs_no_tally(capsys: Capture) -> None:
     gap = "nothing was compiled: there is no Modelica Standard Library"
     result = CheckResult("arm", "Arm", unchecked=("poses were not compared",), gaps=(gap,), seconds=0.3)
@@ -156,11 +177,13 @@ def test_quiet_names_only_what_is_not_right(capsys: Capture) -> None:
     heads = [line.split(":")[0] for line in shown(capsys, *ALL, quiet=True) if not line.startswith(" ")]
     assert heads == ["welder", "picker", "cart", "new", "hoist", "lift"]
     assert shown(capsys, RIGHT, EDITED, quiet=True) == []
-    assert shown(capsys, RIGHT, EDITED, quiet=True, strict=True)[0].startswith("loader: differs: 3 models compile")
+    assert shown(capsys, RIGHT, EDITED, quiet=True, strict=True)[0].startswith(
+        "loader: differs: numbers right (411 of 412, 1 edited); 3 models compile"
+    )
 
 
 def test_verbose_lists_models_and_deviations(capsys: Capture) -> None:
-    assert shown(capsys, EDITED, verbose=True)[3:-1] == [
+    assert shown(capsys, EDITED, verbose=True)[4:-1] == [
         "  Arm: compiles",
         "  ArmRun: compiles",
         "  ArmTest: compiles",

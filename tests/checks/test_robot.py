@@ -15,6 +15,7 @@ from support.two_joints import ARM, JOINTS, LINKS, check, codes, lines, rebuild,
 from support.urdfs import robot
 
 from urdfsync import config
+from urdfsync.checks import report
 from urdfsync.checks import robot as robot_check
 from urdfsync.checks.package import RobotPackage, read_package
 from urdfsync.checks.results import CheckStatus
@@ -130,6 +131,64 @@ def test_a_robot_of_which_a_joint_is_left_out_agrees_with_nothing(
     assert "agree" not in result.summary
 
 
+def test_an_edited_number_and_exchanged_inputs_are_told_without_a_compiler(
+    arm: Path, modelica_library: Path, compiler: Compiling
+) -> None:
+    """An edit that no number tells is named, too; one of a comment is none."""
+    replace(arm / "Joints" / "ElbowParameters.mo", "damping = 0.1", "damping = 0.2")
+    replace(arm / "ArmRun.mo", "connect(elbow_phi, elbowDrive", "connect(shoulder_phi, elbowDrive")
+    replace(arm / "ArmRun.mo", "connect(shoulder_phi, shoulderDrive", "connect(elbow_phi, shoulderDrive")
+    replace(arm / "Joints" / "Elbow.mo", "animation = false", "animation = true")
+    replace(arm / "Links" / "Base.mo", "model Base", "// looked at\nmodel Base")
+    result = check()
+    assert result.numbers is not None
+    total = result.numbers.total
+    assert f"right: numbers right ({total - 3} of {total}, 3 edited); " in result.summary
+    assert [sentence for sentence, _ in report._sentences(result)] == [
+        "Joints/ElbowParameters.mo (edited) changes dynamics.damping of joint elbow: 0.1 in arm.urdf:7, 0.2 in line 16",
+        "ArmRun.mo (edited) changes elbowDrive.phi_ref of joint elbow: elbow_phi in arm.urdf:7, "
+        "shoulder_phi in line 50",
+        "ArmRun.mo (edited) changes shoulderDrive.phi_ref of joint shoulder: shoulder_phi in arm.urdf:6, "
+        "elbow_phi in line 44",
+        "Joints/Elbow.mo (edited): what it does is not compared",
+    ]
+    assert (status(result, strict=False), status(result, strict=True)) == (CheckStatus.RIGHT, CheckStatus.DIFFERS)
+
+
+def test_a_misread_number_differs_whoever_edited_it(
+    arm: Path, modelica_library: Path, compiler: Compiling, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    wrong = "      damping = << joint.dynamics.friction | real >>"
+    templates = Path("templates")
+    shutil.copytree(REPOSITORY / "templates" / "urdf", templates)
+    replace(templates / "macros.jinja", "      damping = << joint.dynamics.damping | real >>", wrong)
+    with Path("urdfsync.toml").open("a") as file:
+        file.write('templates = "templates"\n')
+    rebuild()
+    replace(arm / "Joints" / "ShoulderParameters.mo", "damping = 0.2", "damping = 0.7")
+    result = check()
+    assert status(result, strict=False) is CheckStatus.DIFFERS
+    first, second = (sentence for sentence, _ in report._sentences(result)[:2])
+    assert first == (
+        "modelica/Arm/Joints/ElbowParameters.mo:16: dynamics.damping of joint elbow is 0, and 0.1 in arm.urdf:7; "
+        "your edits are not the cause: check your own `templates`, or report a bug, with the source"
+    )
+    assert second.startswith(
+        "modelica/Arm/Joints/ShoulderParameters.mo:16: dynamics.damping of joint shoulder is 0.2, "
+    )
+    assert result.summary.startswith("differs: numbers differ (")
+
+
+def test_numbers_of_a_package_that_is_out_of_step_are_no_edits(
+    arm: Path, modelica_library: Path, compiler: Compiling
+) -> None:
+    replace(Path("arm.urdf"), 'damping="0.1"', 'damping="0.3"')
+    result = check()
+    assert result.numbers is not None
+    assert (result.numbers.differences, result.numbers.edits) == ((), ())
+    assert status(result, strict=True) is CheckStatus.OUT_OF_STEP
+
+
 def test_a_check_of_what_somebody_saved_meanwhile_is_not_remembered(
     arm: Path, modelica_library: Path, compiler: Compiling, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -152,13 +211,15 @@ def test_a_check_of_what_somebody_saved_meanwhile_is_not_remembered(
 def test_without_a_compiler_all_else_is_checked(
     arm: Path, modelica_library: Path, compiler: Compiling, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Also what yourdfpy says; nothing of it needs an extra. Whoever asks for more is told what to install."""
+    """Also the numbers, which need no extra. Whoever asks for more is told what to install."""
     find = importlib.util.find_spec
     monkeypatch.setattr(importlib.util, "find_spec", lambda name: None if name == "rumoca" else find(name))
     Path("arm.urdf").write_text(ARM.replace(' name="own"', ""))
     rebuild()
     result = check()
-    assert "second-reader-failed" in [one.code for one in result.diagnostics]
+    assert result.numbers is not None
+    assert result.numbers.summary == f"numbers right ({result.numbers.total} of {result.numbers.total})"
+    assert result.unchecked[0] == "the reading by yourdfpy, which can't read arm.urdf (KeyError: 'name')"
     (gap,) = result.gaps
     assert gap.startswith("nothing was compiled: there is no compiler: rumoca is not installed; pip install")
     assert status(result, strict=False) is CheckStatus.INCOMPLETE

@@ -68,13 +68,7 @@ def compare(library: Path, folder: Path, cases: Sequence[Case], own: Path = URDF
             run = next(runs)
             values = {name: numbers.tolist() for name, numbers in run.values.items()}
             motions[trial.name] = {"time": run.times.tolist(), **values}
-        wiring = DOMAIN.checks.wiring(
-            {path: text.encode() for path, text in case.package.texts.items()},
-            case.package.robot,
-            case.package.target,
-            case.package.options,
-        )
-        results.append((*compilation.compare_all(case.experiment.trials, motions), *wiring))
+        results.append(compilation.compare_all(case.experiment.trials, motions))
     return results
 
 

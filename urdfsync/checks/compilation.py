@@ -24,7 +24,7 @@ from urdfsync.checks.compilers.compiler import (
     compile_task,
     one_line,
 )
-from urdfsync.checks.experiment import Checks, Compared, Deviation, Experiment, Trial
+from urdfsync.checks.experiment import Compared, Deviation, Experiment, Trial
 from urdfsync.checks.flags import with_flags
 from urdfsync.checks.jobs import Jobs
 from urdfsync.checks.libraries import Libraries
@@ -122,15 +122,7 @@ class Compilation:
         self.result.times = tuple(TrialTime(trial.name, answer.seconds) for trial, answer in times if answer.seconds)
         self.diagnostics += faults
         if self.generated:
-            generation, robot = package.generation, package.robot
-            snapshot, domain = generation.now.snapshot, generation.inputs.domain
-            # the user's templates may connect benches in another way
-            own = robot.templates is not None
-            checks: Checks | None = None if own else domain.checks
-            wiring = (
-                () if checks is None else checks.wiring(self._completed, snapshot, robot.target, experiment.options)
-            )
-            self.result.deviations = (*compare_all(trials, self.generated), *wiring)
+            self.result.deviations = compare_all(trials, self.generated)
             self.result.curves = tuple(curves(trials[0], self.generated[trials[0].name]))
         if "edited" not in done:
             return

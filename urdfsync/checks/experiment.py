@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import enum
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, Protocol
 
 import msgspec
 
-from urdfsync.diagnostics import Diagnostic
 from urdfsync.domain import Import, Snapshot, Target
 
 
@@ -22,7 +21,6 @@ class Part(enum.StrEnum):
     """Accelerations that follow from efforts."""
     LOOPS = "loops"
     """Gaps, and the forces that close them."""
-    BENCHES = "Run and Test"
     SENSORS = "sensors"
     LIMITS = "limits"
     CONTACTS = "contacts"
@@ -42,12 +40,8 @@ class Quantity(enum.StrEnum):
     ACCELERATION = "acceleration"
     READING = "reading"
     """Of a sensor."""
-    GEAR = "gear"
-    """Reduction, offset and inertia of the rotor."""
     WARNING = "warning"
     """Whether a limit is passed: 1 if so, else 0."""
-    CONNECTION = "connection"
-    """Whether a bench is connected as it should be: 0 if so, else 1."""
     GROUND = "ground force"
     CLOSURE = "gap"
     """From one frame of a loop to the other."""
@@ -102,6 +96,43 @@ class Deviation(msgspec.Struct, frozen=True):
     def agrees(self) -> bool:
         """Whether the difference is within the tolerance."""
         return self.relative <= self.tolerance
+
+
+class Difference(msgspec.Struct, frozen=True):
+    """A number or name of the package that differs from an independent reading of the source."""
+
+    element: str
+    quantity: str
+    """Its path in the record, such as `limits.effort`."""
+    expected: str
+    """As the source has it."""
+    given: str
+    """As the package has it."""
+    file: str
+    """Below the package's folder."""
+    line: int
+    source: str
+    """The source's file."""
+    source_line: int
+
+
+class Numbers(msgspec.Struct, frozen=True):
+    """The numbers and names of a package, compared with an independent reading of the source."""
+
+    right: int = 0
+    total: int = 0
+    differences: tuple[Difference, ...] = ()
+    edits: tuple[Difference, ...] = ()
+    """Differences that the user has made."""
+    uncompared: tuple[str, ...] = ()
+    """What nothing compares: one sentence each, without a full stop."""
+
+    @property
+    def summary(self) -> str:
+        """A few words for the verdict."""
+        words = "differ" if self.differences else "right"
+        edited = f", {len(self.edits)} edited" if self.edits else ""
+        return f"numbers {words} ({self.right} of {self.total}{edited})"
 
 
 class Probe(msgspec.Struct, frozen=True):
@@ -188,10 +219,10 @@ class Sample(msgspec.Struct, frozen=True):
 class Checks(Protocol):
     """What `check` asks of a domain; its attribute `checks`."""
 
-    def cross_check(self, content: bytes, file: str) -> Sequence[Diagnostic]:
-        """Return differences from the model that another reader finds in a source without errors. It may take long.
+    def numbers(self, sample: Sample, *packages: Mapping[str, bytes]) -> Sequence[Numbers]:
+        """Return the numbers of packages, by the texts of each, compared with another reading of the source.
 
-        `file` is the source's name in diagnostics.
+        It may take a second. Raises SourceError if the other reader fails.
         """
         ...
 
@@ -210,10 +241,4 @@ class Checks(Protocol):
         something to draw: `Trial.over_time`. It runs in a process of its own. Raises SourceError if the reference can't
         be had or can't read it.
         """
-        ...
-
-    def wiring(
-        self, texts: Mapping[str, bytes], snapshot: Snapshot, target: Target, options: Any
-    ) -> Iterable[Deviation]:
-        """Return whether the benches of a generated package are connected as they should be, by their texts."""
         ...

@@ -86,8 +86,10 @@ class RobotPackage(msgspec.Struct):
     """See `users_files`."""
     models: tuple[str, ...]
     """The classes that have to compile by themselves, by their names below the package, the main one first."""
+    changed: tuple[str, ...]
+    """The edited files, without those that differ in comments and blanks only."""
     edits: tuple[str, ...]
-    """The edited files that belong to the main model, without those that differ in comments and blanks only."""
+    """Those that belong to the main model."""
 
 
 def read_package(config: Config, robot: RobotConfig, options: BuildOptions) -> RobotPackage:
@@ -108,6 +110,7 @@ def read_package(config: Config, robot: RobotConfig, options: BuildOptions) -> R
     benches = {f"{name.replace('.', '/')}.mo" for name in models[1:]}
     shared = [path for path in sorted(generated.keys() & on_disk.keys()) if path.endswith(".mo")]
     edited = [path for path in shared if normalised(on_disk[path]) != generated[path]] if in_step else []
+    changed = tuple(path for path in edited if _words(generated[path]) != _words(on_disk[path]))
     # files of elements whose new names wait are on disk under the old names
     known = [action for action in built.actions if action.reason is not Reason.UNKNOWN]
     keys = (key for action in known for key in (action.path, action.origin) if key)
@@ -128,9 +131,8 @@ def read_package(config: Config, robot: RobotConfig, options: BuildOptions) -> R
         around=files_around(config, robot, texts),
         users_files=users_files(config, robot),
         models=models,
-        edits=tuple(
-            path for path in edited if path not in benches and _words(generated[path]) != _words(on_disk[path])
-        ),
+        changed=changed,
+        edits=tuple(path for path in changed if path not in benches),
     )
 
 

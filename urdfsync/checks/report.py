@@ -5,9 +5,9 @@ from __future__ import annotations
 import itertools
 import math
 from collections import Counter
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 
-from urdfsync.checks.experiment import Deviation, Part, Quantity
+from urdfsync.checks.experiment import Deviation, Difference, Numbers, Part, Quantity
 from urdfsync.checks.results import (
     KINDS,
     CheckResult,
@@ -23,22 +23,28 @@ from urdfsync.output.sections import Mark, Section, Table
 from urdfsync.spelling import counted
 
 _MARKS = {CheckStatus.RIGHT: Mark.FINE, CheckStatus.DIFFERS: Mark.WRONG, CheckStatus.FAILED: Mark.WRONG}
+_ADVICE = "; your edits are not the cause: check your own `templates`, or report a bug, with the source"
+_MOST = 3
+"""The most differing numbers of one file that are told."""
 _STATED = {
     Quantity.WARNING: "the warning “{detail}” is missing, or comes elsewhere",
-    Quantity.CONNECTION: "{detail} is not connected as it should be",
 }
 """Differences that are no amounts."""
 
 
 def _sentences(result: CheckResult) -> list[tuple[str, str]]:
     """Return the sentences below the first line, with their styles."""
-    sentences = list(_two_tools(result)) if len(result.tools) > 1 else []
+    sentences = [*_numbers(result), *(_two_tools(result) if len(result.tools) > 1 else ())]
     if result.between is None:
         sentences += _differences(result)
     for effect in result.effects:
         changed = "; ".join(_change(*each) for each in _by_kind(effect.deviations, effect.owners))
-        style = "dim" if not changed else "bold red" if result.strict else "cyan"
+        style = _edit_style(result) if changed else "dim"
         sentences.append((f"{_edited(effect)} {changed or 'no compared quantity'}", style))
+    told = {file for effect in result.effects for file in effect.files}
+    told |= {each.file for each in result.numbers.edits} if result.numbers else set()
+    untold = (file for file in result.edited if file not in told)
+    sentences += [(f"{file} (edited): what it does is not compared", "dim") for file in untold]
     sentences += [(gap, "magenta") for gap in result.gaps]
     if not result.built:
         sentences.append(("there is no package yet, so what `urdfsync build` would write was checked", "yellow"))
@@ -49,9 +55,31 @@ def _sentences(result: CheckResult) -> list[tuple[str, str]]:
     return sentences
 
 
+def _numbers(result: CheckResult) -> Iterator[tuple[str, str]]:
+    """Yield the numbers that differ from the source, then those that the user changed: the first ones of each file."""
+    numbers, advice = result.numbers or Numbers(), _ADVICE
+    for each, more in _by_file(numbers.differences):
+        source = f"{each.source}:{each.source_line}"
+        fault = f"{each.quantity} of {each.element} is {each.given}, and {each.expected} in {source}"
+        yield f"{result.folder}/{each.file}:{each.line}: {fault}{more}{advice}", "bold red"
+        advice = ""
+    for each, more in _by_file(numbers.edits):
+        change = f"changes {each.quantity} of {each.element}: {each.expected} in {each.source}:{each.source_line}"
+        yield f"{each.file} (edited) {change}, {each.given} in line {each.line}{more}", _edit_style(result)
+
+
+def _by_file(differences: Iterable[Difference]) -> Iterator[tuple[Difference, str]]:
+    """Yield the first differences in each file, with the last of these the count of the others."""
+    for _, group in itertools.groupby(differences, lambda each: each.file):
+        own = list(group)
+        more = f" (and {len(own) - _MOST} more there)" if len(own) > _MOST else ""
+        yield from ((each, "") for each in own[: _MOST - 1])
+        yield from ((each, more) for each in own[_MOST - 1 : _MOST])
+
+
 def _differences(result: CheckResult) -> Iterator[tuple[str, str]]:
     """Yield how the package differs from the reference, by the first compiler that could move it."""
-    advice = "; your edits are not the cause: check your own `templates`, or report a bug, with the source"
+    advice = "" if result.numbers and result.numbers.differences else _ADVICE
     reference = result.reference or "the reference"
     deviations = next((tool.deviations for tool in result.tools if tool.deviations), ())
     for deviation, others in _by_kind([deviation for deviation in deviations if not deviation.agrees]):
@@ -193,6 +221,10 @@ def _by_kind(deviations: Sequence[Deviation], owners: Collection[str] = ()) -> I
         kind.sort(key=lambda deviation: (deviation.element not in owners, deviation.quantity is Quantity.REACTION))
         if names := list(dict.fromkeys(deviation.element for deviation in kind)):
             yield kind[0], f" (also {listed(names[1:])})" if names[1:] else ""
+
+
+def _edit_style(result: CheckResult) -> str:
+    return "bold red" if result.strict else "cyan"
 
 
 def _edited(effect: EditEffect) -> str:

@@ -9,7 +9,7 @@ from pathlib import Path
 import msgspec
 
 from urdfsync.checks.compilers.compiler import Tool
-from urdfsync.checks.experiment import Deviation, Part, Quantity
+from urdfsync.checks.experiment import Deviation, Numbers, Part, Quantity
 from urdfsync.config import ros_package_path
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.engine.result import Exit
@@ -142,7 +142,7 @@ class CheckResult(msgspec.Struct):
 
     KEYS = (
         *("robot", "package", "folder", "failed", "built", "in_step", "conflicting", "strict", "status", "summary"),
-        *("freedoms", "reference", "agrees", "worst", "tools", "between", "between_edited"),
+        *("numbers", "edited", "freedoms", "reference", "agrees", "worst", "tools", "between", "between_edited"),
         *("notes", "unchecked", "gaps", "diagnostics", "seconds", "megabytes"),
     )
 
@@ -156,6 +156,10 @@ class CheckResult(msgspec.Struct):
     """Whether it is out of step because edits and new texts contradict each other."""
     freedoms: int | None = None
     """Degrees of freedom; None if the domain has none."""
+    numbers: Numbers | None = None
+    """The comparison with a second reading of the source; None if there was none."""
+    edited: tuple[str, ...] = ()
+    """The edited files below the package's folder, without those that differ in comments and blanks only."""
     tools: tuple[ToolResult, ...] = ()
     """One for each compiler, in the order of their runs; none if nothing was compiled."""
     between: tuple[Deviation, ...] | None = None
@@ -202,13 +206,15 @@ class CheckResult(msgspec.Struct):
 
     @property
     def differs(self) -> bool:
-        """Whether the generated package differs from the reference, or two compilers disagree."""
+        """Whether the generated package differs from its source or from the reference, or two compilers disagree."""
+        if self.numbers and self.numbers.differences:
+            return True
         return not all(each.agrees for each in (*self.deviations, *(self.between or ()), *self.between_edited))
 
     @property
     def is_changed_by_edits(self) -> bool:
         """Whether the user's edits change a compared quantity."""
-        return any(effect.deviations for effect in self.effects)
+        return bool(self.numbers and self.numbers.edits) or any(effect.deviations for effect in self.effects)
 
     @property
     def status(self) -> CheckStatus:
@@ -223,9 +229,10 @@ class CheckResult(msgspec.Struct):
 
     @property
     def summary(self) -> str:
-        """One line: the verdict, the compiled models, and the agreement with the reference."""
+        """One line: the verdict, the numbers, the compiled models, and the agreement with the reference."""
         errors = sum(finding.severity is Severity.ERROR for finding in self.diagnostics)
         facts = [counted(errors, "error")] if errors else []
+        facts += [self.numbers.summary] if self.numbers else []
         if self.compiled:
             own = [model for model in self.compiled if not model.is_users]
             count, users = len(own), len(self.compiled) - len(own)

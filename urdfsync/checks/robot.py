@@ -1,10 +1,10 @@
-"""The check of one robot: files, then names, then compiling and balance, then the comparison with a reference."""
+"""The check of one robot: files, numbers, names, then compiling and balance, then the comparison with a reference."""
 
 from __future__ import annotations
 
 import tempfile
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
 import msgspec
@@ -13,7 +13,7 @@ from urdfsync import registry
 from urdfsync.checks import compilers, process, texts
 from urdfsync.checks.cache import UserCache
 from urdfsync.checks.compilation import Compilation, compare_all
-from urdfsync.checks.experiment import Checks, Experiment, Sample
+from urdfsync.checks.experiment import Checks, Difference, Experiment, Sample
 from urdfsync.checks.fingerprint import PHYSICS, fingerprint
 from urdfsync.checks.libraries import Libraries, find_libraries
 from urdfsync.checks.names import check_names
@@ -86,14 +86,13 @@ def _check(
     result.freedoms = checks.freedoms(package.generation.now.snapshot, robot.options) if checks else None
     tell(f"{robot.name}: checking files and names")
     result.add(package.errors)
-    if checks:
-        contradictions = checks.cross_check(inputs.source.content, shown(robot.source))
-        result.add(map(inputs.source.locate, contradictions))
     faults = [*texts.check_layout(package.files), *texts.check_around(robot.output, package.around)]
     result.add(faults)
     if any(finding.severity is Severity.ERROR for finding in faults):
         result.gaps = ("nothing was compiled, since files have errors",)
         return
+    if checks:
+        _compare_numbers(checks, package, result)
     contents = [*package.files.texts.values(), *package.generated.values(), *package.around.values()]
     uses = [name for name, _ in inputs.domain.uses(robot.options)]
     needed = find_libraries(config, robot, contents, uses)
@@ -119,6 +118,39 @@ def _check(
     run_compilations(compilations, experiment, result, limits)
 
 
+def _compare_numbers(checks: Checks, package: RobotPackage, result: CheckResult) -> None:
+    """Compare the numbers of a package with its source; what differs on disk only is the user's edit."""
+    tell(f"{package.robot.name}: reading the source again")
+    source, result.edited = package.generation.inputs.source, package.changed
+    on_disk = package.on_disk if package.in_step else package.generated
+    # the user's templates may connect Run and Test in another way
+    hidden = [f"{name}.mo" for name in package.models[1:] if package.robot.templates is not None]
+    packages = [{path: texts[path] for path in texts.keys() - hidden} for texts in (package.generated, on_disk)]
+    try:
+        generated, present = checks.numbers(_sample(package), *packages)
+    except UrdfsyncError as error:
+        result.gaps += (f"numbers were not compared: {error.diagnostics[0].message}",)
+        return
+
+    def located(differences: Iterable[Difference]) -> Iterator[Difference]:
+        for each in differences:
+            place = source.locate(Diagnostic(Severity.NOTE, "", "", each.source, each.source_line))
+            yield msgspec.structs.replace(each, source=place.file, source_line=place.line)
+
+    faults = {(each.file, each.element, each.quantity) for each in generated.differences}
+    edits = (each for each in present.differences if (each.file, each.element, each.quantity) not in faults)
+    result.numbers = msgspec.structs.replace(
+        present, differences=tuple(located(generated.differences)), edits=tuple(located(edits))
+    )
+    result.unchecked += present.uncompared
+
+
+def _sample(package: RobotPackage) -> Sample:
+    robot, generation = package.robot, package.generation
+    content, imports = generation.inputs.source.content, generation.now.imports or {}
+    return Sample(content, shown(robot.source), robot.target, robot.options, imports)
+
+
 def _find_missing(config: Config, options: CheckOptions, needed: Libraries, result: CheckResult) -> Diagnostic | None:
     """Return why nothing can be compiled. It is also an error if the user chose a compiler."""
     missing = next(filter(None, map(compilers.find_missing, options.tools)), None)
@@ -138,9 +170,7 @@ def _experiment(package: RobotPackage, options: CheckOptions, result: CheckResul
         return None
     tell(f"{robot.name}: asking the reference")
     try:
-        generation, file = package.generation, shown(robot.source)
-        content, imports = generation.inputs.source.content, generation.now.imports or {}
-        sample = Sample(content, file, robot.target, robot.options, imports)
+        sample = _sample(package)
         step = _STEP if options.curves else None
         (experiment,) = process.run(_experiments, robot.domain, sample, step, limits=limits)
     except UrdfsyncError as error:

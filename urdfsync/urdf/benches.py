@@ -5,10 +5,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
-from urdfsync.checks.experiment import Deviation, Experiment, Sample
-from urdfsync.diagnostics import Diagnostic
+from urdfsync.checks.experiment import Experiment, Numbers, Sample
 from urdfsync.domain import Target
 from urdfsync.simulation.bench import Axis, Bench, LoopSignals, Signal
 from urdfsync.urdf.artifacts import has_bench
@@ -112,11 +111,11 @@ def _acceleration(joint: Joint, variable: str, limits: str) -> Signal | None:
     return Signal(variable, _UNITS[MOTION_KINDS[joint.type]][3], (f"{limits}.deceleration", f"{limits}.acceleration"))
 
 
-def cross_check(content: bytes, file: str) -> Sequence[Diagnostic]:
-    """Return the differences from the links, joints and poses that yourdfpy reads."""
-    from urdfsync.urdf.parse.second_reader import cross_check  # most of a second, which no build needs
+def numbers(sample: Sample, *packages: Mapping[str, bytes]) -> Sequence[Numbers]:
+    """Return the numbers of packages, compared with the second reading of the source."""
+    from urdfsync.urdf.second.comparison import compare_numbers  # most of a second, for yourdfpy, which no build needs
 
-    return cross_check(content, file)
+    return compare_numbers(sample, packages)
 
 
 def models(robot: Robot, target: Target, options: Options) -> Sequence[str]:
@@ -129,11 +128,3 @@ def experiment(sample: Sample, step: float | None = None) -> Experiment | str:
     from urdfsync.urdf.physics.experiment import experiment  # with numpy, which no build needs
 
     return experiment(sample, step)
-
-
-def wiring(texts: Mapping[str, bytes], robot: Robot, target: Target, options: Options) -> Iterable[Deviation]:
-    """Look at the connections of Run and Test, which only the package approach has."""
-    from urdfsync.urdf.physics.wiring import wiring  # no build needs it
-
-    tree = KinematicTree.of(robot, (target.name,))
-    return wiring(texts, tree, target, options) if "package" in options.approach else ()

@@ -100,7 +100,6 @@ _ERRORS = {
     "unknown-mimic": "add the joint, or correct its name",
     "mimic-cycle": "let one joint of the cycle move by itself",
     "mimic-type": "remove the mimic, or make both joints revolute, continuous or prismatic",
-    "second-reader-differs": "please report this file: urdfsync or yourdfpy reads it wrongly",
 }
 _WARNINGS = {
     # the file
@@ -178,7 +177,6 @@ _NOTES = {
     "loop-closed": "the models of a package begin where it is closed",
     "loop-ball": "nothing to do, unless the middle one of them comes near a right angle",
     "loop-weaker": "nothing to do: the motion is the same",
-    "second-reader-failed": "go by the reading of urdfsync alone",
     "not-in-record": 'add "package" to `approach` for them',
     "not-modelled": "list them with their lines by --verbose",
 }

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import pytest
+from support.numbers import differences
 from support.urdfs import joint, link, robot
 
 from urdfsync.diagnostics import SourceError
 from urdfsync.urdf.parse.beside import join
-from urdfsync.urdf.parse.second_reader import cross_check
 from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.physics.completion import completed_for_pinocchio
 
@@ -47,11 +47,10 @@ def test_loops_motors_and_joints_are_as_the_yaml_says() -> None:
     assert dict(places)[reading.lines["joint e_x"]] == 4
 
 
-def test_the_second_reader_finds_the_joints_of_the_urdf() -> None:
-    """It knows none of several axes, and none that is fixed by a YAML."""
-    for kind in (b"SPHERICAL", b"FIXED"):
+def test_the_second_reader_finds_the_joints_of_the_yaml() -> None:
+    for kind in (b"SPHERICAL", b"FIXED", b"UJOINT_YX"):
         text, _ = join(URDF, YAML.replace(b"SPHERICAL", kind), "a.yaml")
-        assert cross_check(text, "a.urdf") == ()
+        assert differences(text, allow=()) == []
 
 
 def test_pinocchio_gets_the_joints_of_the_yaml() -> None:

@@ -8,7 +8,7 @@ from support.urdfs import dynamics, joint, limit, links, robot
 
 from urdfsync.urdf.parse import xml
 from urdfsync.urdf.parse.source import read_robot
-from urdfsync.urdf.physics.reference import Gear, read, read_gears, read_place
+from urdfsync.urdf.physics.reference import read, read_place
 
 SOURCE = """\
 <robot name="bot">
@@ -17,65 +17,6 @@ SOURCE = """\
   {}
 </robot>
 """
-
-
-@pytest.mark.parametrize(
-    ("inside", "gear"),
-    [
-        ("<actuator name='m'><mechanicalReduction>50</mechanicalReduction></actuator>", Gear(50)),
-        ("<mechanicalReduction>-2</mechanicalReduction>", Gear(-2)),
-        (
-            "<actuator name='m'><drake:gear_ratio value='9'/><drake:rotor_inertia value='1e-4'/></actuator>",
-            Gear(9, 0, 1e-4),
-        ),
-        ("<joint name='elbow'><hardwareInterface>x</hardwareInterface></joint>", None),
-    ],
-)
-def test_both_readers_find_the_same_gear(inside: str, gear: Gear | None) -> None:
-    joint = "" if "<joint" in inside else "<joint name='elbow'><offset>0</offset></joint>"
-    text = SOURCE.format(f"<transmission name='t'>{joint}{inside}</transmission>").encode()
-    robot = read_robot(text, "bot.urdf").robot
-    assert robot
-    assert read_gears(xml.parse(text).root) == ({"elbow": gear} if gear else {})
-    own = robot.joints[0].transmission
-    assert (own and (own.reduction, own.offset, own.rotor_inertia or 0)) == (gear and gear[:3])
-
-
-ROLES = "<{0} name='elbow'><role>{0}1</role><mechanicalReduction>{1}</mechanicalReduction>{3}</{0}>\
-<{0} name='wrist'><role>{0}2</role><mechanical_reduction>{2}</mechanical_reduction></{0}>"
-PARTS = ROLES.format("joint", 2, -3, "<offset>0.5</offset>") + ROLES.format(
-    "actuator", 10, -7, "<drake:rotor_inertia value='1e-4'/>"
-)
-WRIST = """<rightActuator name='r' mechanicalReduction='60'/><leftActuator name='l' mechanicalReduction='50'/>
-  <flexJoint name='elbow' mechanicalReduction='-1'/><rollJoint name='wrist' mechanicalReduction='2' offset='0.3'/>"""
-SHARED = {
-    "DifferentialTransmission": PARTS,
-    "FourBarLinkageTransmission": PARTS,
-    "WristTransmission": WRIST,
-    "UnknownTransmission": PARTS,
-}
-
-
-@pytest.mark.parametrize("kind", SHARED)
-@pytest.mark.parametrize("joint_type", ["continuous", "fixed"])
-def test_both_readers_find_the_same_gears_of_two_joints(kind: str, joint_type: str) -> None:
-    """One by the positions of the motors, the other by those of the joints."""
-    wrist = (
-        f'<joint name="wrist" type="{joint_type}"><parent link="arm"/><child link="hand"/></joint><link name="hand"/>'
-    )
-    transmission = f'<transmission name="t"><type>interface/{kind}</type>{SHARED[kind]}</transmission>'
-    text = SOURCE.format(wrist + transmission).encode()
-    robot = read_robot(text, "bot.urdf").robot
-    assert robot
-    own = {joint.name: joint.transmission for joint in robot.joints if joint.transmission}
-    read = read_gears(xml.parse(text).root)
-    assert own.keys() == read.keys()
-    assert bool(own) == ((joint_type == "continuous" and "Unknown" not in kind) or "FourBar" in kind)
-    for name, gear in own.items():
-        assert read[name].joint == (gear.joint or "")
-        numbers = (gear.reduction, gear.offset, gear.rotor_inertia or 0.0, gear.joint_reduction or 0.0)
-        found = read[name]
-        assert (*found[:3], found.joint_reduction) == pytest.approx(numbers, rel=1e-14)
 
 
 def test_both_readers_find_the_same_place_of_a_sensor() -> None:

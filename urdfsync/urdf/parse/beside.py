@@ -12,7 +12,6 @@ becomes a chain.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import Any
 from xml.etree.ElementTree import SubElement
@@ -68,11 +67,6 @@ def join(content: bytes, other: bytes, file: str) -> tuple[bytes, Sequence[tuple
     first = content.count(b"\n", 0, end) + 2
     places = [(number, line) for number, (_, line) in enumerate(elements, first)]
     return content[:end] + lines + b"\n" + content[end:], places
-
-
-def with_plain_joints(content: bytes) -> bytes:
-    """Return the URDF with joints of their one written axis."""
-    return re.sub(rb"<%s [^>]*/>" % AXES.encode(), b"", content)
 
 
 class _LoopsError(Exception):

@@ -16,9 +16,8 @@ import msgspec
 
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.parse import xml
-from urdfsync.urdf.parse.beside import AXES, split_joints
-from urdfsync.urdf.parse.respelling import with_attributes
 from urdfsync.urdf.robot import Inertia
+from urdfsync.urdf.second.plain import plain_urdf
 
 _NEEDED = {
     "joint/axis": {"xyz": "1 0 0"},
@@ -42,12 +41,10 @@ class CompletedSource(NamedTuple):
 def completed_for_pinocchio(content: bytes, joints: Collection[str] | None = None) -> CompletedSource:
     """Return the URDF in UTF-8, with the elements and attributes that Pinocchio's reader requires.
 
-    `joints` are those of our reading, see `with_attributes`.
+    `joints` are those of our reading, see `plain_root`.
     """
-    document = xml.parse(content := with_attributes(content, joints))
-    added = set() if document.root.get("name") else {"the robot's name"}
-    added |= {"joints of several axes"} if document.root.find(AXES) is not None else set()
-    root = split_joints(document).root
+    root = xml.parse(content := plain_urdf(content, joints)).root
+    added = set() if root.get("name") else {"the robot's name"}
     root.set("name", root.get("name") or "robot")
     for joint in root.findall("joint"):
         if joint.get("type") in ("revolute", "prismatic") and joint.find("limit") is None:

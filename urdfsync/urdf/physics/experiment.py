@@ -18,7 +18,7 @@ from urdfsync.urdf.physics import completion, motion, probe, quantities
 from urdfsync.urdf.physics.closing import OpenLoopError
 from urdfsync.urdf.physics.motion import Instant
 from urdfsync.urdf.physics.probe import RobotVariables
-from urdfsync.urdf.physics.reference import pinocchio, read_gears
+from urdfsync.urdf.physics.reference import pinocchio
 from urdfsync.urdf.physics.subject import Subject
 from urdfsync.urdf.robot import MOTION_KINDS, Robot
 
@@ -74,10 +74,7 @@ def _trials(subject: Subject, approach: str, step: float | None) -> Iterator[Tri
     """Yield the simulations for one approach, first the one of all instants."""
     names = probe.robot_variables(subject, approach)
     label = " of the record" if len(subject.options.approach) > 1 and approach == "record" else ""
-    gears = read_gears(subject.root)
-    axes = motion.driven_axes(subject.tree)
-    geared = [joint.name for joint in axes if joint.transmission or joint.name in gears]
-    pairs = [*quantities.bodies(subject, names), *quantities.gears(geared, gears)]
+    pairs = list(quantities.bodies(subject, names))
     limits = list[quantities.Pair]()
     if approach == "package":
         pairs += quantities.sensors(subject, names)
@@ -85,7 +82,7 @@ def _trials(subject: Subject, approach: str, step: float | None) -> Iterator[Tri
         pairs += quantities.loops(subject, names)
         limits += quantities.limits(subject)
     needed, optional = ([v for compared, _ in some for v in compared.values] for some in (pairs, limits))
-    moving = probe.moving_probe(subject, names, geared, needed, optional, step or 1.0)
+    moving = probe.moving_probe(subject, names, needed, optional, step or 1.0)
     table = quantities.table([*pairs, *limits], list(map(float, Instant)))
     over_time = list(quantities.over_time(subject, names, step)) if step else []
     times = over_time[0][0].instants if over_time else ()
@@ -155,7 +152,7 @@ def _not_compared(subject: Subject) -> Iterator[str]:
     in_loops = [joint.name for joint in subject.axes if subject.is_in_loop(joint)]
     if in_loops:
         yield f"the limits of joints in loops beyond where {', '.join(in_loops)} move{'s' * (len(in_loops) == 1)} them"
-    yield "shapes (they change no motion), the motion of benches, and models around the robot (they are only compiled)"
+    yield "the motion of benches, and models around the robot (they are only compiled)"
     if axes > _MOST_AXES:
         yield f"free motion of more than {_MOST_AXES} axes, which takes a compiler too much memory"
     if "record" in options.approach and subject.tree.loops:

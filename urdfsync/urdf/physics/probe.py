@@ -38,8 +38,8 @@ class RobotVariables(msgspec.Struct, frozen=True):
 
     declaration: str
     """Declaration of the robot, up to the modifiers of the comparison."""
-    numbers: str
-    """Declaration of the record that `records` are in; empty if the robot itself has them."""
+    is_package: bool
+    """Whether the robot is the package's, not the generic one."""
     moment: str
     """An expression: the sum of mass times place over all links, in kg·m."""
     flanges: Mapping[str, str]
@@ -48,8 +48,6 @@ class RobotVariables(msgspec.Struct, frozen=True):
     """Place of each link's frame."""
     axes: Mapping[str, tuple[str, ...]]
     """Its rotation matrix, as Modelica has it."""
-    records: Mapping[str, str]
-    """Record of each joint."""
     joints: Mapping[str, str]
     """Component of each joint; none in the record."""
     sensors: Mapping[str, str]
@@ -67,13 +65,11 @@ def robot_variables(subject: Subject, approach: str) -> RobotVariables:
     sensors = {name: f"robot.{component}" for name, component in names.sensors.items() if is_package}
     joints = {joint.name: f"robot.{tree.joint(joint.name).component}" for joint in tree.joints if is_package}
     if is_package:
-        declaration, numbers = f"{target.package}.{target.name} robot(animation = false, ", ""
+        declaration = f"{target.package}.{target.name} robot(animation = false, "
         flanges = {name: f"robot.{drive.axis}" for name, drive in names.drives.items()}
     else:
         record = f"{target.package}.{target.name}Parameters"
         declaration = f"UrdfSync.Robots.GenericRobot robot(redeclare parameter {record} data, checkLimits = false, "
-        # the record's constraining class in the generic robot has no names of joints
-        numbers = f"parameter {record} numbers"
         flanges = {
             joint.name: f"robot.{kind}Axis[{number}]"
             for kind in MOTIONS
@@ -92,17 +88,14 @@ def robot_variables(subject: Subject, approach: str) -> RobotVariables:
             axes[link.name] = tuple(f"robot.R_0[{k},{j},{i}]" for i in three for j in three)
             centre = f"robot.R_0[{k}, :, :]*robot.data.linkCenters[{k}, :]"
             moments.append(f"robot.data.linkMasses[{k}]*(robot.r_0[{k}, :] + {centre})")
-    place = "robot.{}.parameters" if is_package else "numbers.{}"
-    records = {joint.name: place.format(tree.joint(joint.name).component) for joint in tree.joints}
     loops = {loop.name: f"robot.{tree.loop(loop.name).component}" for loop in tree.loops if is_package}
     moment = " + ".join(moments)
-    return RobotVariables(declaration, numbers, moment, flanges, places, axes, records, joints, sensors, loops)
+    return RobotVariables(declaration, is_package, moment, flanges, places, axes, joints, sensors, loops)
 
 
 def moving_probe(
     subject: Subject,
     names: RobotVariables,
-    gears: Iterable[str],
     values: Iterable[str],
     optional: Iterable[str],
     step: float,
@@ -116,14 +109,14 @@ def moving_probe(
     declarations = [f"inner Modelica.Mechanics.MultiBody.World world({world})"]
     if options.base == "floating":
         height = repr(_FAR_GROUND)
-        if subject.stand and not names.numbers:
+        if subject.stand and names.is_package:
             declarations.append(f"parameter {target.package}.{target.name}Stance stance")
             height = f"{-motion.GROUND_DEPTH!r} - stance.height, load = robot.m*world.g"
         declarations.append(f"inner UrdfSync.Contacts.Ground ground(height = {height})")
     declaration = f"{names.declaration}fixedStart = false)"
     if subject.balls:
         declaration = "Driven_ robot(animation = false, fixedStart = false)"
-    declarations += filter(None, [declaration, names.numbers])
+    declarations.append(declaration)
     connections = ["base.frame_b, robot.frame_a"]
     for k, (joint, courses) in enumerate(zip(subject.axes, subject.courses, strict=True), 1):
         if joint.type == "ball":
@@ -131,12 +124,6 @@ def moving_probe(
         drive = MOTION_KINDS[joint.type].capitalize()
         declarations.append(f"{drive}Drive drive{k}(ways = {matrix(motion.ways(courses), 6)})")
         connections.append(f"drive{k}.flange, {names.flanges[joint.name]}")
-    turning = {joint.name for joint in subject.axes if MOTION_KINDS.get(joint.type) == "rotational"}
-    for k, joint_name in enumerate(gears, 1):
-        gear = f"{names.records[joint_name]}.transmission"
-        # that of a joint that slides moves no other one
-        other = f"{gear}.otherReduction" if joint_name in turning else "0"
-        declarations.append(f"Real gear{k}[4] = {{{gear}.reduction, {gear}.offset, {gear}.rotorInertia, {other}}}")
     for k, loop in enumerate(subject.tree.loops, 1):
         ends = (loop.parent, loop.origin), (loop.child, loop.child_origin)
         parent, child = (_place(f"robot.{subject.tree.link(link).component}", origin) for link, origin in ends)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import TypeAlias
 
 import msgspec
@@ -16,7 +16,7 @@ from urdfsync.urdf.physics import motion, probe
 from urdfsync.urdf.physics.closing import OpenLoopError
 from urdfsync.urdf.physics.motion import COMPARED, Instant
 from urdfsync.urdf.physics.probe import CENTRE, FORCE, MASS, TORQUE, RobotVariables
-from urdfsync.urdf.physics.reference import Gear, Solution
+from urdfsync.urdf.physics.reference import Solution
 from urdfsync.urdf.physics.subject import Subject
 from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS, SENSOR_KINDS
 
@@ -99,14 +99,6 @@ def loops(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
             values = tuple(f"{names.loops[loop.name]}.{variable}[{i}]" for i in (1, 2, 3))
             expected = [each.force if unit == "N" else each.torque for each in reactions[: len(COMPARED)]]
             yield Compared(Quantity.REACTION, element, unit, values, COMPARED, Part.LOOPS), expected
-
-
-def gears(geared: Sequence[str], read: Mapping[str, Gear]) -> Iterator[Pair]:
-    """Yield the numbers of the gears."""
-    for k, joint in enumerate(geared, 1):
-        values, gear = tuple(f"gear{k}[{i}]" for i in (1, 2, 3, 4)), read.get(joint, Gear())
-        numbers = [gear.reduction, gear.offset, gear.rotor, gear.joint_reduction]
-        yield Compared(Quantity.GEAR, f"joint {joint}", "", values, (0.0,), Part.LOSSES), [numbers]
 
 
 def sensors(subject: Subject, names: RobotVariables) -> Iterator[Pair]:

@@ -10,7 +10,6 @@ are Bᵀ·tau. With loops, q̇ = N(p)·ṗ and q̈ = N·p̈ + drift (see `closin
 
 from __future__ import annotations
 
-import contextlib
 from collections.abc import Collection, Mapping, Sequence
 from typing import Any, NamedTuple
 from xml.etree.ElementTree import Element, tostring
@@ -28,6 +27,7 @@ from urdfsync.urdf.physics import motion
 from urdfsync.urdf.physics.closing import CLOSED, Closing, Reaction
 from urdfsync.urdf.physics.motion import Course
 from urdfsync.urdf.robot import Mimic, Sensor, Vector
+from urdfsync.urdf.second.gears import Gear, read_gears
 
 Array = NDArray[np.float64]
 
@@ -48,17 +48,6 @@ class PinocchioRobot(NamedTuple):
     """Mimic relation of each follower, by the names of joints."""
     rotors: Array
     """Inertias of the rotors in the mass matrix: Pinocchio's `armature` has none between two joints."""
-
-
-class Gear(NamedTuple):
-    """The drive of a joint, by the second reading."""
-
-    reduction: float = 1.0
-    offset: float = 0.0
-    rotor: float = 0.0
-    joint: str = ""
-    """Another joint that the motor turns, by `joint_reduction`."""
-    joint_reduction: float = 0.0
 
 
 def read(content: bytes, file: str, loose: Collection[str] = ()) -> PinocchioRobot:
@@ -107,7 +96,7 @@ def read(content: bytes, file: str, loose: Collection[str] = ()) -> PinocchioRob
             ways[coordinates.idx_v] = gear.reduction
             if gear.joint:
                 ways[model.joints[model.getJointId(gear.joint)].idx_v] = gear.joint_reduction
-            rotors += gear.rotor * np.outer(ways, ways)
+            rotors += (gear.rotor or 0.0) * np.outer(ways, ways)
     return PinocchioRobot(model, followers, rotors)
 
 
@@ -126,74 +115,6 @@ def _with_balls(pin: Any, model: Any, balls: Collection[str]) -> Any:
         parts = frame.name, frame.parentJoint, frame.parentFrame, frame.placement, frame.type, frame.inertia
         changed.addFrame(pin.Frame(*parts), append_inertia=False)
     return changed
-
-
-def read_gears(root: Element) -> dict[str, Gear]:
-    """Return the gears of a URDF by their joints, by the endings of tags and attributes."""
-    gears = dict[str, Gear]()
-    turning = {
-        joint.get("name")
-        for joint in root.findall("joint")
-        if joint.get("type") in ("revolute", "continuous") and joint.find("mimic") is None
-    }
-    for element in (*root.findall("transmission"), *root.findall("ros2_control/transmission")):
-        kind = (element.findtext("type") or element.findtext("plugin") or element.get("type") or "").strip()
-        joints = [part for part in element if part.tag.rstrip("12").lower().endswith("joint") and part.get("name")]
-        found = _shared_gears(element, kind.rpartition("/")[2])
-        if found is None and [joint.tag for joint in joints] == ["joint"]:
-            numbers = _numbers(*joints, *element.findall("actuator"), element)
-            gear = Gear(_reduction(numbers), numbers.get("offset", 0.0), numbers.get("rotorinertia", 0.0))
-            found = {joints[0].get("name", ""): gear}
-        for name, each in (found or {}).items():
-            if each != Gear() and (not each.joint or {name, each.joint} <= turning):
-                gears.setdefault(name, each)
-    return gears
-
-
-def _shared_gears(element: Element, kind: str) -> dict[str, Gear] | None:
-    """Return the gears of two joints by the documented positions of joints; None for another kind of transmission."""
-    roles = {"flexJoint": "joint1", "rollJoint": "joint2", "rightActuator": "actuator1", "leftActuator": "actuator2"}
-    parts = dict[str, Element]()
-    for ending in ("joint", "actuator"):
-        for k, part in enumerate((part for part in element if part.tag.rstrip("12").lower().endswith(ending)), 1):
-            role = part.get("role") or part.findtext("role", "").strip() or roles.get(part.tag, f"{ending}{k}")
-            parts[role if role.startswith(ending) else ""] = part
-    holders = [parts.get(role, Element(role)) for role in roles.values()]
-    numbers, names = [_numbers(part, with_attributes=True) for part in holders], [part.get("name") for part in holders]
-    reductions, offsets = [_reduction(found) for found in numbers], [found.get("offset", 0.0) for found in numbers[:2]]
-    ways = {
-        "DifferentialTransmission": [[0.5, 0.5], [0.5, -0.5]],
-        "WristTransmission": [[0.5, -0.5], [-0.5, -0.5]],
-        "FourBarLinkageTransmission": [[1, 0], [-1 / reductions[0], 1]],
-    }.get(kind)
-    if ways is None:
-        return None
-    joints = np.array(ways) / np.outer(reductions[:2], reductions[2:])
-    is_whole = parts.keys() == {*roles.values()} and len({*names[:2]}) == 2
-    if not is_whole or not np.isfinite(joints).all() or not np.linalg.det(joints):
-        return {}
-    motors, gears = np.linalg.inv(joints), dict[str, Gear]()
-    for k, row in enumerate(motors):
-        other, rotor = names[1 - k] if row[1 - k] else "", numbers[2 + k].get("rotorinertia", 0.0)
-        gears[names[k] or ""] = Gear(
-            float(row[k]), float(row @ offsets / row[k]), rotor, other or "", float(row[1 - k])
-        )
-    return gears
-
-
-def _numbers(*elements: Element, with_attributes: bool = False) -> dict[str, float]:
-    """Return the numbers in some elements by their plain names; the first of each name counts."""
-    numbers = dict[str, float]()
-    for element in elements:
-        texts = [(part.tag, part.get("value", part.text or "")) for part in element]
-        for name, text in (*texts, *(element.attrib.items() if with_attributes else ())):
-            with contextlib.suppress(ValueError):
-                numbers.setdefault(name.rpartition(":")[2].replace("_", "").lower(), float(text))
-    return numbers
-
-
-def _reduction(numbers: Mapping[str, float]) -> float:
-    return numbers.get("gearratio", numbers.get("mechanicalreduction", 1.0)) or 1.0
 
 
 def read_place(root: Element, sensor: Sensor) -> tuple[list[float], list[float]]:

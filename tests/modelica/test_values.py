@@ -1,0 +1,52 @@
+"""Values of a class by their paths, with their lines, and which expressions are literals."""
+
+from __future__ import annotations
+
+import pytest
+
+from urdfsync.modelica.values import Value, literals, read_values
+
+TEXT = """within A;
+
+record B "Numbers, of (something; else)"
+  extends UrdfSync.Records.Link(
+    name = "x\\"y", // said = 1
+    inertial(
+      mass = 3,
+      origin(xyz = {1, -2, 3e-4})));
+
+  parameter Modelica.Units.SI.Angle corners[2, 3] = {{0, 0, 1},
+    {0, 1, 0}}
+    "Corners";
+
+  replaceable Inner inner(each final a = b + c, redeclare model D = E, f = g(1, 2));
+
+equation
+  connect(a[1, 2].b, c[2]);
+  inner.u = limited(x, 1);
+  annotation (Icon(x = 1));
+end B;
+"""
+
+
+def test_values_are_found_with_their_lines() -> None:
+    values, titles = read_values(TEXT)
+    assert list(values) == [
+        Value("name", "UrdfSync.Records.Link", '"x\\"y"', 5),
+        Value("inertial.mass", "UrdfSync.Records.Link", "3", 7),
+        Value("inertial.origin.xyz", "UrdfSync.Records.Link", "{1, -2, 3e-4}", 8),
+        Value("corners", "parameterModelica.Units.SI.Angle", "{{0, 0, 1},\n    {0, 1, 0}}", 10),
+        Value("inner.a", "replaceableInner", "b + c", 14),
+        Value("inner.f", "replaceableInner", "g(1, 2)", 14),
+        Value("connect", "equation", "a[1,2].b c[2]", 17),
+        Value("inner.u", "equation", "limited(x, 1)", 18),
+    ]
+    assert titles["corners"] == "Corners"
+
+
+@pytest.mark.parametrize(("text", "value"), [
+    ("-2.5e-3", (-0.0025,)), ("-0", (0.0,)), ("- Modelica.Constants.inf", (-float("inf"),)), ('"a\\nb"', "a\nb"),
+    ("[1, 2; 3, 4]", (1.0, 2.0, 3.0, 4.0)), ("fill(0, 0, 3)", ()), ("true", "true"), ("2*x", None), ("x.y", None),
+])  # fmt: skip
+def test_literals_are_read_as_values(text: str, value: object) -> None:
+    assert literals(text) == value

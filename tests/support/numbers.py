@@ -1,0 +1,32 @@
+"""Packages, compared with the second reading of their sources."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+from support.packages import Package, generate
+from urdfsync.checks.experiment import Difference, Numbers, Sample
+from urdfsync.domain import Target
+from urdfsync.urdf.second.comparison import compare_numbers
+
+BOT = Target("Bot", "Bot")
+
+
+def compare(
+    source: Path | bytes, change: Callable[[Mapping[str, str]], Mapping[str, str]] = lambda texts: texts, **options: Any
+) -> Numbers:
+    """The numbers of the package of a source, whose texts somebody has changed."""
+    package = generate(source, BOT, **{"approach": ("package", "record"), **options})
+    return of_package(package, source if isinstance(source, bytes) else source.read_bytes(), change(package.texts))
+
+
+def of_package(package: Package, content: bytes, texts: Mapping[str, str]) -> Numbers:
+    sample = Sample(content, "a.urdf", package.target, package.options, package.facts)
+    (numbers,) = compare_numbers(sample, [{path: text.encode() for path, text in texts.items()}])
+    return numbers
+
+
+def differences(source: Path | bytes, **options: Any) -> list[Difference]:
+    return list(compare(source, **options).differences)

@@ -1,0 +1,458 @@
+"""Compares the numbers and names in the texts of a package with the second reading of its source."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections import Counter, defaultdict
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from urdfsync.checks.experiment import Difference, Numbers, Sample
+from urdfsync.diagnostics import SourceError
+from urdfsync.domain import further_key
+from urdfsync.modelica.literals import string
+from urdfsync.modelica.values import Value, literals, read_values
+from urdfsync.spelling import counted
+from urdfsync.urdf.second.reading import (
+    COMMANDS,
+    INF,
+    MOVES,
+    TENSOR,
+    TURNS,
+    ZERO,
+    Element,
+    Reading,
+    Stated,
+    origin,
+    poses,
+    read_again,
+    same,
+)
+from urdfsync.urdf.second.tables import expected_tables
+
+_RECORDS = "UrdfSync.Records."
+_SHAPE = re.compile(r"((?:visual|collision)\d+)(?:_\d+)?(\.|Corners)")
+_LETTERS = {True: ("phi", "w", "tau"), False: ("s", "v", "f")}
+"""Position, speed and effort in Modelica, of joints that turn and of joints that slide, as `COMMANDS`."""
+_NO_MASS = {
+    **dict.fromkeys(("inertial.origin.xyz", "inertial.origin.rpy"), ZERO),
+    **{f"inertial.{path}": (0.0,) for path in ("mass", *(f"inertia.{part}" for part in TENSOR))},
+}
+"""Values in the record of a link without mass."""
+_CLOSED = 1e-6
+"""The greatest gap of a closed loop, in m."""
+
+
+def compare_numbers(sample: Sample, packages: Sequence[Mapping[str, bytes]]) -> list[Numbers]:
+    """Compare all literals in the records of packages, and the names in the robot model, Run and Test.
+
+    Raises SourceError if the source can't be read again.
+    """
+    with np.errstate(all="ignore"):  # infinite numbers in the source, or in edits
+        try:
+            reading = read_again(sample.content, sample.options)
+        except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
+            message = f"the second reader fails: {type(error).__name__}: {error}"
+            raise SourceError.of("second-reader", message, sample.file) from None
+        return [_Comparison(texts, reading, sample).numbers() for texts in packages]
+
+
+class _Comparison:
+    """Counts the values of the texts in `right`, `total` and `uncompared`, and tells `differences`."""
+
+    def __init__(self, texts: Mapping[str, bytes], reading: Reading, sample: Sample) -> None:
+        self.reading, self.sample, self.name = reading, sample, sample.target.name
+        suffixes = ("", "Run", "Test", "Parameters", "Start", "Sensors", "Stance")
+        needed = {f"{self.name}{suffix}.mo" for suffix in suffixes}
+        needed |= {path for path in texts if path.startswith(("Links/", "Joints/")) and path.endswith("Parameters.mo")}
+        read = {path: read_values(texts[path].decode(errors="replace")) for path in sorted(needed & texts.keys())}
+        self.values = {path: each.values for path, each in read.items()}
+        self.titles = {path: each.titles for path, each in read.items()}
+        self.ends = _ends(self.values.get(f"{self.name}.mo", ()))
+        """Connections in the robot model."""
+        self.right = self.total = 0
+        self.differences, self.uncompared = list[Difference](), Counter[str]()
+        kinds = ("link", "joint", "loop", "sensor")
+        all_elements = (reading.links, reading.joints, reading.loops, reading.sensors)
+        self.elements = dict(zip(kinds, all_elements, strict=True))
+        roots = reading.links.keys() - {joint.child for joint in reading.joints.values()}
+        has_masses = any("inertial.mass" in link.values for link in reading.links.values())
+        self.massless_root = None if has_masses else reading.links[next(iter(roots))]
+        self.components = dict[tuple[str, str], str]()
+        """Components of links, joints, loops and sensors, by kind and name."""
+
+    def numbers(self) -> Numbers:
+        """Compare all files."""
+        model = f"{self.name}.mo"
+        for path, values in self.values.items():
+            if path.startswith(("Links/", "Joints/")):
+                type_ = next((value.type for value in values if value.path == "name"), "").removeprefix(_RECORDS)
+                stem = path.rpartition("/")[2].removesuffix("Parameters.mo")
+                self._element(path, stem[:1].lower() + stem[1:], type_, values)
+        for suffix, compare in (
+            *(("Parameters", self._whole), ("Sensors", self._sensors), ("Start", self._starts)),
+            *(("Stance", self._stance), ("", self._connections), ("Run", self._bench), ("Test", self._bench)),
+        ):
+            if f"{self.name}{suffix}.mo" in self.values or suffix == "Start":
+                compare(f"{self.name}{suffix}.mo")
+        for kind, elements in self.elements.items():
+            for name in sorted(elements.keys() - {name for of, name in self.components if of == kind}):
+                if kind in ("link", "joint") or "package" in self.sample.options.approach:
+                    self._compare(model, f"{kind} {name}", (), {"name": Stated(name, elements[name].line)})
+        for contradiction in self.reading.contradictions:
+            place = Value("elements", "", "", 0)
+            self._differ(model, "robot", place, Stated(contradiction, 0), "another one by yourdfpy")
+        uncompared = [f"{path} of records ({counted(n, 'number')})" for path, n in sorted(self.uncompared.items())]
+        if unread := self.reading.unread:
+            uncompared.insert(0, f"the reading by yourdfpy, which can't read {self.sample.file} ({unread})")
+        return Numbers(self.right, self.total, tuple(self.differences), uncompared=tuple(uncompared))
+
+    def _compare(self, file: str, element: str, values: Sequence[Value], expected: Mapping[str, Stated]) -> None:
+        """Count values, and compare them: one that is not expected is not compared, one that lacks is a difference."""
+        given, line = {value.path for value in values}, values[0].line if values else 0
+        for value in (*values, *(Value(path, "", "nothing", line) for path in expected if path not in given)):
+            own, stated = _read(value.text), expected.get(value.path)
+            count = len(own) if isinstance(own, tuple) else 1
+            self.total += count
+            if stated is None:
+                self.uncompared[re.sub(r"[\d_\[\]]+", "", value.path)] += count
+            elif same(stated.value, own):
+                self.right += count
+            else:
+                if isinstance(own, tuple) and np.shape(stated.value) == np.shape(own):
+                    self.right += sum(same(a, b) for a, b in zip(stated.value, own, strict=True))
+                self._differ(file, element, value, stated, own)
+
+    def _differ(self, file: str, element: str, value: Value, stated: Stated, given: Any) -> None:
+        words = _shown(stated.value), _shown(given)
+        place = file, value.line, self.sample.file, stated.line
+        self.differences.append(Difference(element, value.path, *words, *place))
+
+    def _element(self, file: str, component: str, type_: str, values: Sequence[Value], *, whole: bool = False) -> None:
+        """Compare the record of a link, joint or loop, or its part of the `whole` robot's record."""
+        kind = {"Link": "link", "Loop": "loop"}.get(type_, "joint")
+        named = next((value for value in values if value.path == "name"), Value("name", "", "", 0))
+        name = str(literals(named.text))
+        element = self.elements[kind].get(name)
+        if element is None:
+            self._compare(file, f"{kind} {name}", [named], {"name": Stated("nothing", 0)})
+            return
+        self.components[kind, name] = component
+        shapes = [(value, _SHAPE.match(value.path)) for value in values]
+        given = [value._replace(path=f"{s[1]}{s[2]}{value.path[s.end() :]}") if s else value for value, s in shapes]
+        owners = {value.path.partition(".")[0] for value in given}
+        elsewhere = ("start", "contact", "collision") if whole else ("start",)
+        elsewhere = elsewhere if self.sample.options.collisions else (*elsewhere, "collision")
+        expected = dict[str, Stated]()
+        for path, stated in element.values.items():
+            owner = path.partition(".")[0]
+            # a mesh that can't be read is left out
+            is_drawn = owner in owners or f"{owner}.uri" not in element.values
+            if is_drawn and not path.startswith(elsewhere) and not path.endswith(".shape"):
+                expected[path] = stated
+        if kind == "joint":
+            given.append(Value("type", "", type_, named.line))
+            expected["type"] = Stated(f"{element.type.capitalize()}Joint", element.line)
+        elif kind == "loop":
+            expected |= _equations(element, {value.path: literals(value.text) for value in values})
+        elif not whole and element is self.massless_root:  # Modelica's frames need a body there
+            del expected["hasInertial"]
+            expected |= {path: Stated(number, element.line) for path, number in _NO_MASS.items()}
+        for k, value in enumerate(given):
+            if value.path.endswith(".uri") and value.path in expected:
+                uris = self._uris(element.values[value.path].value)
+                expected[value.path] = Stated(uris[0], expected[value.path].line)
+                if literals(value.text) in uris:  # a mesh may have several parts
+                    given[k] = value._replace(text=string(uris[0]))
+        self._compare(file, f"{kind} {name}", given, expected)
+
+    def _uris(self, mesh: tuple[str, Sequence[float]]) -> Sequence[str]:
+        """Return the URIs of the parts of an imported mesh; its key if it was not imported."""
+        key = f"{mesh[0]} scale {' '.join(repr(float(number)) for number in mesh[1])}"
+        keys, imports = [key, *(further_key(key, number) for number in range(1, 100))], self.sample.imports
+        return [f"modelica://{self.sample.target.package}/{imports[k].target}" for k in keys if k in imports] or [key]
+
+    # Records of several elements
+
+    def _sensors(self, file: str) -> None:
+        parts = defaultdict[str, list[Value]](list)
+        for value in self.values[file]:
+            component, _, path = value.path.partition(".")
+            parts[component].append(value._replace(path=path))
+        for component, values in parts.items():
+            name = next((str(literals(value.text)) for value in values if value.path == "name"), "")
+            self.components["sensor", name] = component
+            sensor = self.reading.sensors.get(name)
+            self._compare(file, f"sensor {name}", values, sensor.values if sensor else {})
+
+    def _whole(self, file: str) -> None:
+        """Compare the record of the whole robot: its elements, then the tables that count these."""
+        parts, types, owner = defaultdict[str, list[Value]](list), dict[str, str](), ""
+        own, shapes, titles = list[Value](), dict[str, tuple[str, int]](), self.titles[file]
+        for value in self.values[file]:
+            component, _, path = value.path.partition(".")
+            type_, number = value.type.removeprefix(_RECORDS), re.match(r"Visual (\d+)", titles.get(component, ""))
+            if type_ == "Robot" or type_.startswith("constant"):
+                own.append(value)
+            elif number:
+                shapes.setdefault(component, (type_, [*types.values()].count("Link")))
+                parts[owner].append(value._replace(path=f"visual{number[1]}.{path}"))
+            else:
+                owner = component
+                types.setdefault(component, type_)
+                parts[component].append(value._replace(path=path))
+        for component, type_ in types.items():
+            self._element(file, component, type_, parts[component], whole=True)
+        elements = {component: self.elements[kind][name] for (kind, name), component in self.components.items()}
+        tables = expected_tables([(elements[c], c) for c in types if c in elements], shapes)
+        for value in own:
+            expected = {"name": Stated(self.reading.name, 0)}
+            if value.path == "standingHeight":
+                expected[value.path] = self._height(value)
+            if value.path in ("name", "standingHeight"):
+                self._compare(file, "robot", [value], {value.path: expected[value.path]})
+                continue
+            items = [item for item in re.split("[,;]", re.sub(r"[\s{}]|^\[|\]$|fill.*", "", value.text)) if item]
+            match = re.match('Number of joint "(.*)" in', titles.get(value.path, ""))
+            column = tables.get(f"{self.components.get(('joint', match[1]))}Axis" if match else value.path)
+            places = [f"{value.path}[{k}]" for k in range(1, max(len(items), len(column or ())) + 1)]
+            texts = (*(column or ()), *["nothing"] * len(items))
+            expected = {place: Stated(_read(text), 0) for place, text in zip(places, texts, strict=False)}
+            given = [value._replace(path=place, text=item) for place, item in zip(places, items, strict=False)]
+            self._compare(file, "robot", given, expected if column is not None else {})
+
+    # Values that follow from others
+
+    def _joint(self, component: str) -> Element | None:
+        names = (name for (kind, name), other in self.components.items() if (kind, other) == ("joint", component))
+        return next((self.reading.joints[name] for name in names), None)
+
+    def _positions(self) -> dict[str, float]:
+        """Return where the joints begin: by the start record, or as near to zero as all limits allow."""
+        joints = {name: joint for name, joint in self.reading.joints.items() if joint.type in MOVES}
+        begin = {name: joint.number("start") for name, joint in joints.items() if "start" in joint.values}
+        for value in self.values.get(f"{self.name}Start.mo", ()):
+            if (joint := self._joint(value.path)) and isinstance(numbers := literals(value.text), tuple):
+                begin[joint.name] = next(iter(numbers), 0.0)
+
+        def limits(joint: Element) -> tuple[float, float]:
+            lower, upper = joint.number("limits.lower"), joint.number("limits.upper")
+            for other in joints.values():
+                if other.leader == joint.name and abs(factor := other.number("mimic.multiplier")) > math.ulp(1):
+                    ends = sorted((end - other.number("mimic.offset")) / factor for end in limits(other))
+                    lower, upper = max(lower, ends[0]), min(upper, ends[1])
+            return lower, upper
+
+        def position(name: str) -> float:
+            joint = joints.get(name)
+            if joint is None:
+                return 0.0
+            if joint.leader:
+                return joint.number("mimic.multiplier") * position(joint.leader) + joint.number("mimic.offset")
+            lower, upper = limits(joint)
+            return begin.get(name, min(max(0.0, lower), upper))
+
+        return {name: position(name) for name in joints}
+
+    def _starts(self, file: str) -> None:
+        """Compare where joints begin: those in loops close these, all others begin where the source says."""
+        values, gap = {value.path: value for value in self.values.get(file, ())}, 0.0
+        placed = poses(self.reading, self._positions()) if self.reading.loops else {}
+        for loop in self.reading.loops.values():
+            between = placed[loop.parent] @ origin(loop) - placed[loop.child] @ origin(loop, "childOrigin")
+            gap = max(gap, float(np.linalg.norm(between[:3, 3])))
+        for name, joint in self.reading.joints.items():
+            value = values.pop(self.components.get(("joint", name), ""), None)
+            expected = {"start": joint.values["start"]} if "start" in joint.values else {}
+            if value and joint.in_loop and not (joint.command and expected):
+                closed = literals(value.text) or value.text
+                opened = f"a position that closes the loops, open by {1000 * gap:.3g} mm"
+                expected = {"start": Stated(closed if gap < _CLOSED else opened, joint.line)}
+            if value or expected:
+                self._compare(file, f"joint {name}", [value._replace(path="start")] if value else [], expected)
+        self._compare(file, "robot", [value._replace(path="reach") for value in values.values()], {})
+
+    def _stance(self, file: str) -> None:
+        for value in self.values[file]:
+            self._compare(file, "robot", [value], {value.path: self._height(value)})
+
+    def _height(self, given: Value) -> Stated:
+        """Return the height of the root at which the lowest collision shape begins to carry the robot."""
+        lowest, placed = INF, poses(self.reading, self._positions())
+        for (kind, name), component in self.components.items():
+            link = self.reading.links.get(name)
+            if kind != "link" or link is None:
+                continue
+            file = f"Links/{component[0].upper()}{component[1:]}Parameters.mo"
+            corners = {value.path: literals(value.text) for value in self.values.get(file, ())}
+            for path in [path for path in link.values if re.match(r"collision\d+\.shape", path)]:
+                shape = path.partition(".")[0]
+                at = placed[name] @ origin(link, f"{shape}.origin")
+                up, middle = at[2, :3], at[2, 3]
+                if "contact.minDepth" in link.values:
+                    middle += link.number("contact.minDepth")
+                match link.values[path].value:
+                    case "mesh":
+                        points: Any = corners.get(f"{shape}Corners")
+                        points = points if isinstance(points, tuple) and len(points) % 3 == 0 else ()
+                        below = max(-np.reshape(points, (-1, 3)) @ up, default=-INF)
+                    case "box":
+                        below = np.abs(up) @ link.values[f"{shape}.size"].value / 2
+                    case "sphere":
+                        below = link.number(f"{shape}.radius")
+                    case kind_of_round:
+                        width = math.hypot(up[0], up[1]) if kind_of_round == "cylinder" else 1.0
+                        below = abs(up[2]) * link.number(f"{shape}.length") / 2
+                        below += link.number(f"{shape}.radius") * width
+                lowest = min(lowest, middle - below)
+        number: Any = literals(given.text)
+        is_near = isinstance(number, tuple) and np.allclose(number, [-lowest], rtol=0, atol=1e-9)
+        return Stated(number if is_near else (float(-lowest),), 0)
+
+    # The robot model, Run and Test
+
+    def _connections(self, file: str) -> None:
+        """Compare which links the model connects with joints, loops and sensors, and which joints each coupling has."""
+        expected = list[tuple[str, Element, str, str, str, str]]()
+        for (kind, name), component in self.components.items():
+            if kind == "link" or (element := self.elements[kind].get(name)) is None or element.type == "force_torque":
+                continue
+            expected.append((kind, element, "parent", f"{component}.frame_a", "link", element.parent))
+            if kind != "sensor":
+                expected.append((kind, element, "child", f"{component}.frame_b", "link", element.child))
+        for value in self.values[file]:
+            component, _, path = value.path.partition(".")
+            owner, ends = self._joint(value.text.partition(".")[0]) if path == "parameters" else None, {}
+            if owner and value.type.startswith("UrdfSync.Couplings."):
+                leads = owner.leader in self.reading.joints and self.reading.joints[owner.leader].type in MOVES
+                ends = {"leader": owner.leader, "follower": owner.name} if leads else {}
+            elif owner and value.type == "UrdfSync.Drives.SharedGear":
+                ends = {"flange_b": owner.name, "flange_c": owner.shares}
+            if owner:
+                expected += [("joint", owner, end, f"{component}.{end}", "joint", name) for end, name in ends.items()]
+            elif value.type.startswith("UrdfSync.Sensors.Force") and path in ("f_joint", "t_joint"):
+                self._wrench(file, value._replace(path=path), component)
+        for kind, element, word, end, other, name in expected:
+            known = {component for (of, _), component in self.components.items() if of == other}
+            near = [(c, line) for c, line in ((o.partition(".")[0], line) for o, line in self.ends[end]) if c in known]
+            given = Value(word, "", ", ".join(c for c, _ in near) or "nothing", near[0][1] if near else 0)
+            stated = Stated(self.components.get((other, name), ""), element.line)
+            self._compare(file, f"{kind} {element.name}", [given], {word: stated})
+
+    def _wrench(self, file: str, value: Value, component: str) -> None:
+        """Compare the joint, the axes and the direction of a force-torque sensor."""
+        for (kind, name), other in self.components.items():
+            if (kind, other) == ("sensor", component) and name in self.reading.sensors:
+                sensor = self.reading.sensors[name]
+                (in_parent, is_reversed), joint = sensor.axes, self.components.get(("joint", sensor.parent))
+                vector = f"{joint}.frame_b.{value.path[0]}"
+                vector = f"{joint}.frame_a.R.T*({vector}*{joint}.frame_b.R.T)" if in_parent else vector
+                stated = Stated(f"{'-' * is_reversed}{vector}", sensor.line)
+                self._compare(file, f"sensor {name}", [value], {value.path: stated})
+
+    def _bench(self, file: str) -> None:
+        """Compare what Run or Test connects with the axis of each joint, and the outputs of sensors."""
+        values, joints = self.values[file], self.reading.joints
+        texts = {end: Value(end, "", *others[0]) for end, others in _ends(values).items()}
+        texts |= {value.path: value for value in values if value.path != "connect"}
+        worlds = [value for value in values if value.path.startswith("world.")]
+        self._compare(file, "robot", worlds, {value.path: Stated("that of the bench", 0) for value in worlds})
+        named = any(joint.is_named for joint in joints.values() if joint.in_loop and not joint.leader)
+        for (kind, name), component in self.components.items():
+            expected, element = dict[str, str](), self.elements[kind].get(name, Element(name, 0))
+            if kind == "sensor":
+                expected = {f"{component}_{output}": f"robot.{component}.{output}" for output in "awft"}
+                expected = {path: text for path, text in expected.items() if path in texts}
+            elif kind == "joint" and element.type in MOVES and not element.leader:
+                flanges = [self._flange(component, side) for side in ("axis", "support")]
+                # loops leave few freedoms: which of the named joints are driven, or of all, is left to urdfsync
+                is_free = flanges[0] in texts and (element.is_named or not named)
+                is_driven = is_free or not element.in_loop
+                expected = {flanges[0]: "nothing"}
+                if element.command and is_driven:
+                    expected = self._source(element, component, flanges, texts, is_run=file.endswith("Run.mo"))
+            given = [texts[path] if path in texts else Value(path, "", "nothing", 0) for path in expected]
+            stated = {path: Stated(text, element.line) for path, text in expected.items()}
+            self._compare(file, f"{kind} {name}", given, stated)
+
+    def _flange(self, component: str, side: str) -> str:
+        """Return the connector of the robot for the axis or the support of a joint."""
+        return next((f"robot.{end}" for end, _ in self.ends[f"{component}.{side}"] if "." not in end), "")
+
+    def _source(
+        self, joint: Element, component: str, flanges: Sequence[str], texts: Mapping[str, Value], *, is_run: bool
+    ) -> dict[str, str]:
+        """Return what moves a joint in Run or Test: texts by the ends of connections, outputs and modifiers."""
+        source, (q, speed, effort) = f"{component}Drive", _LETTERS[joint.type in TURNS]
+        (axis, _), own = flanges, f"robot.{component}"
+        expected = {flange: f"{source}.{end}" for flange, end in zip(flanges, ("flange", "support"), strict=True)}
+        if not is_run:
+            expected |= {f"{source}.{field}": f"{own}.{field}" for field in (f"{q}_start", f"{q}_min", f"{q}_max")}
+            expected[f"{source}.{speed}_max"] = f"{own}.{speed}_max"
+            reach = f"{source}.reach"
+            return expected | ({reach: f"robot.startPositions.{component}Reach"} if reach in texts else {})
+        variable = (q, speed, effort)[COMMANDS.index(joint.command)]
+        end, command = f"{source}.{variable}{'_ref' * (joint.command != 'effort')}", f"{component}_{variable}"
+        if self.sample.options.inputs == "vector":
+            order = [name.removesuffix("Drive") for name in self.titles[f"{self.name}Run.mo"] if name.endswith("Drive")]
+            vectors = (v.path.partition(".")[0] for v in texts.values() if v.type.endswith("RealInput"))
+            command = f"{next(vectors, '')}[{order.index(component) + 1 if component in order else 0}]"
+        if end in texts and "limitedEffort" in texts[end].text:  # a drive that keeps its limits
+            limits = f"{own}.parameters.limits.effort,{own}.parameters.limits.velocity"
+            command = f"UrdfSync.Functions.limitedEffort({command},{component}_{speed},{limits})"
+        expected[end] = command
+        if joint.command == "effort":
+            place = f"{component}_{q}"
+            return expected | {place: f"{axis}.{q}-{flanges[1]}.{q}", f"{component}_{speed}": f"der({place})"}
+        return expected | {f"{component}_{effort}": f"{axis}.{effort}"}
+
+
+def _read(text: str) -> Any:
+    """Return the value of a literal; an expression without its blanks."""
+    value = literals(text)
+    return re.sub(r"\s", "", text) if value is None else value
+
+
+def _ends(values: Sequence[Value]) -> defaultdict[str, list[tuple[str, int]]]:
+    """Return the connections of each end, with their lines."""
+    ends = defaultdict[str, list[tuple[str, int]]](list)
+    for value in values:
+        if value.path == "connect":
+            first, second = value.text.split(" ")
+            ends[first].append((second, value.line))
+            ends[second].append((first, value.line))
+    return ends
+
+
+def _equations(loop: Element, given: Mapping[str, Any]) -> dict[str, Stated]:
+    """Return the equations of a loop: the given ones, if they are some of those that a joint of its kind has."""
+    keys = ("translations", "rotations", "childRotations")
+    numbers = [given.get(key) for key in keys]
+    whole = [each if isinstance(each, tuple) and len(each) % 3 == 0 else (math.nan,) * 3 for each in numbers]
+    moves, u, v = (np.reshape(each, (-1, 3)) for each in whole)
+    axis, child_axis = loop.axes
+    is_right = len(moves) + len(u) > 0 and len(u) == len(v) and np.allclose(moves @ moves.T, np.eye(len(moves)))
+    match loop.type if is_right else "":
+        case "revolute":
+            is_right = len(u) <= 2 and np.allclose(v, axis) and np.allclose(u @ axis, 0)
+        case "universal":
+            is_right = len(u) <= 1 and np.allclose(u, axis) and (child_axis is None or np.allclose(v, child_axis))
+        case "fixed":
+            is_right = len(u) <= 3 and np.allclose((u * v).sum(axis=1), 0)
+        case _:
+            is_right = is_right and not len(u)
+    right = dict(zip(keys, numbers if is_right else [f"those of a {loop.type} joint"] * 3, strict=True))
+    return {key: Stated(value, loop.line) for key, value in right.items()}
+
+
+def _shown(value: Any) -> str:
+    """Return a value in words; a rotation by its angles."""
+    if isinstance(value, str):
+        return value
+    if len(np.shape(value)) == 2:
+        r = np.array(value)
+        value = math.atan2(r[2, 1], r[2, 2]), math.asin(-r[2, 0]), math.atan2(r[1, 0], r[0, 0])
+    return " ".join(f"{number:.9g}" for number in value)

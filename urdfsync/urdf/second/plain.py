@@ -1,0 +1,108 @@
+"""Writes a source as plain URDF: SDFormat's spelling as attributes, and joints of several axes as chains.
+
+The second reader and Pinocchio read the result. Only the decoding of bytes is shared with the first reader.
+"""
+
+from __future__ import annotations
+
+import copy
+import re
+from collections.abc import Collection
+from typing import Any
+
+from lxml import etree
+
+from urdfsync.urdf.parse import xml
+
+_ALONE = {"parent": "link", "child": "link", "mass": "value", "axis": "xyz"}
+"""Elements whose text has the meaning of an attribute."""
+_NAMES = "xyz lower upper effort velocity damping friction multiplier offset ixx ixy ixz iyy iyz izz size radius length"
+"""Elements with the meaning of an attribute of the element around them."""
+
+
+def plain_urdf(content: bytes, joints: Collection[str] | None = None) -> bytes:
+    """Return a source as plain URDF; the same bytes if it is plain. See `plain_root`."""
+    plain = etree.tostring(plain_root(content, joints))
+    return content if plain == etree.tostring(_parse(content)) else bytes(plain)
+
+
+def plain_root(content: bytes, joints: Collection[str] | None = None) -> Any:
+    """Return the root of a source as plain URDF.
+
+    `joints` are those of the first reading: a chain stands for a ball that is none of them.
+    """
+    root = _parse(content)
+    for joint in [part for part in root if part.tag in ("joint", "drake:joint")]:
+        name, kind = joint.get("name", ""), joint.get("type")
+        if joint.tag == "drake:joint" and kind in ("ball", "planar", "universal"):
+            joint.tag = "joint"
+            if kind == "universal":
+                _make_chain(root, joint, "xy", has_damping=True)
+        if kind in ("spherical", "ball"):
+            joint.set("type", "ball")
+            if joints is not None and name not in joints:
+                _make_chain(root, joint, "xyz", has_damping=True)
+        for axes in root.xpath("joint_axes[@joint=$name and not(translate(@axes, 'xyz', ''))]", name=name):
+            root.remove(axes)
+            _make_chain(root, joint, axes.get("axes", ""), has_damping=False)
+    for element in [part for top in root if top.tag in ("link", "joint") for part in top.iter()]:
+        for part in element.xpath("axis/limit | axis/dynamics"):
+            if element.find(part.tag) is None:
+                element.append(part)
+        place = next((part for part in element if part.tag in ("origin", "pose")), None)
+        numbers = "" if place is None or place.attrib else (place.text or "").split()
+        if place is not None and len(numbers) == 6:
+            place.tag = "origin"
+            place.attrib.update({"xyz": " ".join(numbers[:3]), "rpy": " ".join(numbers[3:])})
+        texts = {
+            part.tag: part.text for part in element if part.tag in _NAMES.split() and not part.attrib and not len(part)
+        }
+        if element.tag in _ALONE and not element.attrib:
+            texts = texts or {_ALONE[element.tag]: element.text}
+        for name, text in texts.items():
+            if name not in element.attrib and (text or "").strip():
+                element.set(name, text.strip())
+    return root
+
+
+def decimal(text: str) -> float:
+    """Return a number. Raises ValueError, also for what only Python takes for one, such as `1_000`."""
+    if "_" in text or not text.isascii():
+        raise ValueError(text)
+    return float(text)
+
+
+def _parse(content: bytes) -> Any:
+    """Return the root, without comments and namespaces: tags and attributes keep their prefixes."""
+    text = re.sub(r"""\sxmlns(:\w+)?\s*=\s*("[^"]*"|'[^']*')""", "", xml.parse(content).text)
+    parser = etree.XMLParser(recover=True, resolve_entities=False, remove_comments=True, remove_pis=True)
+    return etree.fromstring(text.encode(), parser)
+
+
+def _make_chain(root: Any, joint: Any, axes: str, *, has_damping: bool) -> None:
+    """Replace a joint by hinges about some axes, with massless links between them; the source only measures these."""
+    root.remove(joint)
+    damping = joint.xpath("dynamics/@damping") if has_damping else ()
+    for part in joint.xpath("axis | limit | dynamics"):
+        joint.remove(part)
+    if damping:
+        etree.SubElement(joint, "dynamics", damping=damping[0])
+    names = [f"{joint.get('name', '')}_{axis}" for axis in axes]
+    if not axes:
+        joint.set("type", "fixed")
+        root.append(joint)
+    for number, (name, axis) in enumerate(zip(names, axes, strict=True)):
+        root.append(hinge := copy.deepcopy(joint))
+        hinge.attrib.update({"name": name, "type": "continuous"})
+        for part in hinge.xpath("*[not(self::child or self::dynamics)]") if number else ():
+            hinge.remove(part)
+        etree.SubElement(hinge, "axis", xyz=" ".join(str(int(axis == other)) for other in "xyz"))
+        if number:
+            etree.SubElement(hinge, "parent", link=names[number - 1])
+        if name != names[-1]:
+            for part in hinge.findall("child"):
+                hinge.remove(part)
+            etree.SubElement(hinge, "child", link=name)
+            etree.SubElement(root, "link", name=name).sourceline = joint.sourceline
+        control = etree.SubElement(root, "ros2_control", name=name)
+        etree.SubElement(etree.SubElement(control, "joint", name=name), "state_interface", name="position")
