@@ -24,7 +24,12 @@ GEAR = (
     "</actuator></transmission>"
 )
 IMU = '<gazebo reference="hand"><sensor name="imu" type="imu"><pose>0.1 0.2 -0.3 0.4 -0.5 0.6</pose></sensor></gazebo>'
-LOAD = '<gazebo reference="elbow"><sensor name="load" type="force_torque"/></gazebo>'
+LOAD = '<gazebo reference="elbow"><sensor name="load" type="force_torque"/></gazebo>' + "".join(
+    f'<gazebo reference="{at}"><sensor name="{at} {frame}" type="force_torque"><pose>0 0 0 0.3 0.2 -0.1</pose>'
+    f"<force_torque><frame>{frame}</frame></force_torque></sensor></gazebo>"
+    for at in ("shoulder", "grip")
+    for frame in ("parent", "sensor")
+)
 SOURCE = robot(
     *links(base=4.0, upper=2.5, hand=0.7),
     link("finger", 0.3),
