@@ -104,6 +104,8 @@ class Compilation:
         is_same = amended == (package.generation.inputs.source.content, package.robot.options)
         self._completed = package.generated if is_same else generated_texts(package.generation, amended)
         jobs: dict[str, _Job] = {"completed": (with_flags(self._completed), move)}
+        if experiment.laws:
+            jobs["laws"] = package.generated, [_task(experiment.laws)]
         if package.edits and experiment.options == package.robot.options:
             jobs["edited"] = with_flags(package.files.texts), move
             if not is_same:
@@ -130,7 +132,7 @@ class Compilation:
             wiring = (
                 () if checks is None else checks.wiring(self._completed, snapshot, robot.target, experiment.options)
             )
-            self.result.deviations = (*compare_all(trials, self.generated), *wiring)
+            self.result.deviations = (*compare_all(trials, self.generated), *self._laws(experiment, done), *wiring)
             self.result.curves = tuple(curves(trials[0], self.generated[trials[0].name]))
         if "edited" not in done:
             return
@@ -153,6 +155,14 @@ class Compilation:
             effect if effect.deviations else msgspec.structs.replace(effect, deviations=changes)
             for effect in edit_effects(package.edits, package.files.owners, whole, single)
         )
+
+    def _laws(self, experiment: Experiment, done: Mapping[str, Sequence[CompileResult]]) -> Sequence[Deviation]:
+        """Return the differences of laws that no other trial moves. What can't be simulated is a gap."""
+        if not experiment.laws:
+            return ()
+        motions, faults = self._motions(done["laws"], [experiment.laws])
+        self.gaps += [f"{experiment.laws.name} were not compared: {fault.message}" for fault in faults]
+        return compare_all([experiment.laws], motions)
 
     def _model_jobs(self, count: int) -> dict[str, _Job]:
         """Return jobs that compile all models: the package's in `count` parts, then the user's."""
