@@ -226,8 +226,14 @@ class Compilation:
         return done
 
     def _run(self, label: str, texts: Mapping[str, bytes], tasks: Sequence[CompileTask]) -> list[CompileResult]:
-        tell(f"{self._package.robot.name}: loading libraries, then compiling {listed([task.title for task in tasks])}")
-        return (self._users_jobs if label == _USERS else self._jobs).run(label, texts, tasks)
+        what = f"{self._package.robot.name}: loading libraries, then compiling {listed([task.title for task in tasks])}"
+        jobs = self._users_jobs if label == _USERS else self._jobs
+        limits = jobs.limits
+
+        def progress() -> None:
+            tell(f"{what}; {limits.used:.0f} of at most {limits.seconds:g} s of processor time")
+
+        return msgspec.structs.replace(jobs, progress=progress).run(label, texts, tasks)
 
     def _motions(
         self, results: Sequence[CompileResult], trials: Sequence[Trial]
