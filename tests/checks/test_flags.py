@@ -2,9 +2,17 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
+from support.packages import generate
+from support.urdfs import robot
 
 from urdfsync.checks.flags import flagged, with_flags
+from urdfsync.domain import Target
+
+BOX = '<geometry><box size="1 2 3"/></geometry>'
+LINK = robot(f'<link name="base"><visual name="a;b">{BOX}</visual><collision>{BOX}</collision></link>')
 
 MODEL = """\
 model Joint
@@ -47,3 +55,10 @@ def test_one_message_makes_one_variable_and_other_files_are_as_they_were() -> No
     assert with_flags(texts) == texts
     latin = b"// caf\xe9\n" + model("equation", ASSERTION).encode()
     assert with_flags({"a.mo": latin})["a.mo"].startswith(b"// caf\xe9\n")
+
+
+def test_shapes_of_links_are_left_out() -> None:
+    package = generate(LINK.encode(), Target("Bot", "Bot"))
+    text = package.texts["Links/Base.mo"]
+    assert re.findall(r"(\w+)\(\s*parameters = [^;]* if false\n", flagged(text)) == ["visual1", "collision1"]
+    assert flagged(text).replace(" if false\n", "\n") == text

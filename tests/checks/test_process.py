@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from pathlib import Path
 
@@ -10,10 +11,11 @@ import pytest
 from support import checks
 from support.checks import act
 
+from urdfsync.checks import process
 from urdfsync.checks.cache import UserCache
 from urdfsync.checks.compilers import COMPILERS, run_job
 from urdfsync.checks.compilers.compiler import CompileJob, CompilerError, CompileTask, Tool
-from urdfsync.checks.process import BrokenProcessError, Limits, run
+from urdfsync.checks.process import BrokenProcessError, LimitError, Limits, run
 from urdfsync.diagnostics import OutputError
 
 TESTS = Path(__file__).parents[1]
@@ -68,6 +70,24 @@ def test_what_a_process_has_started_ends_with_it(tmp_path: Path, monkeypatch: py
     _, alive = psutil.wait_procs(looks[0], timeout=60)
     assert [child for child in alive if child.status() != psutil.STATUS_ZOMBIE] == []
     assert len(looks[0]) == 2
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no such groups")
+def test_a_process_keeps_the_session_and_so_the_priority_but_gets_no_interruption() -> None:
+    assert run(act, "session", limits=limits())[0] == f"{os.getsid(0)} True"
+
+
+@pytest.mark.parametrize("deed", ["work", "sleep"])
+def test_only_processor_time_counts_unless_a_process_does_nothing(deed: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(process, "_MOST_IDLE", 1.5 if deed == "sleep" else 60)
+    allowed = limits(0.5 if deed == "work" else 60)
+    with pytest.raises(LimitError) as caught:
+        run(act, deed, limits=allowed)
+    (found,) = caught.value.diagnostics
+    words = {"work": "takes more than 0.5 s of processor time", "sleep": "does nothing: a process has waited for 1.5 s"}
+    assert found.message == f"the check {words[deed]}"
+    assert "--tool" in found.hint
+    assert (allowed.used >= 0.5) == (deed == "work")
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no such signals")

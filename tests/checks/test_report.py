@@ -173,6 +173,37 @@ def test_contacts_are_plausible_within_a_hundredth(capsys: Capture, difference: 
     assert told is (difference > 1)
 
 
+@pytest.mark.parametrize(
+    ("cause", "effect", "words"),
+    [
+        (
+            Deviation(Quantity.GRAVITY, "bench", 19.6, 9.81, 9.81, "m/s²", Part.BENCHES),
+            Deviation(Quantity.ACCELERATION, "joint elbow", 5.0, 1.0, 1.0, "rad/s²", Part.FREE_MOTION),
+            "bench: gravity differs from its own numbers by 19.6 m/s²",
+        ),
+        (
+            Deviation(Quantity.START, "loop yoke", 3.0, 0.1, 0.1, "rad", Part.LOOPS, "turn"),
+            Deviation(Quantity.ORIENTATION, "link hand", 1.0, 1.0, 1.0, ""),
+            "loop yoke: start of joint turn differs from Pinocchio 4.1.0 by 3 rad",
+        ),
+        (
+            Deviation(Quantity.ENERGY, "joint elbow", 1.0, 0.0, 0.0, "", Part.LOSSES, "lugre"),
+            Deviation(Quantity.GROUND, "robot", 9.0, 1.0, 1.0, "N·m", Part.CONTACTS),
+            "robot: ground torque differs from its own numbers by 9 N·m",
+        ),
+    ],
+)
+def test_a_cause_is_told_before_its_effects(capsys: Capture, cause: Deviation, effect: Deviation, words: str) -> None:
+    _, first, *_ = shown(capsys, msgspec.structs.replace(RIGHT, tools=tools(deviations=(*AGREEING, effect, cause))))
+    assert first.strip().startswith(words)
+
+
+def test_a_law_that_gives_energy_away_is_told_by_its_name(capsys: Capture) -> None:
+    wrong = Deviation(Quantity.ENERGY, "joint elbow", 1.0, 0.0, 0.0, "", Part.LOSSES, "lugre")
+    _, first, *_ = shown(capsys, msgspec.structs.replace(RIGHT, tools=tools(deviations=(*AGREEING, wrong))))
+    assert first.strip().startswith("joint elbow: lugre gives energy away")
+
+
 def test_quiet_names_only_what_is_not_right(capsys: Capture) -> None:
     heads = [line.split(":")[0] for line in shown(capsys, *ALL, quiet=True) if not line.startswith(" ")]
     assert heads == ["welder", "picker", "cart", "new", "hoist", "lift"]

@@ -5,16 +5,19 @@ from __future__ import annotations
 import shutil
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
+import msgspec
 import pytest
 from support import physics
 from support.cases import sampled
 from support.loops import UNIVERSAL, to_options, to_urdf
 from support.modelica import URDFSYNC
+from support.packages import generate
 from support.urdfs import dynamics, joint, limit, link, links, mimic, robot
 
-from urdfsync.checks.experiment import Deviation, Part
+from urdfsync.checks.experiment import Deviation, Part, Quantity
+from urdfsync.domain import Target
 
 pytestmark = pytest.mark.slow
 
@@ -24,7 +27,12 @@ GEAR = (
     "</actuator></transmission>"
 )
 IMU = '<gazebo reference="hand"><sensor name="imu" type="imu"><pose>0.1 0.2 -0.3 0.4 -0.5 0.6</pose></sensor></gazebo>'
-LOAD = '<gazebo reference="elbow"><sensor name="load" type="force_torque"/></gazebo>'
+LOAD = '<gazebo reference="elbow"><sensor name="load" type="force_torque"/></gazebo>' + "".join(
+    f'<gazebo reference="{at}"><sensor name="{at} {frame}" type="force_torque"><pose>0 0 0 0.3 0.2 -0.1</pose>'
+    f"<force_torque><frame>{frame}</frame></force_torque></sensor></gazebo>"
+    for at in ("shoulder", "grip")
+    for frame in ("parent", "sensor")
+)
 SOURCE = robot(
     *links(base=4.0, upper=2.5, hand=0.7),
     link("finger", 0.3),
@@ -44,8 +52,8 @@ class Fault(NamedTuple):
     new: str
 
 
-B, L, F, S, W, G = (
-    *(Part.BODIES, Part.LOSSES, Part.FREE_MOTION),
+B, L, F, R, S, W, G = (
+    *(Part.BODIES, Part.LOSSES, Part.FREE_MOTION, Part.BENCHES),
     *(Part.SENSORS, Part.LIMITS, Part.CONTACTS),
 )
 POINT = "Contacts/Functions/point.mo"
@@ -93,7 +101,7 @@ LIBRARY: Mapping[str, Fault] = {
     "sign of damping": Fault(L, "Friction/Rotational.mo", "parameters.damping*w", "parameters.damping*abs(w)"),
     "effort of a mimic": Fault(B, "Couplings/RotationalToTranslational.mo", "leader.tau + ", "leader.tau - "),
     "gravity in an IMU": Fault(S, "Sensors/Imu.mo", "a = acceleration - ", "a = acceleration + "),
-    "gravity of the bench": Fault(F, "Robots/PartialBench.mo", "n = {0, 0, -1}", "n = {0, 0, 1}"),
+    "gravity of the bench": Fault(R, "Robots/PartialBench.mo", "n = {0, 0, -1}", "n = {0, 0, 1}"),
     "where a joint begins": Fault(F, "Functions/closestToZero.mo", "min(max(", "max(max("),
     "turned inertia": Fault(B, "Functions/inertiaInLinkAxes.mo", "I := R*[", "I := transpose(R)*["),
 }
@@ -148,7 +156,7 @@ LOOP: Mapping[str, Fault] = {
     "frame of the other end": Fault(B, "Joints/Yoke.mo", "r = parameters.childOrigin.xyz", "r = parameters.origin.xyz"),
     "axis of a loop": Fault(B, "Joints/YokeParameters.mo", "rotations = [0, 0, 1]", "rotations = [0.28, 0, 0.96]"),
     "torque of a loop": Fault(Part.LOOPS, "Joints/Yoke.mo", "t = constraint.t", "t = -constraint.t"),
-    "start of a dependent joint": Fault(F, "ArmStart.mo", "turn_x = 0.06", "turn_x = 3.06"),
+    "start of a dependent joint": Fault(Part.LOOPS, "ArmStart.mo", "turn_x = 0.06", "turn_x = 3.06"),
 }
 HELD: Mapping[str, Fault] = {
     "force of a loop": Fault(B, "Loops/Constraint.mo", "frame_a.f = f;", "frame_a.f = -f;"),
@@ -159,11 +167,22 @@ HELD: Mapping[str, Fault] = {
 
 def prepared(fault: Fault, name: str, **options: str) -> physics.Case:
     """The robot, and the one simulation in which a fault shows."""
-    trial = "free motion" if fault.part is Part.FREE_MOTION else "motion"
+    trial = "free motion" if fault.part in (Part.FREE_MOTION, Part.BENCHES) else "motion"
     source = CART if fault.part is Part.CONTACTS else SOURCE
     if fault in (*LOOP.values(), *HELD.values()):
         return physics.prepare(to_urdf(UNIVERSAL).encode(), name, **to_options(UNIVERSAL)).only(trial)
     return physics.prepare(source.encode(), name, **options).only(trial)
+
+
+def damaged(folder: Path, changes: Sequence[tuple[str, str, str]]) -> Path:
+    """A copy of the library with other texts."""
+    own = folder / "own" / "UrdfSync"
+    shutil.copytree(URDFSYNC, own, ignore=shutil.ignore_patterns("Images", "robots"))
+    for file, old, new in changes:
+        text = (own / file).read_text("utf-8")
+        assert old in text
+        (own / file).write_text(text.replace(old, new), "utf-8")
+    return own
 
 
 def is_seen(fault: Fault, deviations: Sequence[Deviation]) -> bool:
@@ -189,10 +208,71 @@ def test_a_fault_in_a_package_is_seen(fault_name: str, modelica_library: Path, t
 @pytest.mark.parametrize("name", sampled((*LIBRARY, *FLOATING, *HELD), 18))
 def test_a_fault_in_the_library_is_seen(name: str, modelica_library: Path, tmp_path: Path) -> None:
     base = "floating" if name in FLOATING else "fixed"
-    fault, own = {**LIBRARY, **FLOATING, **HELD}[name], tmp_path / "own" / "UrdfSync"
-    shutil.copytree(URDFSYNC, own, ignore=shutil.ignore_patterns("Images", "robots"))
-    text = (own / fault.file).read_text("utf-8")
-    assert fault.old in text
-    (own / fault.file).write_text(text.replace(fault.old, fault.new), "utf-8")
+    fault = {**LIBRARY, **FLOATING, **HELD}[name]
+    own = damaged(tmp_path, [(fault.file, fault.old, fault.new)])
     (found,) = physics.compare(modelica_library, tmp_path, [prepared(fault, "Bot", base=base)], own)
     assert is_seen(fault, found)
+
+
+TORQUES, TURNING, SLIDING = "Contacts/PartialContact.mo", "Drives/RotationalSweep.mo", "Drives/TranslationalSweep.mo"
+TOGETHER: Mapping[str, Sequence[tuple[str, str, str]]] = {
+    "no torque of the ground, turning Test begins elsewhere, sliding Test goes too far": [
+        (TORQUES, "frame_a.t = -t", "frame_a.t = zeros(3)"),
+        (TURNING, "phi(start = phi_start", "phi(start = phi_start + 0.1"),
+        (SLIDING, "der(v) = 2", "der(v) = 6"),
+    ],
+    "reversed torque of the ground, turning Test goes too far, sliding Test begins elsewhere": [
+        (TORQUES, "frame_a.t = -t", "frame_a.t = t"),
+        (TURNING, "der(w) = 2", "der(w) = 6"),
+        (SLIDING, "s(start = s_start", "s(start = s_start + 0.1"),
+    ],
+}
+LAWS = robot(
+    *links(base=1.0, a=1.0, b=1.0, c=1.0, d=1.0, e=1.0, f=1.0),
+    joint("brush", "revolute", "base", "a", inside=[dynamics(0.1, 0.4)]),
+    joint("rail", "prismatic", "a", "b", inside=[dynamics(2, 3)]),
+    joint("limp", "revolute", "b", "c"),
+    joint("bend", "continuous", "c", "d", inside=[dynamics(0.1, 0.4)]),
+    joint("stuck", "revolute", "d", "e", inside=[dynamics(0.1, 0.4)]),
+    joint("slip", "prismatic", "e", "f", inside=[dynamics(2, 3)]),
+)
+CHOSEN: Mapping[str, Any] = {
+    "friction": {"brush": "lugre", "rail": "lugre", "bend": "stiction", "stuck": "stiction", "slip": "stiction"},
+    "elastic": ("limp", "bend"),
+    "saturated": ("limp",),
+    "driven": ("brush", "rail", "limp", "bend"),
+}
+
+
+@pytest.mark.parametrize("name", sampled(TOGETHER, 2))
+def test_faults_of_ground_and_test_are_seen_each_by_itself(name: str, modelica_library: Path, tmp_path: Path) -> None:
+    mast = joint("mast", "prismatic", "base", "top", axis="0 0 1")
+    source = CART.replace("</robot>", f"{link('top', 1.0)}{mast}</robot>")
+    case = physics.prepare(source.encode(), "Cart", base="floating").only("motion")
+    (found,) = physics.compare(modelica_library, tmp_path, [case], damaged(tmp_path, TOGETHER[name]))
+    faults = {(each.part, each.quantity, each.element, each.unit) for each in found if not each.agrees}
+    turning = {(R, Quantity.SWEEP, f"joint {side}", "rad") for side in ("left", "right")}
+    assert faults == {(G, Quantity.GROUND, "robot", "N·m"), *turning, (R, Quantity.SWEEP, "joint mast", "m")}
+
+
+def test_laws_that_give_energy_away_are_seen_beside_sound_ones(modelica_library: Path, tmp_path: Path) -> None:
+    """The spring of MSL with a negative stiffness is a fault of the template, the others of the library."""
+    case = physics.prepare(LAWS.encode(), "Bot", **CHOSEN)
+    laws = case.experiment.laws
+    assert laws is not None
+    package = generate(LAWS.encode(), Target("Bot", "Bot"), **CHOSEN)
+    case = physics.Case(msgspec.structs.replace(case.experiment, trials=(laws,)), package)
+    own = damaged(
+        tmp_path,
+        [
+            ("Friction/RotationalLuGre.mo", "damping*w + ", "damping*w - "),
+            ("Drives/RotationalSpring.mo", "tau = -Urdf", "tau = Urdf"),
+            ("Friction/TranslationalStiction.mo", "else -parameters.friction", "else parameters.friction"),
+        ],
+    )
+    case = case.changed("Joints/Bend.mo", "c = parameters", "c = -parameters")
+    (found,) = physics.compare(modelica_library, tmp_path, [case], own)
+    seen = {each.element: each.agrees for each in found if each.quantity is Quantity.ENERGY}
+    assert seen == {
+        f"joint {name}": name in ("rail", "stuck") for name in ("brush", "rail", "limp", "bend", "stuck", "slip")
+    }

@@ -39,7 +39,7 @@ def check_robot(config: Config, robot: RobotConfig, options: CheckOptions, folde
     limits = Limits(f"the check of robot `{name}`", options.timeout, (options.memory or 0) * 1e9)
     try:
         if name.startswith("slow"):
-            process.run(act, "sleep", limits=limits)
+            process.run(act, "work", limits=limits)
         elif name.startswith("big"):
             process.run(act, "fill", limits=limits)
         elif name == "crash":
@@ -60,6 +60,11 @@ def act(*deeds: str) -> Iterator[str]:
         match deed:
             case "sleep":
                 time.sleep(600)
+            case "work":
+                while True:
+                    pass
+            case "session":
+                yield f"{os.getsid(0)} {os.getpgrp() == os.getpid()}"
             case "fill":
                 memory = bytearray(400_000_000)
                 time.sleep(1)

@@ -104,6 +104,8 @@ class Compilation:
         is_same = amended == (package.generation.inputs.source.content, package.robot.options)
         self._completed = package.generated if is_same else generated_texts(package.generation, amended)
         jobs: dict[str, _Job] = {"completed": (with_flags(self._completed), move)}
+        if experiment.laws:
+            jobs["laws"] = package.generated, [_task(experiment.laws)]
         if package.edits and experiment.options == package.robot.options:
             jobs["edited"] = with_flags(package.files.texts), move
             if not is_same:
@@ -122,7 +124,7 @@ class Compilation:
         self.result.times = tuple(TrialTime(trial.name, answer.seconds) for trial, answer in times if answer.seconds)
         self.diagnostics += faults
         if self.generated:
-            self.result.deviations = compare_all(trials, self.generated)
+            self.result.deviations = (*compare_all(trials, self.generated), *self._laws(experiment, done))
             self.result.curves = tuple(curves(trials[0], self.generated[trials[0].name]))
         if "edited" not in done:
             return
@@ -145,6 +147,14 @@ class Compilation:
             effect if effect.deviations else msgspec.structs.replace(effect, deviations=changes)
             for effect in edit_effects(package.edits, package.files.owners, whole, single)
         )
+
+    def _laws(self, experiment: Experiment, done: Mapping[str, Sequence[CompileResult]]) -> Sequence[Deviation]:
+        """Return the differences of laws that no other trial moves. What can't be simulated is a gap."""
+        if not experiment.laws:
+            return ()
+        motions, faults = self._motions(done["laws"], [experiment.laws])
+        self.gaps += [f"{experiment.laws.name} were not compared: {fault.message}" for fault in faults]
+        return compare_all([experiment.laws], motions)
 
     def _model_jobs(self, count: int) -> dict[str, _Job]:
         """Return jobs that compile all models: the package's in `count` parts, then the user's."""
@@ -208,8 +218,14 @@ class Compilation:
         return done
 
     def _run(self, label: str, texts: Mapping[str, bytes], tasks: Sequence[CompileTask]) -> list[CompileResult]:
-        tell(f"{self._package.robot.name}: loading libraries, then compiling {listed([task.title for task in tasks])}")
-        return (self._users_jobs if label == _USERS else self._jobs).run(label, texts, tasks)
+        what = f"{self._package.robot.name}: loading libraries, then compiling {listed([task.title for task in tasks])}"
+        jobs = self._users_jobs if label == _USERS else self._jobs
+        limits = jobs.limits
+
+        def progress() -> None:
+            tell(f"{what}; {limits.used:.0f} of at most {limits.seconds:g} s of processor time")
+
+        return msgspec.structs.replace(jobs, progress=progress).run(label, texts, tasks)
 
     def _motions(
         self, results: Sequence[CompileResult], trials: Sequence[Trial]

@@ -24,6 +24,7 @@ class Part(enum.StrEnum):
     SENSORS = "sensors"
     LIMITS = "limits"
     CONTACTS = "contacts"
+    BENCHES = "Run and Test"
 
 
 class Quantity(enum.StrEnum):
@@ -45,6 +46,14 @@ class Quantity(enum.StrEnum):
     GROUND = "ground force"
     CLOSURE = "gap"
     """From one frame of a loop to the other."""
+    GRAVITY = "gravity"
+    """Of the world of Run and Test."""
+    START = "start"
+    """Where a joint begins that follows from a loop."""
+    SWEEP = "way in Test"
+    """Where a drive of Test begins, turns and ends."""
+    ENERGY = "energy"
+    """Part of the exchanged energy that a friction or a spring gives away, though it never got it."""
 
 
 TOLERANCE = 1e-10
@@ -52,6 +61,9 @@ TOLERANCE = 1e-10
 _TOLERANCES = {
     Quantity.ACCELERATION: 1e-7,  # solving equations for them loses digits
     Quantity.GROUND: 1e-2,  # no reference, and stiff: 1 % of the depth makes 1 % of the force
+    Quantity.START: 1e-7,  # loops are closed by iteration
+    Quantity.SWEEP: 1e-4,  # integrated
+    Quantity.ENERGY: 1e-2,  # integrated through jumps of dry friction
 }
 
 
@@ -199,6 +211,8 @@ class Experiment(msgspec.Struct, frozen=True):
 
     The first one tells what single edits do; it has to come to its end.
     """
+    laws: Trial | None = None
+    """Moves parts that `options` leave out, of the package that follows from the source."""
     notes: tuple[str, ...] = ()
     """Differences of `content` from the given source, with reasons: one sentence each, without a full stop."""
     unchecked: tuple[str, ...] = ()

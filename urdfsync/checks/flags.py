@@ -1,6 +1,7 @@
-"""Turns warnings of packages into variables, so that one simulation tells the time of each.
+"""Turns warnings of packages into variables, so that one simulation tells the time of each, and leaves out shapes.
 
-A compiler may print no warnings, or check them only at the beginning.
+A compiler may print no warnings, or check them only at the beginning. Shapes change no motion, but they are a quarter
+of the equations of an arm with meshes: rumoca takes a sixth less time without them.
 """
 
 from __future__ import annotations
@@ -13,12 +14,16 @@ _ASSERTION = re.compile(
     re.MULTILINE,
 )
 """An assertion that only warns, in the layout of generated files; not one inside of another equation."""
+_SHAPE = re.compile(
+    r"^  UrdfSync\.Visualizers\.\w+ \w+\(\n    parameters = [\w.]+,\n    animation = \w+\)(?=\s)", re.MULTILINE
+)
+"""A shape of a link, in the layout of generated files."""
 _EQUATIONS = re.compile(r"^equation$", re.MULTILINE)
 _OTHERS = re.compile(r"^(algorithm|initial equation|initial algorithm)$", re.MULTILINE)
 
 
 def with_flags(texts: Mapping[str, bytes]) -> dict[str, bytes]:
-    """Return the files of a package with a variable in the place of each assertion that only warns."""
+    """Return the files of a package with a variable in the place of each assertion that only warns, without shapes."""
     return {
         path: flagged(content.decode("utf-8", "surrogateescape")).encode("utf-8", "surrogateescape")
         if path.endswith(".mo")
@@ -30,8 +35,10 @@ def with_flags(texts: Mapping[str, bytes]) -> dict[str, bytes]:
 def flagged(text: str) -> str:
     """Return the text of a class with variables in the place of warnings: 1 where the warning comes, else 0.
 
-    Its name is `warning_` and the words of its message. A class with algorithms stays as it is.
+    Its name is `warning_` and the words of its message. A class with algorithms keeps its warnings. Shapes get a
+    condition that is false.
     """
+    text = _SHAPE.sub(r"\g<0> if false", text)
     names = dict[str, None]()
 
     def flag(match: re.Match[str]) -> str:

@@ -6,9 +6,9 @@ As a program it calls the function that is pickled on its stdin.
 from __future__ import annotations
 
 import contextlib
-import faulthandler
 import os
 import pickle
+import signal
 import subprocess
 import sys
 import tempfile
@@ -25,28 +25,37 @@ from urdfsync.diagnostics import UrdfsyncError
 T = TypeVar("T")
 
 _INTERVAL = 0.25
-"""Seconds between two checks of memory and clock; a check reads a file of each process of the system."""
+"""Seconds between two checks of memory and time; a check reads a file of each process of the system."""
+_GRACE = 10.0
+"""Seconds of processor time until a process ends itself that nobody has ended."""
+_MOST_IDLE = 60.0
+"""Seconds by the clock after which a process is ended that does nothing."""
+_WORK = 0.01
+"""Less processor time is no work: a process that only waits looks at its clock, too."""
 
 
 class Limits(msgspec.Struct):
-    """The time and memory that all processes of one check may take together."""
+    """The processor time and memory that all processes of one check may take together."""
 
     owner: str
     """The name of the check in messages."""
     seconds: float
+    """Of processor time: on a busy machine the clock runs on."""
     memory: float
     """Bytes."""
-    deadline: float = 0.0
-    """By the monotonic clock of this process."""
+    times: dict[float, float] = {}
+    """Processor time so far of each process, by its begin."""
     peak: float = 0.0
     """The peak memory so far, in bytes."""
 
-    def __post_init__(self) -> None:
-        self.deadline = time.monotonic() + self.seconds
+    @property
+    def used(self) -> float:
+        """The processor time so far."""
+        return sum(self.times.values())
 
 
 def limits_of(owner: str, seconds: float, gigabytes: float | None) -> Limits:
-    """Return limits that begin now. Memory None means all free memory."""
+    """Return limits. Memory None means all free memory."""
     return Limits(owner, seconds, gigabytes * 1e9 if gigabytes else psutil.virtual_memory().available)
 
 
@@ -82,12 +91,14 @@ def run(
             stdout=answers,
             stderr=errors,
             env={**os.environ, **processes.importable(), **(environment or {})},
-            start_new_session=True,  # an interruption from the keyboard is for the command, which ends this process
+            # An interruption from the keyboard is for the command, which ends this process. In a session of its own
+            # the user's `nice` would have no effect: Linux schedules sessions as groups.
+            process_group=0,
         ) as process:
             try:
                 if process.stdin is not None:
                     with contextlib.suppress(OSError):  # it has ended; its exit code says why
-                        process.stdin.write(pickle.dumps((limits.deadline - time.monotonic(), function, arguments)))
+                        process.stdin.write(pickle.dumps((limits.seconds - limits.used, function, arguments)))
                         process.stdin.flush()
                 _wait(process, limits, started, progress)
             finally:
@@ -112,22 +123,32 @@ def _wait(
     progress: Callable[[], None] | None,
 ) -> None:
     """Wait for the end of a process; `started` gets what it starts. Raises LimitError."""
+    begin = worked = time.monotonic()
     while True:
         if progress:
             progress()
         with contextlib.suppress(subprocess.TimeoutExpired):
             process.wait(_INTERVAL)
             return
-        used = 0
+        used, seconds = 0, 0.0
         for child in psutil.Process().children(recursive=True):  # also those of other threads
             with contextlib.suppress(psutil.Error):  # it has just ended
                 used += child.memory_info().rss
-                if process.pid in [parent.pid for parent in child.parents()]:
+                is_started = process.pid in [parent.pid for parent in child.parents()]
+                if is_started:
                     started.add(child)
+                if is_started or child.pid == process.pid:
+                    seconds += sum(child.cpu_times()[:4])  # with those that it has started, and that have ended
         limits.peak = max(limits.peak, used)
-        if time.monotonic() >= limits.deadline:
-            message = f"{limits.owner} takes more than {limits.seconds:g} s"
+        if seconds > limits.times.get(begin, 0.0) + _WORK:
+            limits.times[begin], worked = seconds, time.monotonic()
+        if limits.used >= limits.seconds:
+            message = f"{limits.owner} takes more than {limits.seconds:g} s of processor time"
             hint = "allow more with `--timeout`, or try another compiler with `--tool`"
+            raise LimitError.of("out-of-time", message, hint=hint)
+        if time.monotonic() - worked >= _MOST_IDLE:
+            message = f"{limits.owner} does nothing: a process has waited for {_MOST_IDLE:g} s"
+            hint = "try again, or try another compiler with `--tool`"
             raise LimitError.of("out-of-time", message, hint=hint)
         if used > limits.memory:
             message = f"{limits.owner} takes more memory than its limit, {limits.memory / 1e9:.2g} GB"
@@ -147,7 +168,8 @@ def main() -> None:
     with processes.reserve_stdout() as answers:
         seconds, function, arguments = pickle.load(sys.stdin.buffer)  # noqa: S301 - from a process of ours
         # Ends this process if its parent is gone: native code may block all threads of Python.
-        faulthandler.dump_traceback_later(max(seconds, 0.01) + 1, exit=True)
+        if sys.platform != "win32":
+            signal.setitimer(signal.ITIMER_PROF, max(seconds, 0.0) + _GRACE)
         processes.end_with_parent(lambda: os.read(0, 1))  # not by sys.stdin, whose lock would disturb Python at its end
         last = None
         try:

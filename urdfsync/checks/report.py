@@ -28,8 +28,11 @@ _MOST = 3
 """The most differing numbers of one file that are told."""
 _STATED = {
     Quantity.WARNING: "the warning “{detail}” is missing, or comes elsewhere",
+    Quantity.ENERGY: "{detail} gives energy away",
 }
 """Differences that are no amounts."""
+_FORCES = {Quantity.EFFORT: "", Quantity.REACTION: "reaction ", Quantity.GROUND: "ground "}
+"""Quantities that are forces or torques, by their unit."""
 
 
 def _sentences(result: CheckResult) -> list[tuple[str, str]]:
@@ -84,7 +87,7 @@ def _differences(result: CheckResult) -> Iterator[tuple[str, str]]:
     deviations = next((tool.deviations for tool in result.tools if tool.deviations), ())
     for deviation, others in _by_kind([deviation for deviation in deviations if not deviation.agrees]):
         what, amount = _amount(deviation)
-        by = "its own numbers" if deviation.part is Part.CONTACTS else reference
+        by = "its own numbers" if deviation.part in (Part.CONTACTS, Part.BENCHES) else reference
         fault = f"{what} differs from {by} by {amount}"
         if stated := _STATED.get(deviation.quantity):
             fault = stated.format(detail=deviation.detail)
@@ -245,8 +248,10 @@ def _amount(deviation: Deviation) -> tuple[str, str]:
     what, unit, value = str(deviation.quantity), deviation.unit, deviation.difference
     if deviation.quantity in _STATED:
         return f"{what} “{deviation.detail}”", "more than nothing"
-    if deviation.quantity in (Quantity.EFFORT, Quantity.REACTION):
-        what = f"{'reaction ' if deviation.quantity is Quantity.REACTION else ''}{'force' if unit == 'N' else 'torque'}"
+    if deviation.quantity in _FORCES:
+        what = f"{_FORCES[deviation.quantity]}{'force' if unit == 'N' else 'torque'}"
+    elif deviation.quantity is Quantity.START:
+        what = f"start of joint {deviation.detail}"
     if deviation.quantity is Quantity.ORIENTATION:
         value, unit = math.degrees(2 * math.asin(min(value / 2, 1))), "°"
     elif unit == "m":

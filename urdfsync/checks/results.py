@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import enum
+import itertools
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
@@ -18,13 +19,14 @@ from urdfsync.spelling import counted
 MOST_SINGLE_EDITS = 6
 """The most edited files that are tried one by one; the effects of more are measured together."""
 
-KINDS = (
+_FIRST = (
+    (Quantity.GRAVITY, Quantity.START),
     (Quantity.POSITION, Quantity.ORIENTATION),
     (Quantity.EFFORT, Quantity.REACTION),
     (Quantity.MASS, Quantity.CENTRE),
-    *((quantity,) for quantity in list(Quantity)[6:]),
 )
-"""Quantities that are reported together."""
+KINDS = (*_FIRST, *((quantity,) for quantity in Quantity if quantity not in itertools.chain(*_FIRST)))
+"""Quantities that are reported together, causes before effects."""
 
 
 class RunOptions(msgspec.Struct, frozen=True, kw_only=True):

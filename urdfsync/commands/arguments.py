@@ -93,7 +93,12 @@ _SHARED: Mapping[str, dict[str, Any]] = {
         "OpenModelica or its program (`omc`)",
     },
     "--jobs": {"type": count, "metavar": "N", "help": "processes for many robots (default: one per core)"},
-    "--timeout": {"type": amount, "metavar": "S", "default": 600.0, "help": "seconds for each robot (default: 600)"},
+    "--timeout": {
+        "type": amount,
+        "metavar": "S",
+        "default": 600.0,
+        "help": "processor time for each robot in s (default: 600)",
+    },
     "--memory": {"type": amount, "metavar": "GB", "help": "memory for all processes (default: most of what is free)"},
     # never from the configuration: a worker can do anything with the files
     "--executor": {

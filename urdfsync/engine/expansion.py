@@ -185,7 +185,7 @@ def _ask(request: Request) -> Answer:
             capture_output=True,
             timeout=WALL_SECONDS,
             env={**os.environ, **importable(), "PYTHONHASHSEED": "0"},  # so that the text is the same each time
-            start_new_session=True,  # Ctrl-C must reach only this process, which then ends the other
+            process_group=0,  # Ctrl-C must reach only this process, which then ends the other
             check=False,
         )
         return msgspec.json.decode(done.stdout, type=Answer)

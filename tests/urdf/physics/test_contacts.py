@@ -37,7 +37,7 @@ def test_points_share_the_weight(shape: str, lowest: float, points: int) -> None
     feet = standing(f"{shape} at 0 0 0")
     assert feet is not None
     assert (feet.lowest, feet.depth) == pytest.approx((lowest, DEPTH / points))
-    assert feet.force() == pytest.approx([0, 0, WEIGHT])
+    assert feet.wrench() == pytest.approx([0, 0, WEIGHT, 0, 0, 0])
 
 
 def test_a_higher_point_carries_less() -> None:
@@ -50,9 +50,16 @@ def test_a_higher_point_carries_less() -> None:
 def test_the_ground_brakes_resists_and_never_pulls() -> None:
     feet = standing('sphere radius="0.1" at 0 0 0', contact="<mu1>0.5</mu1>")
     assert feet is not None
-    assert feet.force(slide=(30, 40)) == pytest.approx([-90, -120, WEIGHT])
-    assert feet.force(rise=-0.01)[2] > 1.3 * WEIGHT
-    assert feet.force(rise=1) == pytest.approx([0, 0, 0])
+    assert feet.wrench(slide=(30, 40)) == pytest.approx([-90, -120, WEIGHT, -12, 9, 0])
+    assert feet.wrench(rise=-0.01)[2] > 1.3 * WEIGHT
+    assert feet.wrench(rise=1) == pytest.approx([0] * 6)
+
+
+def test_a_force_beside_the_origin_turns_the_robot() -> None:
+    """Its lever ends at the shape, however deep that may be without a force."""
+    feet = standing('sphere radius="0.1" at 0.2 0.3 0', contact="<mu1>0.5</mu1><minDepth>0.01</minDepth>")
+    assert feet is not None
+    assert feet.wrench(slide=(30, 40))[3:] == pytest.approx([78, -51, 3])
 
 
 def test_a_robot_that_touches_nothing_does_not_stand() -> None:

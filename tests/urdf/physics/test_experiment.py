@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import math
 import re
 import sys
 from typing import Any
 
 import pytest
 from support.loops import FOUR_BAR, to_options, to_urdf
-from support.urdfs import dynamics, joint, limit, link, links, robot
+from support.urdfs import dynamics, joint, limit, link, links, mimic, robot
 
 from urdfsync.checks.compilation import compare_all
 from urdfsync.checks.experiment import TOLERANCE, Experiment, Part, Quantity, Sample
@@ -45,6 +46,7 @@ def test_everything_is_compared_from_the_root_outwards_and_has_an_expected_value
         *(("effort", "joint a slide", "N"), ("effort", "joint elbow", "N·m")),
         *(("reaction", "link base", "N"), ("reaction", "link base", "N·m")),
         *(("mass", "robot", "kg"), ("centre of mass", "robot", "m")),
+        *(("way in Test", "joint elbow", "rad"), ("way in Test", "joint a slide", "m")),
     ]
     for trial in one.trials:
         needed = {name for each in trial.compared if each.quantity != "warning" for name in each.values}
@@ -134,9 +136,15 @@ def test_laws_that_the_reference_does_not_have_are_named_and_made_simple() -> No
     assert one.options == Options()
     assert one.trials == experiment(ARM).trials
     assert one.unchecked[:2] == (
-        "friction of elbow (lugre): the compared package has a smooth one",
-        "drive of a slide, elbow (elastic): the compared package has a rigid one",
+        "friction of elbow (lugre), except for its energy: the compared package has a smooth one",
+        "drive of a slide, elbow (elastic), except for its energy: the compared package has a rigid one",
     )
+    assert one.laws is not None
+    assert [(each.element, each.detail) for each in one.laws.compared] == [
+        ("joint a slide", "spring"),
+        ("joint elbow", "lugre and spring"),
+    ]
+    assert experiment(ARM).laws is None
 
 
 @pytest.mark.parametrize("base", ["fixed", "floating"])
@@ -145,7 +153,9 @@ def test_a_robot_with_loops_is_moved_by_its_states_and_its_loops_are_compared(ba
     assert [trial.name for trial in one.trials] == ["motion", "free motion"]
     motion, free = one.trials
     assert {each.element for each in motion.compared if each.quantity is Quantity.EFFORT} == {"joint crank_pivot"}
-    gap, force, torque = (each for each in motion.compared if each.part is Part.LOOPS)
+    gap, force, torque, *starts = (each for each in motion.compared if each.part is Part.LOOPS)
+    assert {(each.quantity, each.element) for each in starts} == {(Quantity.START, gap.element)}
+    assert {each.detail for each in starts} >= {"crank_pivot", "crank_pin"}
     assert [gap.quantity, force.unit, torque.unit] == [Quantity.CLOSURE, "N", "N·m"]
     assert [motion.expected[name] for name in gap.values] == [pytest.approx((0,) * 15, abs=1e-12)] * 3
     assert [max(map(abs, motion.expected[name][:5])) > 1 for name in force.values] == [True, True, False]
@@ -188,8 +198,30 @@ def test_a_robot_without_joints_stands_on_the_ground_too() -> None:
     box = '<collision><geometry><box size="1 1 1"/></geometry></collision></link>'
     one = experiment(robot(link("base", 1.0).replace("</link>", box)), base="floating")
     assert "BotStance stance" in one.trials[0].probe.source
-    (ground,) = (each for each in one.trials[0].compared if each.part is Part.CONTACTS)
-    assert one.trials[0].expected[ground.values[2]][-1] == pytest.approx(-9.81)
+    force, torque = (each for each in one.trials[0].compared if each.part is Part.CONTACTS)
+    assert one.trials[0].expected[force.values[2]][-1] == pytest.approx(-9.81)
+    *_, standing, sliding, _, _ = one.trials[0].expected[torque.values[1]]
+    assert sliding - standing == pytest.approx(0.8 * 9.81 * 0.5 * 0.3 / math.hypot(0.3, 0.2), rel=1e-2)
+
+
+def test_test_moves_each_axis_within_its_limits_and_those_of_its_followers() -> None:
+    """From zero a metre at most, or nine tenths of the range and of the speed, to the roomier side."""
+    joints = [
+        joint("wide", "continuous", "base", "a"),
+        joint("near", "revolute", "a", "b", inside=[limit(-0.5, 0.2)]),
+        joint("slow", "prismatic", "b", "c", inside=[limit(-3, 3, 0.1)]),
+        joint("leader", "revolute", "c", "d"),
+        joint("led", "prismatic", "d", "e", inside=[mimic("leader", -0.1, 0.01), limit(-0.02, 0.02)]),
+        joint("hurried", "revolute", "e", "f", inside=[limit(1, 3)]),
+        joint("brake", "prismatic", "f", "g", inside=[mimic("hurried", 2), limit(-9, 9, 0.3)]),
+    ]
+    motion = experiment(robot(*links(**dict.fromkeys("abcdefg", 1.0), base=1.0), *joints)).trials[0]
+    ways = {each.element.removeprefix("joint "): each for each in motion.compared if each.quantity is Quantity.SWEEP}
+    expected = {"wide": 1, "near": -0.45, "slow": 0.9 / math.pi, "leader": 0.27, "hurried": 1 + 1.35 / math.pi}
+    assert {name: motion.expected[each.values[0]][5] for name, each in ways.items()} == pytest.approx(expected)
+    assert {name: motion.expected[each.values[0]][10] for name, each in ways.items()} == pytest.approx(
+        dict.fromkeys(expected, 0) | {"hurried": 1}
+    )
 
 
 def test_the_record_alone_is_compared_through_the_generic_robot() -> None:

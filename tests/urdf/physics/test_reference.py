@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from typing import Any
+
+import numpy as np
 import pinocchio as pin
 import pytest
-from support.urdfs import dynamics, joint, limit, links, robot
+from support.urdfs import dynamics, joint, limit, link, links, robot
 
 from urdfsync.urdf.parse import xml
 from urdfsync.urdf.parse.source import read_robot
-from urdfsync.urdf.physics.reference import read, read_place
+from urdfsync.urdf.physics.motion import GRAVITY, Course
+from urdfsync.urdf.physics.reference import Reference, read, read_place
 
 SOURCE = """\
 <robot name="bot">
@@ -20,13 +24,20 @@ SOURCE = """\
 
 
 def test_both_readers_find_the_same_place_of_a_sensor() -> None:
-    poses = ("<pose>1 2 3 0.4 0.5 0.6</pose>", "<pose degrees='true'>1 2 3 30 40 50</pose>", "")
+    poses = (
+        "<pose>1 2 3 0.4 0.5 0.6</pose>",
+        "<pose degrees='true'>1 2 3 30 40 50</pose>",
+        "",
+        "<pose>1 2 3 4 5 x</pose>",
+    )
     sensors = "".join(f'<sensor name="s{k}" type="imu">{pose}</sensor>' for k, pose in enumerate(poses))
-    own = '<sensor name="s3"><parent link="arm"/><origin xyz="1 2 3" rpy="0.4 0.5 0.6"/><imu/></sensor>'
-    text = SOURCE.format(f'<gazebo reference="arm">{sensors}</gazebo>{own}').encode()
+    sensors += f'<sensor name="a/b" type="imu">{poses[1]}</sensor><sensor type="imu">{poses[0]}</sensor>'
+    own = '<sensor name="s4"><parent link="arm"/><origin xyz="1 2 3" rpy="0.4 0.5 0.6"/><imu/></sensor>'
+    twin = "<gazebo reference='base'><sensor name='s0' type='imu'><pose>7 8 9 0 0 0</pose></sensor></gazebo>"
+    text = SOURCE.format(f'{twin}<gazebo reference="arm">{sensors}</gazebo>{own}').encode()
     robot = read_robot(text, "bot.urdf").robot
     assert robot
-    assert len(robot.sensors) == 4
+    assert len(robot.sensors) == 8
     for sensor in robot.sensors:
         place, angles = read_place(xml.parse(text).root, sensor)
         assert [*place, *angles] == pytest.approx([*sensor.origin.xyz, *sensor.origin.rpy], abs=1e-15)
@@ -51,3 +62,46 @@ def test_a_ball_of_pinocchio_has_the_freedoms_and_the_damping_of_the_joint_and_o
     assert poses[0].keys() == poses[1].keys()
     assert all(poses[0][name].isApprox(poses[1][name], 1e-14) for name in poses[0])
     assert pin.computeTotalMass(ball) == pytest.approx(10)
+
+
+def turned(roll: float, pitch: float, yaw: float) -> Any:
+    """The rotation of a URDF: about x, then y, then z of the parent."""
+    (a, b, c), (s, t, u) = np.cos([roll, pitch, yaw]), np.sin([roll, pitch, yaw])
+    x, y = np.array([[1, 0, 0], [0, a, -s], [0, s, a]]), np.array([[b, 0, t], [0, 1, 0], [-t, 0, b]])
+    return np.array([[c, -u, 0], [u, c, 0], [0, 0, 1]]) @ y @ x
+
+
+@pytest.mark.parametrize("kind", ["fixed", "revolute", "continuous", "prismatic"])
+@pytest.mark.parametrize("frame", ["child", "parent", "sensor"])
+@pytest.mark.parametrize("is_deeper", [False, True])
+def test_a_sensor_at_rest_shows_the_weight_behind_it_in_its_frame(kind: str, frame: str, is_deeper: bool) -> None:
+    """A moving joint stands at 0.8 rad or m, along z; the deeper sensor is in the joint behind it."""
+    angles, centre = (0.5, -0.6, 0.7), (0.02, -0.05, 0.1)
+    at, joints = "wrist" if is_deeper else "elbow", [joint("elbow", kind, "base", "arm", axis="0 0 1")]
+    joints += [joint("wrist", "fixed", "arm", "hand")] if is_deeper else []
+    pose = "<pose>1 2 3 0.3 0.2 -0.1</pose>"
+    load = f'<sensor name="load" type="force_torque">{pose}<force_torque><frame>{frame}</frame></force_torque></sensor>'
+    imu = f'<sensor name="imu" type="imu">{pose}</sensor>'
+    last, bodies = ("hand", link("hand", 2.0)) if is_deeper else ("arm", "")
+    text = robot(
+        *(link("base", 1.0), link("arm", None if is_deeper else 2.0), bodies, *joints),
+        *(f'<gazebo reference="{at}">{load}</gazebo>', f'<gazebo reference="{last}">{imu}</gazebo>'),
+    ).encode()
+    found = read_robot(text, "bot.urdf").robot
+    assert found
+    moving = [] if kind == "fixed" else ["elbow"]
+    reference = Reference(read(text, "bot.urdf", {at}), moving)
+    rest = Course(0.0, 0.0, 0.0)
+    state = reference.state([Course(0.8, 0.0, 0.0)] * len(moving), [rest] * 4)
+    base = np.eye(3)
+    arm = turned(*angles) @ (turned(0, 0, 0.8) if kind in ("revolute", "continuous") else base)
+    parent, child = (arm, arm @ turned(*angles)) if is_deeper else (base, arm)
+    weight = np.array([0, 0, -2 * GRAVITY])
+    axes = {"child": child, "parent": parent, "sensor": child @ turned(0.3, 0.2, -0.1)}
+    root, sensors = xml.parse(text).root, {sensor.kind: sensor for sensor in found.sensors}
+    force, torque = reference.wrench(state, sensors["force_torque"], "arm" if is_deeper else "base", root)
+    assert force == pytest.approx(axes[frame].T @ weight)
+    assert torque == pytest.approx(axes[frame].T @ np.cross(child @ centre, weight))
+    gain, spin = reference.acceleration(state, sensors["imu"], root)
+    assert gain == pytest.approx(axes["sensor"].T @ [0, 0, GRAVITY])
+    assert spin == pytest.approx([0, 0, 0])

@@ -138,7 +138,7 @@ class MeshProcess:
             stderr=subprocess.DEVNULL,
             # each thread needs its own memory; libraries use deprecated parts of numpy
             env={**os.environ, **importable(), "OPENBLAS_NUM_THREADS": "1", "PYTHONWARNINGS": "ignore"},
-            start_new_session=True,  # an interruption from the keyboard is for whoever waits, who ends the process
+            process_group=0,  # an interruption from the keyboard is for whoever waits, who ends the process
         )
 
 

@@ -1,4 +1,4 @@
-"""The force of the ground on a standing robot, from the robot's own numbers: no reference has contacts.
+"""Force and torque of the ground on a standing robot, from the robot's own numbers: no reference has contacts.
 
 The base is held level, so that no robot tips, and the joints are held at the start. The force on each point follows the
 law of the library's `Contacts.Functions.point`, written once more.
@@ -47,17 +47,18 @@ class Stand(NamedTuple):
     depth: float
     """Depth of the lowest point at which the ground carries the weight."""
 
-    def force(self, rise: float = 0.0, slide: Sequence[float] = (0.0, 0.0)) -> Array:
-        """Return the force on the robot while it moves upward and sideways."""
-        total, speed = np.zeros(3), math.hypot(*slide)
+    def wrench(self, rise: float = 0.0, slide: Sequence[float] = (0.0, 0.0)) -> Array:
+        """Return force and torque about the root link's origin while the robot moves upward and sideways."""
+        total, speed = np.zeros(6), math.hypot(*slide)
         for point in self.points:
             depth = max(0.0, self.depth + self.lowest - point.place[2])
             spring = point.stiffness * depth * max(0.0, 1 - point.damping * rise)
             normal = point.share * max(0.0, spring - (point.contact.kd or 0.0) * rise) if depth else 0.0
             mu = FRICTION if point.contact.mu is None else point.contact.mu
             slip = SLIP_SPEED * max(1.0, mu / FRICTION)
-            total[:2] -= mu * normal / math.hypot(speed, slip) * np.array(slide)
-            total[2] += normal
+            force = np.array([*(-mu * normal / math.hypot(speed, slip) * np.array(slide)), normal])
+            lever = point.place - [0, 0, point.contact.min_depth or 0.0]
+            total += [*force, *np.cross(lever, force)]
         return total
 
 

@@ -16,6 +16,7 @@ from urdfsync.urdf.options import Options
 from urdfsync.urdf.parse.source import RobotReading, read_robot
 from urdfsync.urdf.physics import completion, motion, probe, quantities
 from urdfsync.urdf.physics.closing import OpenLoopError
+from urdfsync.urdf.physics.laws import laws_trial
 from urdfsync.urdf.physics.motion import Instant
 from urdfsync.urdf.physics.probe import RobotVariables
 from urdfsync.urdf.physics.reference import pinocchio
@@ -66,6 +67,7 @@ def experiment(sample: Sample, step: float | None = None) -> Experiment | str:
         options=simplified,
         trials=tuple(trials),
         notes=(*notes, *made_up),
+        laws=laws_trial(tree, sample.target, options) if "package" in options.approach else None,
         unchecked=(*_simplified(tree, options), *_not_compared(subject), *subject.unchecked),
     )
 
@@ -80,6 +82,7 @@ def _trials(subject: Subject, approach: str, step: float | None) -> Iterator[Tri
         pairs += quantities.sensors(subject, names)
         pairs += quantities.ground(subject)
         pairs += quantities.loops(subject, names)
+        pairs += quantities.starts(subject)
         limits += quantities.limits(subject)
     needed, optional = ([v for compared, _ in some for v in compared.values] for some in (pairs, limits))
     moving = probe.moving_probe(subject, names, needed, optional, step or 1.0)
@@ -123,6 +126,9 @@ def _free(subject: Subject, names: RobotVariables, name: str) -> Iterator[Trial]
         root = f"link {subject.tree.links[0].name}"
         compared = Compared(Quantity.ACCELERATION, root, "m/s²", gained, time, Part.FREE_MOTION)
         pairs.append((compared, [reference.base_gain(state, gains)]))
+    gravity = tuple(f"gravity[{i}]" for i in (1, 2, 3))
+    bench = Compared(Quantity.GRAVITY, "bench", "m/s²", gravity, time, Part.BENCHES)
+    pairs.append((bench, [(0.0, 0.0, -motion.BENCH_GRAVITY)]))
     table = quantities.table(pairs, [0.0])
     values = [value for compared, _ in pairs for value in compared.values]
     pushed = [float(effort) for effort in efforts]
@@ -143,7 +149,7 @@ def _simplified(tree: KinematicTree, options: Options) -> Iterator[str]:
         if names:
             part, plain = ("drive", "rigid") if law in ("elastic", "saturated") else ("friction", "smooth")
             who = ", ".join(names) if len(names) <= 3 else f"{len(names)} joints"
-            yield f"{part} of {who} ({law}): the compared package has a {plain} one"
+            yield f"{part} of {who} ({law}), except for its energy: the compared package has a {plain} one"
 
 
 def _not_compared(subject: Subject) -> Iterator[str]:
@@ -152,7 +158,7 @@ def _not_compared(subject: Subject) -> Iterator[str]:
     in_loops = [joint.name for joint in subject.axes if subject.is_in_loop(joint)]
     if in_loops:
         yield f"the limits of joints in loops beyond where {', '.join(in_loops)} move{'s' * (len(in_loops) == 1)} them"
-    yield "the motion of benches, and models around the robot (they are only compiled)"
+    yield "the motion of Run, and models around the robot (they are only compiled)"
     if axes > _MOST_AXES:
         yield f"free motion of more than {_MOST_AXES} axes, which takes a compiler too much memory"
     if "record" in options.approach and subject.tree.loops:

@@ -84,6 +84,8 @@ JUST = 1e-3
 """Part of a limit by which it is passed or kept."""
 LOADS = {Instant.STRAINED: -1 - JUST, Instant.LOADED: 1 - JUST}
 """The part of its effort limit that drives each axis."""
+PERIOD = 10.0
+"""Of the way there and back in Test, in s."""
 GROUND_DEPTH = 1e3
 """Depth of the ground in m: farther than any robot reaches, and near enough for digits."""
 ON_GROUND: Mapping[Instant, Vector] = {

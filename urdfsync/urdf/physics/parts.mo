@@ -111,3 +111,46 @@
     frame_b.R = Modelica.Mechanics.MultiBody.Frames.planarRotation(axis, phi, w);
   end MovingBase;
 
+
+  partial model PartialMeter "Counts the energy that a flange hands on to a joint and a body"
+    parameter Real size "Of the motion, or of the effort";
+    parameter Real inertia = 0 "Of the body, if it moves as the flange does";
+    Real effort;
+    Real speed;
+    Real energy(start = 0, fixed = true);
+    Real exchanged(start = 1e-12, fixed = true);
+    Real given = max(0, inertia*speed^2/2 - energy)/exchanged "Part of it that the joint gives and never got";
+  equation
+    der(energy) = effort*speed;
+    der(exchanged) = abs(effort*speed);
+  end PartialMeter;
+
+  model RotationalStroke "Moves a flange to and fro, farther each time"
+    extends PartialMeter(effort = -flange.tau, speed = der(flange.phi));
+    parameter Real start;
+    Modelica.Mechanics.Rotational.Interfaces.Flange_b flange;
+  equation
+    flange.phi = start + size*time^2*sin(6.283185307179586*time);
+  end RotationalStroke;
+
+  model RotationalShake "Pushes a flange to and fro, harder each time"
+    extends PartialMeter(effort = -flange.tau, speed = der(flange.phi));
+    Modelica.Mechanics.Rotational.Interfaces.Flange_b flange;
+  equation
+    flange.tau = -size*time*sin(6.283185307179586*time);
+  end RotationalShake;
+
+  model TranslationalStroke "Moves a flange to and fro, farther each time"
+    extends PartialMeter(effort = -flange.f, speed = der(flange.s));
+    parameter Real start;
+    Modelica.Mechanics.Translational.Interfaces.Flange_b flange;
+  equation
+    flange.s = start + size*time^2*sin(6.283185307179586*time);
+  end TranslationalStroke;
+
+  model TranslationalShake "Pushes a flange to and fro, harder each time"
+    extends PartialMeter(effort = -flange.f, speed = der(flange.s));
+    Modelica.Mechanics.Translational.Interfaces.Flange_b flange;
+  equation
+    flange.f = -size*time*sin(6.283185307179586*time);
+  end TranslationalShake;

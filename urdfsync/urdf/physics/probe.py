@@ -6,7 +6,7 @@ It uses little of the package, so that packages may be edited: the variables bel
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 
 import msgspec
@@ -16,6 +16,7 @@ from urdfsync.domain import Target
 from urdfsync.modelica.literals import matrix, vector
 from urdfsync.urdf.connectors import connector_names
 from urdfsync.urdf.kinematics.poses import roll_pitch_yaw
+from urdfsync.urdf.model.loop import loop_reaches
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.physics import motion
 from urdfsync.urdf.physics.motion import Course
@@ -124,6 +125,11 @@ def moving_probe(
         drive = MOTION_KINDS[joint.type].capitalize()
         declarations.append(f"{drive}Drive drive{k}(ways = {matrix(motion.ways(courses), 6)})")
         connections.append(f"drive{k}.flange, {names.flanges[joint.name]}")
+    for k, (joint, _, _) in enumerate(subject.sweeps() if names.joints else (), 1):
+        declarations += _sweep(k, joint, names.joints[joint.name], loop_reaches(subject.assembly))
+        connections.append(f"sweep{k}.support, housing{k}.flange")
+    for k, joint in enumerate(subject.closed_joints(), 1):
+        declarations.append(f"Real start{k} = robot.startPositions.{subject.tree.joint(joint.name).component}")
     for k, loop in enumerate(subject.tree.loops, 1):
         ends = (loop.parent, loop.origin), (loop.child, loop.child_origin)
         parent, child = (_place(f"robot.{subject.tree.link(link).component}", origin) for link, origin in ends)
@@ -133,11 +139,23 @@ def moving_probe(
     base = zip(("x", "y", "z", "turn"), subject.base, strict=True)
     tables = ", ".join(f"{name} = {matrix(motion.ways(courses), 6)}" for name, courses in base)
     declarations.append(f"MovingBase base({tables}, axis = {vector(motion.TURN_AXIS)})")
-    source = _text(target, options, "", declarations, connections, _driven_balls(subject))
+    source = text(target, options, "", declarations, connections, _driven_balls(subject))
     last = float(max(motion.Instant))
     # loops are closed by integration: its error appears in accelerations, times the square of its rate of decay
     tolerance = 1e-11 if subject.tree.loops else None
     return Probe(source, "Probe_.Probe", last, step, tuple(values), tuple(optional), tolerance)
+
+
+def _sweep(k: int, joint: Joint, component: str, reaches: Mapping[str, Mapping[str, str]]) -> Iterator[str]:
+    """Yield a drive as Test has one, which moves nothing, and its housing."""
+    kind = MOTION_KINDS[joint.type]
+    q, v = ("phi", "w") if kind == "rotational" else ("s", "v")
+    modifiers = [f"{name} = {component}.{name}" for name in (f"{q}_start", f"{q}_min", f"{q}_max", f"{v}_max")]
+    if joint.name in reaches:
+        modifiers.append(f"reach = robot.startPositions.{reaches[joint.name]['parameter']}")
+    modifiers += (f"{q}(fixed = true)", f"{v}(fixed = true)")
+    yield f"UrdfSync.Drives.{kind.capitalize()}Sweep sweep{k}({', '.join(modifiers)})"
+    yield f"Modelica.Mechanics.{kind.capitalize()}.Components.Fixed housing{k}"
 
 
 def _driven_balls(subject: Subject) -> list[str]:
@@ -204,7 +222,8 @@ def free_probe(
             continue
         declarations.append(f"{MOTION_KINDS[joint.type].capitalize()}Push push{k}(effort = {effort!r})")
         connections.append(f"push{k}.flange, {names.flanges[joint.name]}")
-    source = _text(subject.target, options, bench, declarations, connections)
+    declarations.append("Real gravity[3] = world.g*world.n")
+    source = text(subject.target, options, bench, declarations, connections)
     return Probe(source, "Probe_.Probe", 1e-6, 1e-6, tuple(values))
 
 
@@ -236,7 +255,7 @@ def _place(link: str, origin: Origin) -> str:
     return f"{frame}.r_0 + Modelica.Mechanics.MultiBody.Frames.resolve1({frame}.R, {vector(origin.xyz)})"
 
 
-def _text(
+def text(
     target: Target,
     options: Options,
     bench: str,

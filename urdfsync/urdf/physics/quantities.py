@@ -8,7 +8,6 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import TypeAlias
 
 import msgspec
-import numpy as np
 
 from urdfsync.checks.experiment import Compared, Part, Quantity
 from urdfsync.urdf.kinematics.poses import own_range
@@ -18,7 +17,7 @@ from urdfsync.urdf.physics.motion import COMPARED, Instant
 from urdfsync.urdf.physics.probe import CENTRE, FORCE, MASS, TORQUE, RobotVariables
 from urdfsync.urdf.physics.reference import Solution
 from urdfsync.urdf.physics.subject import Subject
-from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS, SENSOR_KINDS
+from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS, SENSOR_KINDS, Joint
 
 Pair: TypeAlias = tuple[Compared, Sequence[Iterable[float]]]
 """A quantity, and its expected values at each of its instants."""
@@ -101,6 +100,24 @@ def loops(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
             yield Compared(Quantity.REACTION, element, unit, values, COMPARED, Part.LOOPS), expected
 
 
+def starts(subject: Subject) -> Iterator[Pair]:
+    """Yield where joints begin that loops move, then where Test moves its axes."""
+    rows, closed = subject.reference.coordinates(), subject.states[float(Instant.START)].positions
+    for k, joint in enumerate(subject.closed_joints(), 1):
+        what = Quantity.START, subject.loop_around(joint), _unit(joint), (f"start{k}",), (0.0,), Part.LOOPS, joint.name
+        yield Compared(*what), [[float(closed[rows[joint.name]])]]
+    for k, (joint, start, end) in enumerate(subject.sweeps(), 1):
+        times, value = (0.0, motion.PERIOD / 2, motion.PERIOD), f"sweep{k}.{'phi' if _unit(joint) == 'rad' else 's'}"
+        yield (
+            Compared(Quantity.SWEEP, f"joint {joint.name}", _unit(joint), (value,), times, Part.BENCHES),
+            [[start], [end], [start]],
+        )
+
+
+def _unit(joint: Joint) -> str:
+    return "rad" if MOTION_KINDS[joint.type] == "rotational" else "m"
+
+
 def sensors(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
     """Yield the readings of the sensors that measure motion or forces."""
     parents, balls = {joint.name: joint.parent for joint in subject.tree.joints}, [ball.name for ball in subject.balls]
@@ -161,13 +178,16 @@ def limits(subject: Subject) -> Iterator[Pair]:
 
 
 def ground(subject: Subject) -> Iterator[Pair]:
-    """Yield the force that holds a standing robot level: the part that the ground does not carry."""
-    if subject.stand is not None:
-        forces = [subject.stand.force(rise, slide) for *slide, rise in motion.ON_GROUND.values()]
-        weight = np.array([0, 0, subject.solved[float(Instant.STANDING)].force[2]])
-        times = tuple(map(float, motion.ON_GROUND))
-        compared = Compared(Quantity.GROUND, "robot", "N", FORCE, times, Part.CONTACTS)
-        yield compared, [force - weight for force in forces]
+    """Yield what holds a standing robot level: the parts of force and torque that the ground does not carry."""
+    if subject.stand is None:
+        return
+    held = subject.solved[float(Instant.STANDING)]
+    carried = [subject.stand.wrench(rise, slide) for *slide, rise in motion.ON_GROUND.values()]
+    times = tuple(map(float, motion.ON_GROUND))
+    rows = [wrench - [*held.force, *held.torque] for wrench in carried]
+    for unit, values, part in (("N", FORCE, slice(0, 3)), ("N·m", TORQUE, slice(3, 6))):
+        compared = Compared(Quantity.GROUND, "robot", unit, values, times, Part.CONTACTS)
+        yield compared, [row[part] for row in rows]
 
 
 def table(pairs: Iterable[Pair], times: Sequence[float]) -> tuple[tuple[Compared, ...], dict[str, tuple[float, ...]]]:

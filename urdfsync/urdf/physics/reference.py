@@ -10,6 +10,7 @@ are Bᵀ·tau. With loops, q̇ = N(p)·ṗ and q̈ = N·p̈ + drift (see `closin
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Collection, Mapping, Sequence
 from typing import Any, NamedTuple
 from xml.etree.ElementTree import Element, tostring
@@ -117,19 +118,36 @@ def _with_balls(pin: Any, model: Any, balls: Collection[str]) -> Any:
     return changed
 
 
+def find_sensor(root: Element, sensor: Sensor) -> Element:
+    """Return the element of a sensor by its name and place; an empty one for a sensor of ros2_control."""
+    children = {
+        joint.get("name"): child.get("link") for joint in root.findall("joint") for child in joint.findall("child")
+    }
+    for holder in root:
+        for element in [holder] if holder.tag == "sensor" else holder.findall("sensor"):
+            at = holder.get("reference" if holder.tag == "gazebo" else "name")
+            for parent in element.findall("parent"):
+                at = parent.get("link") or parent.get("joint") or at
+            name = element.get("name") or f"{at} {sensor.kind}"
+            if at in (sensor.at, children.get(sensor.at)) and sensor.name in (name, f"{sensor.at}/{name}"):
+                return element
+    return Element("sensor")
+
+
 def read_place(root: Element, sensor: Sensor) -> tuple[list[float], list[float]]:
-    """Return place and angles of a sensor on its link: of the first element with its name and a place."""
-    for element in root.iter("sensor"):
-        if sensor.name.rpartition("/")[2] not in (element.get("name"), ""):
-            continue
-        if (origin := element.find("origin")) is not None:
-            texts = origin.get("xyz", "0 0 0"), origin.get("rpy", "0 0 0")
-            return [float(x) for x in texts[0].split()], [float(x) for x in texts[1].split()]
-        if (pose := element.find("pose")) is not None and len(numbers := (pose.text or "").split()) == 6:
-            values = [float(x) for x in numbers]
-            in_degrees = pose.get("degrees", "").strip().lower() in ("true", "1")
-            return values[:3], list(np.radians(values[3:])) if in_degrees else values[3:]
-    return list(sensor.origin.xyz), list(sensor.origin.rpy)
+    """Return place and angles of a sensor on its link; zeros for none."""
+    element = find_sensor(root, sensor)
+    if (origin := element.find("origin")) is not None:
+        texts = origin.get("xyz", "0 0 0"), origin.get("rpy", "0 0 0")
+        return [float(x) for x in texts[0].split()], [float(x) for x in texts[1].split()]
+    pose, values = element.find("pose"), [0.0] * 6
+    if pose is None:
+        return values[:3], values[3:]
+    if len(words := (pose.text or "").split()) == 6:
+        with contextlib.suppress(ValueError):  # the reader warns of it and takes zeros
+            values = [float(word) for word in words]
+    in_degrees = pose.get("degrees", "").strip().lower() in ("true", "1")
+    return values[:3], list(np.radians(values[3:])) if in_degrees else values[3:]
 
 
 def pinocchio() -> Any:
@@ -286,9 +304,9 @@ class Reference:
         if self.closing:
             forces = self.closing.forces(state.positions, load)
             pin.rnea(model, data, state.q, state.v, state.a, forces)
-        pin.updateFramePlacements(model, data)
-        words = next((part for part in root.iter("sensor") if part.get("name") == sensor.name.rpartition("/")[2]), root)
-        where, way = (words.findtext(f"force_torque/{tag}", "").strip() for tag in ("frame", "measure_direction"))
+        pin.framesForwardKinematics(model, data, state.q)  # `rnea` leaves `oMi` at the identity
+        element = find_sensor(root, sensor)
+        where, way = (element.findtext(f"force_torque/{tag}", "").strip() for tag in ("frame", "measure_direction"))
         axes = np.eye(3)
         if where == "parent":
             link = data.oMf[model.getFrameId(parent, pin.BODY)].rotation

@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 import itertools
 import math
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from functools import cached_property
 from xml.etree.ElementTree import Element
 
@@ -15,7 +15,7 @@ from numpy.polynomial import Polynomial
 from urdfsync.checks.experiment import Sample
 from urdfsync.domain import Import
 from urdfsync.urdf.drives import assembly, sharing_joint
-from urdfsync.urdf.kinematics.poses import start_positions
+from urdfsync.urdf.kinematics.poses import position_ranges, start_positions
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.parse import xml
@@ -23,8 +23,10 @@ from urdfsync.urdf.physics import contacts, motion
 from urdfsync.urdf.physics.closing import OpenLoopError
 from urdfsync.urdf.physics.motion import COMPARED, LOADS, Course, Instant
 from urdfsync.urdf.physics.reference import Configuration, Reference, Solution, read
-from urdfsync.urdf.robot import Joint
+from urdfsync.urdf.robot import MOTION_KINDS, Joint
 
+_MARGIN = 0.9
+"""Part of ranges and speeds that Test uses."""
 _SHARES = tuple(0.25**k for k in range(8))
 
 
@@ -73,6 +75,39 @@ class Subject:
             if other := sharing_joint(joint, self.options.drives):
                 checked |= {joint.name, other}
         return checked
+
+    def sweeps(self) -> Iterator[tuple[Joint, float, float]]:
+        """Yield where Test moves each axis: the start, and the farther end of the range, with a margin.
+
+        A speed of pi/period times the way is kept by a cosine.
+        """
+        ranges, followers = position_ranges(self.tree), self.tree.followers_by_leader()
+
+        def speed(joint: Joint) -> float:
+            own = joint.limit.velocity if joint.limit and joint.limit.velocity is not None else math.inf
+            others = followers.get(joint.name, ())
+            return min(own, *(speed(f) / abs(m.multiplier) for f, m in others if abs(m.multiplier) > math.ulp(1)), own)
+
+        for joint in self.axes:
+            if joint.type in MOTION_KINDS:
+                start, (lower, upper) = self.starts[joint.name], ranges[joint.name]
+                most = min(self.assembly.reach.get(joint.name, 1.0), _MARGIN * speed(joint) * motion.PERIOD / math.pi)
+                above, below = (min(most, _MARGIN * room) for room in (upper - start, start - lower))
+                yield joint, start, start + above if above >= below else start - below
+
+    def closed_joints(self) -> Sequence[Joint]:
+        """Return the joints whose start closes a loop, as far as the package states it."""
+        return [joint for joint in self.tree.joints if self.is_in_loop(joint) and joint.start is not None]
+
+    def loop_around(self, joint: Joint) -> str:
+        """Return the first loop that a joint is a part of, in words; else the joint."""
+        above = {each.child: each for each in self.tree.joints}
+
+        def path(link: str) -> set[str]:
+            return {above[link].name, *path(above[link].parent)} if link in above else set()
+
+        names = (loop.name for loop in self.tree.loops if joint.name in path(loop.parent) ^ path(loop.child))
+        return next((f"loop {name}" for name in names), f"joint {joint.name}")
 
     def is_in_loop(self, joint: Joint) -> bool:
         """Return whether loops restrict the motion of a joint."""

@@ -1,0 +1,78 @@
+"""Laws of joints that the reference lacks: whether one of each kind gives energy away that it never got.
+
+Each such joint of the package stands alone in the world, behind it a body. Its axis moves to and fro from a relaxed
+start. Up to any time, the energy that the axis takes in is then at least zero: friction loses some, springs and bodies
+hand back what they got (passivity). A law with the wrong sign hands out more.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from urdfsync.checks.experiment import Compared, Part, Probe, Quantity, Trial
+from urdfsync.domain import Target
+from urdfsync.urdf.drives import assembly
+from urdfsync.urdf.kinematics.tree import KinematicTree
+from urdfsync.urdf.model.joint import joint_model
+from urdfsync.urdf.options import Options
+from urdfsync.urdf.physics import probe
+from urdfsync.urdf.robot import MOTION_KINDS, Joint
+
+_STEP, _STOP = 0.02, 1.0  # s
+_STROKE = 0.2  # rad or m
+_SHAKE = 6.0  # times the effort at which the joint breaks loose
+
+
+def laws_trial(tree: KinematicTree, target: Target, options: Options) -> Trial | None:
+    """Return the simulation of one joint with each combination of laws; None if Pinocchio has them all."""
+    chosen = dict[tuple[object, ...], tuple[Joint, str]]()
+    driven = assembly(tree, options).driven
+    for joint in tree.joints:
+        if joint.type not in MOTION_KINDS:
+            continue
+        parts = joint_model(joint, options, joint.name in driven)
+        elastic = ("saturated " if parts["saturated"] else "") + "spring" if parts["elastic"] else ""
+        friction = parts["friction"] if parts["friction"] in ("stiction", "lugre") else ""
+        if laws := " and ".join(filter(None, (friction, elastic))):
+            chosen.setdefault((joint.type, *parts.values()), (joint, laws))
+    if not chosen:
+        return None
+    times = tuple(k * _STEP for k in range(1, round(_STOP / _STEP) + 1))
+    world = "inner Modelica.Mechanics.MultiBody.World world(g = 0, enableAnimation = false)"
+    declarations, connections, compared = [world], list[str](), list[Compared]()
+    for k, (joint, laws) in enumerate(chosen.values(), 1):
+        declarations += _declarations(k, f"{target.package}.Joints.{tree.joint(joint.name).type}", joint, laws)
+        connections += [
+            *(f"world.frame_b, joint{k}.frame_a", f"joint{k}.frame_b, body{k}.frame_a"),
+            f"stroke{k}.flange, joint{k}.axis",
+        ]
+        what = Quantity.ENERGY, f"joint {joint.name}", "", (f"stroke{k}.given",), times, Part.LOSSES, laws
+        compared.append(Compared(*what))
+    source = probe.text(target, options, "", declarations, connections)
+    values = tuple(each.values[0] for each in compared)
+    expected = {"time": times, **dict.fromkeys(values, (0.0,) * len(times))}
+    return Trial("laws of joints", Probe(source, "Probe_.Probe", _STOP, _STEP, values), tuple(compared), expected)
+
+
+def _declarations(k: int, model: str, joint: Joint, laws: str) -> Iterator[str]:
+    """Yield a joint, its body and what moves it: by an effort if it sticks, since it can't follow a prescribed way.
+
+    The body is light, so that its energy hides no loss; on a spring it swings slowly enough for any solver.
+    """
+    is_turning, is_pushed, numbers = (
+        MOTION_KINDS[joint.type] == "rotational",
+        laws == "stiction",
+        f"joint{k}.parameters",
+    )
+    breakaway, stiffness = f"{numbers}.dynamics.breakaway", f"{numbers}.transmission.stiffness"
+    light = f"1e-4*{stiffness}" if "spring" in laws else breakaway if is_pushed else "1e-6"
+    mass, inertia = ("1", light) if is_turning else (light, "1")
+    inertias = ", ".join(f"I_{i}{i} = {inertia}" for i in (1, 2, 3))
+    # prescribed axes begin where they are, and their springs relaxed
+    yield f"{model} joint{k}(checkLimits = false, fixedStart = {str(is_pushed).lower()})"
+    yield f"Modelica.Mechanics.MultiBody.Parts.Body body{k}(animation = false, m = {mass}, r_CM = zeros(3), {inertias})"
+    kind, q = ("Rotational", "phi") if is_turning else ("Translational", "s")
+    if is_pushed:
+        yield f"{kind}Shake stroke{k}(size = {_SHAKE}*{breakaway}, inertia = {light})"
+    else:
+        yield f"{kind}Stroke stroke{k}(size = {_STROKE}, start = joint{k}.{q}_start)"
