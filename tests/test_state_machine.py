@@ -439,7 +439,9 @@ class Walk(RuleBasedStateMachine):
         built = self.execute("build", "--format=json", "--config", clone / "urdfsync.toml", code=None)
         self.build(full=False)
         here = self.execute("build", "--format=json", code=built.code)
-        if orphans(built) != orphans(here):  # only this machine knows that it wrote a text out of which an edit was taken
+        if orphans(built) != orphans(
+            here
+        ):  # only this machine knows that it wrote a text out of which an edit was taken
             assert orphans(built) > orphans(here)
             return
         for folder in (PACKAGE, Path(".urdfsync/robots")):
