@@ -7,6 +7,7 @@ import shutil
 import sys
 from pathlib import Path
 
+import msgspec
 import pytest
 from support.checks import Compiling, status
 from support.two_joints import check, rebuild, write
@@ -91,3 +92,19 @@ def test_files_may_have_another_content_in_a_copy(jobs: Jobs, reading: Reading) 
     assert str(library) in result.problem
     assert str(library) not in reading.job.roots
     assert (library / "Small.mo").read_bytes() == b"as it was"
+
+
+def test_a_place_in_a_packed_library_is_one_in_its_folder(
+    jobs: Jobs, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    def complain(_tool: Tool, job: CompileJob, *_: object) -> list[CompileResult]:
+        text = Path(job.roots[1]).read_text()
+        (line,) = [number for number, each in enumerate(text.split("\n"), 1) if "model PartialBench" in each]
+        return [CompileResult(f"too few equations [{job.roots[1]}:{line}:7]")]
+
+    monkeypatch.setattr("urdfsync.checks.compilers.run_job", complain)
+    monkeypatch.setattr("urdfsync.checks.libraries.standard_library_copy", lambda *_: tmp_path)
+    (result,) = msgspec.structs.replace(jobs, tool=Tool("rumoca")).run("it", TEXTS, [TASK])
+    bench = library_folder() / "UrdfSync/Robots/PartialBench.mo"
+    line = next(number for number, each in enumerate(bench.read_text().split("\n"), 1) if "model PartialBench" in each)
+    assert result.problem == f"too few equations [{bench}:{line}:7]"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import os
+import re
 from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -137,11 +138,15 @@ def test_libraries_are_what_names_begin_with(text: str, names: set[str], tmp_pat
 # --- the copy of the Modelica Standard Library ------------------------------------------------------------------------
 
 COPIED = (
-    *("package", "Blocks/package", "Constants", "Icons", "Math", "Mechanics/package", "Mechanics/MultiBody/Body"),
-    *("Thermal/package", "Thermal/HeatTransfer/Port", "Electrical/package", "Electrical/Machines/package"),
+    *("package", "Blocks/package", "Constants", "Icons", "Math", "Mechanics/package", "Mechanics/MultiBody/package"),
+    "Mechanics/MultiBody/Body",
+    *("Thermal/package", "Thermal/HeatTransfer/package", "Electrical/package", "Electrical/Machines/package"),
     *("Electrical/Machines/Thermal", "Units", "Utilities"),
 )
-LEFT_OUT = ("Mechanics/MultiBody/Examples/Pendulum", "Fluid/package", "Thermal/FluidHeatFlow", "UsersGuide/package")
+LEFT_OUT = (
+    *("Mechanics/MultiBody/Examples/package", "Mechanics/MultiBody/Examples/Pendulum", "Fluid/package"),
+    *("Thermal/FluidHeatFlow", "UsersGuide/package"),
+)
 
 
 @pytest.fixture
@@ -162,8 +167,9 @@ def cache(tmp_path: Path) -> UserCache:
     return UserCache(tmp_path / "cache")
 
 
-def names(folder: Path) -> set[str]:
-    return {path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file()}
+def names(library: Path) -> set[str]:
+    """The files whose texts are in the one of a copied library."""
+    return set(re.findall(r"^// urdfsync: (.+):1$", library.read_text(), re.MULTILINE))
 
 
 @pytest.mark.parametrize(("text", "whole"), [
@@ -179,19 +185,21 @@ def test_what_robots_need_is_copied_and_all_if_more_is_named(
     text: str, whole: bool, small: Mapping[str, Path], cache: UserCache
 ) -> None:
     copied = standard_library_copy(small, [text.encode()], cache)
-    partners = {"Complex.mo", "ModelicaServices/package.mo"}
     wanted = (*COPIED, *LEFT_OUT) if whole else COPIED
-    assert names(copied) == {f"Modelica/{name}.mo" for name in wanted} | partners
+    assert {path.name for path in copied.iterdir()} == {"Complex.mo", "Modelica.mo", "ModelicaServices.mo"}
+    assert names(copied / "Modelica.mo") == {f"{name}.mo" for name in wanted}
 
 
 def test_examples_of_urdfsync_are_copied_only_if_they_are_named(tmp_path: Path, cache: UserCache) -> None:
     own = tmp_path / "UrdfSync"
-    for name in ("package.mo", "Joints/Fixed.mo", "Joints/package.order", "Examples/FourBar.mo", "UsersGuide/Start.mo"):
+    files = [f"{name}.mo" for name in ("package", "Joints/package", "Joints/Fixed", "Examples/package", "Examples/Arm")]
+    for name in (*files, "Joints/package.order", "UsersGuide/package.mo"):
         (own / name).parent.mkdir(parents=True, exist_ok=True)
         (own / name).touch()
-    assert own_library_copy(own, [b"import UrdfSync.Examples.*;"], cache) == own
+    found = own_library_copy(own, [b"import UrdfSync.Examples.*;"], cache)
+    assert (found.name, names(found)) == ("UrdfSync.mo", {*files})
     found = own_library_copy(own, [b"UrdfSync.Joints.Fixed j; // Examples"], cache)
-    assert (found.name, names(found)) == ("UrdfSync", {"package.mo", "Joints/Fixed.mo"})
+    assert (found.name, names(found)) == ("UrdfSync.mo", {*files[:3]})
 
 
 def test_a_copy_is_made_once_for_each_state(small: Mapping[str, Path], cache: UserCache) -> None:

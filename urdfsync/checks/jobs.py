@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import partial
 from pathlib import Path
 
 import msgspec
@@ -12,6 +14,7 @@ from urdfsync.checks.cache import UserCache
 from urdfsync.checks.compilers.compiler import CompileJob, CompileResult, CompileTask, Tool
 from urdfsync.checks.contents import copy_library
 from urdfsync.checks.package import write_package
+from urdfsync.checks.packed import original_place
 from urdfsync.checks.process import Limits
 from urdfsync.config import RobotConfig, find_own_library
 from urdfsync.modelica.names import LIBRARY
@@ -57,8 +60,7 @@ class Jobs(msgspec.Struct, frozen=True):
             every = [*texts.values(), *around.values(), *others]
             standard = libraries.standard_library_copy(self.needed.standard, every, cache)
             roots.append(str(standard))
-            parts = self.needed.standard.items()
-            originals |= {str(standard / name): path for name, path in parts if path.suffix != ".mo"}
+            originals |= {str(standard / f"{name}.mo"): path for name, path in self.needed.standard.items()}
             if own and not any(own in file.parents for file in changed):
                 every += [task.source.encode() for task in tasks]
                 copies[LIBRARY] = libraries.own_library_copy(own, every, cache)
@@ -86,11 +88,23 @@ def _with_originals(result: CompileResult, originals: Mapping[str, Path]) -> Com
 
     def named(text: str) -> str:
         for copy, original in originals.items():
+            if copy in text and copy.endswith(".mo") and original.is_dir():
+                library = Path(copy).read_text("utf-8", "surrogateescape")
+                place = re.compile(rf"{re.escape(copy)}(?::(\d+))?")
+                text = place.sub(partial(_in_original, library, original), text)
             text = text.replace(copy, str(original))
         return text
 
     runs = tuple(msgspec.structs.replace(run, problem=named(run.problem)) for run in result.runs)
     return msgspec.structs.replace(result, problem=named(result.problem), warnings=named(result.warnings), runs=runs)
+
+
+def _in_original(library: str, original: Path, place: re.Match[str]) -> str:
+    """Name the file and line in a library's folder for a place in the text that it was packed to."""
+    if not place[1]:
+        return str(original)
+    file, line = original_place(library, int(place[1]))
+    return f"{original / file}:{line}"
 
 
 def _readable(path: Path, folder: Path, changed: Mapping[Path, bytes]) -> str:

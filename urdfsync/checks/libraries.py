@@ -15,6 +15,7 @@ import msgspec
 from urdfsync.answers.facts import read_unrecorded
 from urdfsync.checks.cache import UserCache, cache_errors, digest
 from urdfsync.checks.contents import RESOURCES, content_hash, copy_library, package_texts
+from urdfsync.checks.packed import packed
 from urdfsync.config import Config, RobotConfig, find_own_library
 from urdfsync.diagnostics import Diagnostic, UrdfsyncError
 from urdfsync.modelica.names import LIBRARY, STANDARD_LIBRARIES
@@ -32,7 +33,7 @@ _COPIED = tuple(
     ).split()
 )
 _LEFT_OUT = frozenset({"Examples", "UsersGuide", RESOURCES})
-_COPY_REVISION = 2  # to be raised when other parts are copied
+_COPY_REVISION = 3  # to be raised when other parts are copied, or in another form
 
 _ANNOTATED_VERSION = re.compile(r'(?:^|,|\bannotation\s*\()\s*version\s*=\s*"(\d+(?:\.\d+)*)', re.MULTILINE)
 _NOISE = re.compile(rb'"(?:\\.|[^"\\])*"|//[^\n]*|/\*.*?\*/', re.DOTALL)
@@ -192,22 +193,25 @@ def standard_library_copy(parts: Mapping[str, Path], texts: Iterable[bytes], cac
 
 
 def own_library_copy(own: Path, texts: Iterable[bytes], cache: UserCache) -> Path:
-    """Return a copy of the library UrdfSync without its examples, or `own` itself if `texts` name any.
+    """Return a copy of the library UrdfSync, without its examples unless `texts` name any.
 
     The embedded compiler goes through all libraries for each model: examples take a fifth of its time. Raises
     CacheError, and as `copy_library`.
     """
-    if any(b"Examples" in _NOISE.sub(b"", text) for text in texts):
-        return own
-    target = cache.libraries / f"own-{content_hash(own, _LEFT_OUT)[:16]}"
-    _copy({own.name: own}, target, lambda _, names: [*_LEFT_OUT.intersection(names), "package.order"], cache)
-    return target / own.name
+    has_examples = any(b"Examples" in _NOISE.sub(b"", text) for text in texts)
+    left_out = _LEFT_OUT - {"Examples"} if has_examples else _LEFT_OUT
+    target = cache.libraries / f"own-{digest(_COPY_REVISION, content_hash(own, left_out))[:16]}"
+    _copy({own.name: own}, target, lambda _, names: [*left_out.intersection(names), "package.order"], cache)
+    return target / f"{own.name}.mo"
 
 
 def _copy(
     parts: Mapping[str, Path], target: Path, ignored: Callable[[str, list[str]], list[str]], cache: UserCache
 ) -> None:
-    """Copy libraries to a folder of the cache, unless they are there. Raises CacheError, and as `copy_library`."""
+    """Copy libraries to a folder of the cache, each as one file, unless they are there.
+
+    Raises CacheError, and as `copy_library`.
+    """
     with cache_errors(cache.folder):
         if not target.is_dir():
             target.parent.mkdir(parents=True, exist_ok=True)
@@ -215,7 +219,9 @@ def _copy(
                 made = Path(folder) / "library"
                 made.mkdir()
                 for name, path in parts.items():
-                    copy_library(path, made / (f"{name}.mo" if path.suffix == ".mo" else name), ignored)
+                    copy = Path(folder) / (f"{name}.mo" if path.suffix == ".mo" else name)
+                    copy_library(path, copy, ignored)
+                    (made / f"{name}.mo").write_text(packed(copy), "utf-8", "surrogateescape")
                 try:
                     made.rename(target)
                 except OSError:

@@ -1,0 +1,75 @@
+"""Libraries as one text: what a compiler reads is the same, and each line is found in its file again."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from urdfsync.checks.packed import original_place, packed
+from urdfsync.modelica.parser import parse
+from urdfsync.modelica.syntax import declared
+
+FILES = {
+    "package.mo": """// A library
+within ;
+package Lib "Said (" + " in two"
+  extends Icon;
+  annotation (version="1.0", Documentation(info="<p>a) \\" b</p>
+"));
+end Lib;
+""",
+    "Tank.mo": """within Lib; /* one ( */
+model Tank
+  Real 'Icon(' annotation (Placement(transformation(
+    extent={{-1, -1}, {1, 1}})), Evaluate=true);
+  Icon Line(x = 1);
+  annotation (Icon(graphics={Line(points={{0, 0}})}), smoothOrder=2);
+end Tank;
+""",
+    "Parts/package.mo": "within Lib;\npackage Parts\nend Parts;\n",
+    "Parts/Lid.mo": "within Lib.Parts;\n\nmodel Lid\n  Real lid;\nend Lid;\n",
+    "Notes/read.mo": "no part of it",
+}
+
+
+@pytest.fixture
+def library(tmp_path: Path) -> Path:
+    for name, text in FILES.items():
+        file = tmp_path / "Lib" / name
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(text)
+    return tmp_path / "Lib"
+
+
+def test_all_classes_are_where_they_were_and_looks_are_gone(library: Path) -> None:
+    text = packed(library)
+    stored = parse(text)
+    assert not stored.faults
+    assert {".".join(found.path) for found in declared(stored.classes)} == {
+        *("Lib", "Lib.Parts", "Lib.Parts.Lid", "Lib.Parts.Lid.lid"),
+        *("Lib.Tank", "Lib.Tank.'Icon('", "Lib.Tank.Line"),
+    }
+    for kept in ('version="1.0"', "Evaluate=true", "Line(x = 1)", "smoothOrder=2", "extends Icon"):
+        assert kept in text
+    for dropped in ("within", "extent", "points", "<p>", "no part"):
+        assert dropped not in text
+
+
+def test_each_line_is_found_in_its_file(library: Path) -> None:
+    text = packed(library)
+    for word, place in {
+        "extends Icon": ("package.mo", 4),
+        "end Lib": ("package.mo", 7),
+        "Icon Line": ("Tank.mo", 5),
+        "Real lid": ("Parts/Lid.mo", 4),
+        "end Parts": ("Parts/package.mo", 3),
+    }.items():
+        (line,) = [number for number, each in enumerate(text.split("\n"), 1) if word in each]
+        assert original_place(text, line) == place
+
+
+def test_a_library_may_be_one_file(tmp_path: Path) -> None:
+    (tmp_path / "Lib.mo").write_text("package Lib\nend Lib;\n")
+    text = packed(tmp_path / "Lib.mo")
+    assert original_place(text, len(text.splitlines())) == ("Lib.mo", 2)
