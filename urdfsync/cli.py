@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import contextlib
-import gc
 import importlib
 import signal
 import sys
@@ -12,7 +11,7 @@ import threading
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
-from urdfsync import __version__
+from urdfsync import overview
 from urdfsync.answers import streams, uptodate
 from urdfsync.answers.dependencies import Dependencies
 from urdfsync.commands import arguments
@@ -28,13 +27,8 @@ _COMMANDS = (
 """The commands in the order of the help. Each is a module of `commands`, which is loaded only if it may be needed."""
 
 
-_GARBAGE_THRESHOLD = 1_000_000
-"""New objects after which Python looks for cycles; with its default, 700, the daemon takes a quarter longer."""
-
-
 def main(given: Sequence[str] | None = None) -> int:
     """Run a command; returns the exit code. An unforeseen error is one line that names the file of its traceback."""
-    gc.set_threshold(_GARBAGE_THRESHOLD, *gc.get_threshold()[1:])
     given = sys.argv[1:] if given is None else list(given)
     try:
         config_file = uptodate.find_config(given) if given and given[0] in uptodate.COMMANDS else None
@@ -141,16 +135,21 @@ def _terminated_as_interrupted() -> Iterator[None]:
         signal.signal(signal.SIGTERM, signal.SIG_DFL)
 
 
+class _ProgramParser(arguments.Parser):
+    """The parser of what precedes a command."""
+
+    def format_help(self) -> str:
+        return overview.help_text()
+
+
 def _parser(given: Sequence[str]) -> arguments.Parser:
     """Return the parser of a command, if a command comes first; else the parser of all commands."""
     names = given[:1] if given and given[0] in _COMMANDS else _COMMANDS
-    parser = arguments.Parser(
-        prog="urdfsync",
-        description="Keeps Modelica models in step with URDF files, and leaves alone what you edited.",
-        epilog=f"Begin with `urdfsync init robot.urdf`, then `urdfsync build`.\n\n{arguments.CODES}",
+    parser = _ProgramParser(prog="urdfsync")
+    parser.add_argument("--version", action="version", version=overview.VERSION)
+    commands = parser.add_subparsers(
+        title="commands", dest="command", metavar="COMMAND", required=True, parser_class=arguments.Parser
     )
-    parser.add_argument("--version", action="version", version=f"urdfsync {__version__}")
-    commands = parser.add_subparsers(title="commands", dest="command", metavar="COMMAND", required=True)
     for name in names:
         _module(name).add(commands)
     return parser

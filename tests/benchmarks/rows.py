@@ -68,6 +68,13 @@ def scaled(at_most: float) -> Reading:
     )
 
 
+def start(tools: Tools) -> Iterator[Pair]:
+    """What needs neither a parser of arguments nor a library."""
+    for option in ("--version", "--help"):
+        mine = _command(tools.urdfsync(option), tools.folder, "urdfsync")
+        yield Pair(option, mine, "python -c pass", tools.python, [ratio(2), CPU])
+
+
 def nothing_to_do(tools: Tools) -> Iterator[Pair]:
     """A command where everything is in step, beside an empty console script."""
     places = [
@@ -225,6 +232,7 @@ def simulate(tools: Tools) -> Iterator[Pair]:
 
 
 TABLES = {
+    "start": ("start", start),
     "noop": ("nothing to do", nothing_to_do),
     "change": ("one mass changed, whole process", one_mass_changed),
     "build": ("first build", first_build),

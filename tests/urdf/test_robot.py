@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from support.urdfs import parsed
 
 from urdfsync.state.record import as_read, as_recorded
+from urdfsync.urdf import robot as robots
 from urdfsync.urdf.robot import Joint, Link, Loop, Robot, Sensor
 
 NUMBERS = st.floats(allow_nan=False, allow_infinity=False)
@@ -51,6 +52,12 @@ ARM = """<robot name="arm">
   <gazebo reference="b"/>
   <gazebo/>
 </robot>"""
+
+
+def test_no_annotation_is_a_text_that_msgspec_has_to_compile_in_each_build() -> None:
+    structs = [one for one in vars(robots).values() if isinstance(one, type) and issubclass(one, msgspec.Struct)]
+    assert Robot in structs
+    assert not [one for one in structs if any(isinstance(kind, str) for kind in one.__annotations__.values())]
 
 
 @settings(deadline=None)

@@ -18,11 +18,8 @@ from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.engine.options import BuildOptions
 from urdfsync.output.console import Console, Format
+from urdfsync.overview import CODES
 
-CODES = (
-    "exit codes: 0 in step or done, 1 out of step, broken or different, 2 error, 3 conflict, "
-    "4 another build is running, 130 interrupted"
-)
 DRIVER_ERROR = 255
 """Exit code of a failed merge driver of git; lower ones count conflicts."""
 

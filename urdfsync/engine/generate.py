@@ -32,6 +32,7 @@ class Package:
         self._templates, self._name = templates, name
         self._texts: dict[str, bytes] = {}
         self._hashes: dict[str, str] = {}
+        self._data_hashes: dict[str, str] = {}
         self._stored: Callable[[str], str | None] = lambda _: None
 
     def content(self, path: str) -> bytes:
@@ -61,14 +62,20 @@ class Package:
         `noted` is a result of `notes`. `stored` returns the text with a hash, from any machine; None if there is none.
         """
         self._stored = stored
-        for path, artifact in self.artifacts.items():
+        for path in self.artifacts:
             data_hash, text_hash = noted.get(path, ("", ""))
-            if data_hash == _data_hash(artifact):
+            if data_hash == self._data_hash(path):
                 self._hashes[path] = text_hash
 
     def notes(self) -> dict[str, tuple[str, str]]:
         """Return two hashes for each file whose text is known: of its template with data, and of the text."""
-        return {path: (_data_hash(self.artifacts[path]), sha256) for path, sha256 in self._hashes.items()}
+        return {path: (self._data_hash(path), sha256) for path, sha256 in self._hashes.items()}
+
+    def _data_hash(self, path: str) -> str:
+        if path not in self._data_hashes:
+            artifact = self.artifacts[path]
+            self._data_hashes[path] = digest(msgspec.json.encode((artifact.template, artifact.data), order="sorted"))
+        return self._data_hashes[path]
 
     def changed_since(self, last: Package) -> frozenset[str]:
         """Return the paths whose text may differ from that in another package with the same templates."""
@@ -80,10 +87,6 @@ class Package:
             ):
                 changed.add(path)
         return frozenset(changed)
-
-
-def _data_hash(artifact: Artifact) -> str:
-    return digest(msgspec.json.encode((artifact.template, artifact.data), order="sorted"))
 
 
 def generate(

@@ -34,7 +34,8 @@ def _code(file: str) -> Iterator[tuple[str, tuple[int, ...]]]:
     while folders:
         with os.scandir(folders.pop()) as entries:
             for entry in sorted(entries, key=lambda entry: entry.name):
-                if entry.name.startswith(".") or entry.name == "__pycache__":
+                # `_data` of an installation has the templates, which have their hash, and other files
+                if entry.name.startswith(".") or entry.name in ("__pycache__", "_data"):
                     continue
                 if entry.is_dir():
                     folders.append(entry.path)

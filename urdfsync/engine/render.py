@@ -10,7 +10,6 @@ from __future__ import annotations
 import contextlib
 import importlib.util
 import math
-import re
 import signal
 import sys
 import time
@@ -24,8 +23,6 @@ from jinja2 import compiler, nodes
 from jinja2.bccache import Bucket
 from jinja2.compiler import CodeGenerator, Frame
 from jinja2.exceptions import SecurityError
-from jinja2.ext import Extension
-from jinja2.lexer import Token, TokenStream
 from jinja2.runtime import Context, Macro
 from jinja2.sandbox import ImmutableSandboxedEnvironment
 
@@ -61,10 +58,6 @@ MAX_SECONDS = 60.0
 """Time for one text. A whole build of 3,000 links, with 12,000 texts, takes 7 s."""
 MAX_OUTPUT = 200_000_000
 """Characters of one text."""
-_MARK = re.compile(r"\0([^\0]*)\0([0-9]*)\0")
-"""A template's file and line, in front of their text; no text of a model contains NUL."""
-_BLANK = re.compile(r"\A(?:\0[^\0]*\0[0-9]*\0|\s)*")
-"""The marks and blanks at the beginning of a line."""
 GRACE = 30.0
 """Further seconds of CPU time, after which the system ends the process.
 
@@ -81,19 +74,6 @@ class _CodeGenerator(CodeGenerator):
         check = nodes.Call(nodes.EnvironmentAttribute("check_time"), [], [], None, None)
         node.body.insert(0, nodes.ExprStmt(check).set_lineno(node.lineno))
         super().visit_For(node, frame)
-
-
-class _MarkLines(Extension):
-    """Puts a `_MARK` before each line of a template's text, through macros and captured blocks as well."""
-
-    def filter_stream(self, stream: TokenStream) -> Iterator[Token]:
-        """See Jinja."""
-        for token in stream:
-            value = token.value
-            if token.type == "data":
-                lines = enumerate(value.split("\n"), token.lineno)
-                value = "\n".join(f"\0{stream.filename}\0{number}\0{line}" for number, line in lines)
-            yield Token(token.lineno, token.type, value)
 
 
 class _Environment(jinja2.Environment):
@@ -254,11 +234,13 @@ class Renderer:
 
         Returns an empty name and 0 if that is unknown. Raises the errors of `render`.
         """
-        marked = _render(self._environment.overlay(extensions=[_MarkLines]), template, data)
-        if _MARK.sub("", marked) != text:  # for example, a filter counts characters
+        from urdfsync.engine import template_lines  # 4 of 250 ms of a build: only faults in users' templates need it
+
+        marked = _render(self._environment.overlay(extensions=[template_lines.MarkLines]), template, data)
+        if template_lines.MARK.sub("", marked) != text:  # for example, a filter counts characters
             return "", 0
         *before, last = marked.split("\n")[: max(line, 1)]
-        places = _MARK.findall("\n".join((*before, *_BLANK.findall(last))))
+        places = template_lines.MARK.findall("\n".join((*before, *template_lines.BLANK.findall(last))))
         users = [place for place in places if any(folder in Path(place[0]).parents for folder in self.folders[:-1])]
         file, number = users[-1] if users else ("", 0)
         return file, int(number)

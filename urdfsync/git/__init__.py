@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import subprocess
 from collections.abc import Collection
 from functools import cached_property
 
@@ -96,6 +95,8 @@ def run(*arguments: str) -> str:
         raise GitError("git failed: not a git repository")
     variables = {name: value for name, value in os.environ.items() if name not in _PATHSPECS}  # they redefine `:/`
     variables |= {"LC_ALL": "C", "GIT_OPTIONAL_LOCKS": "0"}  # English messages; git must not refresh the index
+    import subprocess  # 5 ms that most builds save: they look for a repository, and run nothing
+
     command = ["git", *_SETTINGS, *arguments]
     try:
         done = subprocess.run(command, cwd=top, capture_output=True, env=variables, check=False)  # noqa: S603

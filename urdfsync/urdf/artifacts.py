@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from pathlib import PurePosixPath
 from typing import Any
 
 import msgspec
@@ -101,7 +100,7 @@ def artifacts(robot: Robot, imports: Mapping[str, Import], target: Target, optio
 
 
 def _classes(files: Sequence[Artifact]) -> tuple[str, ...]:
-    return tuple(PurePosixPath(file.path).stem for file in files)
+    return tuple(file.path.rpartition("/")[2].removesuffix(".mo") for file in files)
 
 
 def record(robot: Robot, target: Target, options: Options) -> Artifact:

@@ -56,7 +56,7 @@ def find_features(snapshot: Robot) -> Mapping[ElementKey, Features]:
 
 
 def _without_names(value: Any) -> Any:
-    if isinstance(value, Mapping):
+    if isinstance(value, dict):
         return {key: _without_names(item) for key, item in value.items() if key not in ("name", "joint", "filename")}
     return value
 

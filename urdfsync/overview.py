@@ -1,0 +1,41 @@
+"""The help of the whole program, from the table for shells: parsers of all commands would take 200 ms to load."""
+
+from __future__ import annotations
+
+from urdfsync import __version__
+from urdfsync.answers import streams
+from urdfsync.shells import completion
+
+CODES = (
+    "exit codes: 0 in step or done, 1 out of step, broken or different, 2 error, 3 conflict, "
+    "4 another build is running, 130 interrupted"
+)
+VERSION = f"urdfsync {__version__}"
+
+
+def answer(option: str) -> str:
+    """Print the version or the help; returns why the output is incomplete, an empty string if it is complete."""
+    with streams.SafeStreams() as output:
+        output.write(f"{VERSION}\n" if option == "--version" else help_text())
+        return output.trouble
+
+
+def help_text() -> str:
+    """Return the help."""
+    commands = "\n".join(f"  {name:<14}{meaning}" for name, meaning in completion.complete([""]))
+    return f"""\
+usage: urdfsync [-h] [--version] COMMAND ...
+
+Keeps Modelica models in step with URDF files, and leaves alone what you edited.
+
+options:
+  -h, --help    show this help message and exit
+  --version     show program's version number and exit
+
+commands:
+{commands}
+
+Begin with `urdfsync init robot.urdf`, then `urdfsync build`.
+
+{CODES}
+"""
