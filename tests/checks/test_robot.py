@@ -95,7 +95,7 @@ def test_what_was_right_is_not_compiled_again_until_something_changes(
     arm: Path, modelica_library: Path, compiler: Compiling
 ) -> None:
     first, second = check(), check()
-    assert sorted(compiler.models) == ["Arm", "ArmRun", "ArmTest"]
+    assert sorted(compiler.models) == ["ArmRun", "ArmTest"]
     assert [one.model for one in first.compiled] == ["Arm", "ArmRun", "ArmTest"]
     assert first.compiled == second.compiled
     assert status(second, strict=True) is CheckStatus.RIGHT
@@ -105,7 +105,7 @@ def test_what_was_right_is_not_compiled_again_until_something_changes(
     replace(arm / "Links" / "Base.mo", "model Base", "// looked at\nmodel Base")
     compiler.problem = "something is wrong"
     assert [check().failed for _ in range(2)] == [True, True]
-    assert len(compiler.models) == 12, "what is wrong is compiled again"
+    assert len(compiler.models) == 10, "what is wrong is compiled again"
     compiler.problem = ""
     replace(Path("arm.urdf"), 'type="continuous"', 'type="fixed"')
     result = check()
