@@ -42,7 +42,9 @@ def test_each_edit_is_told_with_what_it_changes(
     assert [(one.code, one.file) for one in result.diagnostics if one.code == "unbalanced"] == [
         ("unbalanced", "modelica/Arm/Own.mo")
     ]
-    assert [one.model for one in result.compiled if one.unknowns > 100] == ["Arm", "ArmRun", "ArmTest"]
+    assert [(one.model, one.unknowns > 100) for one in result.compiled][:3] == [
+        *(("Arm", False), ("ArmRun", True), ("ArmTest", True))
+    ]
     assert result.deviations
     assert not result.differs
     assert (status(result, strict=False), status(result, strict=True)) == (CheckStatus.RIGHT, CheckStatus.DIFFERS)
@@ -94,17 +96,17 @@ def test_what_was_right_is_not_compiled_again_until_something_changes(
     arm: Path, modelica_library: Path, compiler: Compiling
 ) -> None:
     first, second = check(), check()
-    assert sorted(compiler.models) == ["Arm", "ArmRun", "ArmTest"]
+    assert sorted(compiler.models) == ["ArmRun", "ArmTest"]
     assert [one.model for one in first.compiled] == ["Arm", "ArmRun", "ArmTest"]
     assert first.compiled == second.compiled
     assert status(second, strict=True) is CheckStatus.RIGHT
     assert first.unchecked == second.unchecked == ("poses and efforts were not compared; `--physics` compares them",)
     check(fresh=True)
-    assert len(compiler.models) == 6
+    assert sorted(compiler.models) == ["ArmRun", "ArmRun", "ArmTest", "ArmTest"]
     replace(arm / "Links" / "Base.mo", "model Base", "// looked at\nmodel Base")
     compiler.problem = "something is wrong"
     assert [check().failed for _ in range(2)] == [True, True]
-    assert len(compiler.models) == 12, "what is wrong is compiled again"
+    assert len(compiler.models) == 10, "what is wrong is compiled again"
     compiler.problem = ""
     replace(Path("arm.urdf"), 'type="continuous"', 'type="fixed"')
     result = check()
@@ -205,7 +207,7 @@ def test_a_check_of_what_somebody_saved_meanwhile_is_not_remembered(
         assert status(check(), strict=True) is CheckStatus.RIGHT
     file.write_text(before)
     check()
-    assert len(compiler.models) == 6
+    assert len(compiler.models) == 4
 
 
 def test_without_a_compiler_all_else_is_checked(
@@ -271,12 +273,12 @@ def test_a_file_that_goes_is_missed_although_the_package_was_right(
     (arm / "Resources").mkdir(exist_ok=True)
     (arm / "Resources" / "cover.stl").touch()
     assert [status(check(), strict=True) for _ in range(2)] == [CheckStatus.RIGHT] * 2
-    assert len(compiler.models) == 3
+    assert len(compiler.models) == 2
     (arm / "Resources" / "cover.stl").unlink()
     (found,) = check().diagnostics
     line = hand.read_text().split("\n").index(cover.rstrip("\n")) + 1
     assert (found.code, found.file, found.line) == ("missing-resource", "modelica/Arm/Links/Hand.mo", line)
-    assert len(compiler.models) == 3
+    assert len(compiler.models) == 2
 
 
 @pytest.mark.parametrize(
@@ -321,6 +323,23 @@ def test_a_model_that_no_compiler_would_find_keeps_the_verdict_from_being_right(
     result = check()
     assert status(result, strict=False) is CheckStatus.INCOMPLETE
     assert result.gaps == (f"modelica/{file} outside of the package: nothing there was compiled",)
+
+
+@pytest.mark.parametrize("is_edited", [False, True])
+def test_the_robot_compiles_as_a_part_of_test_and_alone_if_that_fails_or_is_edited(
+    arm: Path, modelica_library: Path, compiler: Compiling, is_edited: bool
+) -> None:
+    assert [one.model for one in check().compiled] == ["Arm", "ArmRun", "ArmTest"]
+    assert sorted(compiler.models) == ["ArmRun", "ArmTest"]
+    compiler.models.clear()
+    if is_edited:
+        for bench in ("ArmRun.mo", "ArmTest.mo"):
+            replace(arm / bench, '    "The robot"', '    if false "The robot"')
+    else:
+        compiler.problems["ArmTest"] = "all is wrong"
+    result = check(fresh=True)
+    assert sorted(compiler.models) == ["Arm", "ArmRun", "ArmTest"]
+    assert "Arm" in [one.model for one in result.compiled]
 
 
 def test_a_model_of_the_user_that_does_not_compile_is_a_warning_at_its_file(

@@ -7,6 +7,7 @@ import math
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from functools import cached_property
 from pathlib import Path
 from typing import TypeAlias
 
@@ -42,6 +43,7 @@ from urdfsync.checks.results import (
 from urdfsync.diagnostics import Diagnostic, Severity, findings_of
 from urdfsync.engine.generation import generated_texts
 from urdfsync.files import shown
+from urdfsync.modelica.parser import parse
 from urdfsync.processes.workers import tell
 from urdfsync.spelling import counted
 
@@ -92,6 +94,11 @@ class Compilation:
         # with an experiment, other versions of the package are compiled at the same time: no need to divide its models
         models = self._model_jobs(1 if experiment else max(1, min(self._processes, len(self._package.models))))
         done = self._run_all({**models, **(self._versions(experiment) if experiment else {})})
+        failing = {task.title for label, job in models.items() for task in _failing(job, done[label])}
+        alone = [part for part, whole in self._parts.items() if whole in failing]
+        if alone:  # the fault may be theirs
+            models["parts"] = self._package.files.texts, self._tasks(alone)
+            done |= self._run_all({"parts": models["parts"]})
         self._note_models(models, done)
         if experiment:
             self._compare(experiment, done)
@@ -159,7 +166,7 @@ class Compilation:
     def _model_jobs(self, count: int) -> dict[str, _Job]:
         """Return jobs that compile all models: the package's in `count` parts, then the user's."""
         package, own = self._package, self._package.robot.target.package
-        tasks = [msgspec.structs.replace(compile_task(f"{own}.{model}"), title=model) for model in package.models]
+        tasks = self._tasks(model for model in package.models if model not in self._parts)
         jobs: dict[str, _Job] = {
             f"models{number}": (package.files.texts, tasks[number::count]) for number in range(count)
         }
@@ -167,6 +174,25 @@ class Compilation:
             libraries = ("Modelica", "UrdfSync", own.partition(".")[0])
             jobs[_USERS] = package.files.texts, [compile_task(model, libraries) for model in self._users.files]
         return jobs
+
+    def _tasks(self, models: Iterable[str]) -> list[CompileTask]:
+        own = self._package.robot.target.package
+        return [msgspec.structs.replace(compile_task(f"{own}.{model}"), title=model) for model in models]
+
+    @cached_property
+    def _parts(self) -> Mapping[str, str]:
+        """Models of the package that compile as a component of another one, which is as generated: both by name.
+
+        A six-axis arm alone takes as long to compile as Test has to.
+        """
+        package, parts = self._package, dict[str, str]()
+        for model in package.models:
+            file = f"{model.replace('.', '/')}.mo"
+            generated = package.generated.get(file, b"")
+            text = generated.decode() if generated == package.files.texts.get(file) else ""
+            types = {str(part.type) for each in parse(text).classes for part in each.components if not part.uses}
+            parts |= dict.fromkeys(types.intersection(package.models), model)
+        return parts
 
     def _note_models(self, jobs: Mapping[str, _Job], done: Mapping[str, Sequence[CompileResult]]) -> None:
         """Record the models that were compiled by themselves."""
@@ -189,6 +215,8 @@ class Compilation:
                     finding for finding in warnings if (finding.file, finding.line, finding.code) not in told
                 ]
                 compiled.append(CompiledModel(task.title, answer.unknowns, is_users))
+                inside = (part for part, whole in self._parts.items() if whole == task.title and not is_users)
+                compiled += (CompiledModel(part, 0) for part in inside)
         order = [*self._package.models, *users.files]
         self.result.compiled = tuple(sorted(compiled, key=lambda model: order.index(model.model)))
         parts = {part for model in compiled if model.is_users for part in users.uses.get(users.files[model.model], ())}
@@ -249,6 +277,10 @@ class Compilation:
                 message = f"the robot can't be simulated: {one_line(problem)[:200]}"
                 return {}, [Diagnostic(Severity.ERROR, "no-simulation", message)]
         return motions, []
+
+
+def _failing(job: _Job, answers: Sequence[CompileResult]) -> Iterator[CompileTask]:
+    return (task for task, answer in zip(job[1], answers, strict=False) if answer.problem)
 
 
 def _task(trial: Trial) -> CompileTask:

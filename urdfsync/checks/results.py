@@ -81,7 +81,7 @@ class CompiledModel(msgspec.Struct, frozen=True):
     model: str
     """Name below the package."""
     unknowns: int
-    """Scalar unknowns, and so many equations; 0 if the compiler does not say."""
+    """Scalar unknowns, and so many equations; 0 for a part of another model, and if the compiler does not say."""
     is_users: bool = False
     """Whether it is the user's; then `model` is its full name."""
 
