@@ -79,9 +79,9 @@ def refused(execute: Execute, *arguments: str) -> str:
     """The only complaint of a command, which exits with 2."""
     printed = execute("diff", *arguments, code=2)
     assert printed.out == ""
-    first, *rest = printed.errors
-    assert all(line.endswith("so nothing can be compared") for line in rest)
-    return first
+    *before, complaint = printed.errors
+    assert all(line.endswith("so nothing can be compared") for line in before)
+    return complaint
 
 
 # the last build

@@ -51,5 +51,4 @@ def run(args: argparse.Namespace, console: Console) -> int:
     with write_errors(loaded.file):
         write_schema(loaded.root)  # first: if it fails, the configuration stays as it is
         save(loaded.file, content, new.encode())
-    console.warnings(warnings)
-    return show_guesses(console, loaded.file, "extended", guesses)
+    return show_guesses(console, loaded.file, "extended", guesses, warnings)

@@ -30,19 +30,7 @@ from urdfsync.output.console import Console, line
 _HEADER = f"""\
 #:schema {config.STATE_FOLDER}/{schema.SCHEMA_FILE}
 # Robots that urdfsync keeps in step with their Modelica packages.
-# Paths are relative to this file's folder. `urdfsync build` builds all of them.
-"""
-_DEFAULTS = """\
-# Settings for all robots; a robot's own table wins.
-[defaults]
-output = "modelica"  # the folder that the packages go into
-# create_parents = true  # make the packages around `package` if they do not exist
-# on_build = "check"  # compile each package after its build, as `urdfsync check` does; default "nothing"
-{on_conflict}on_conflict = "merge"  # merge your edits with new exports unless they contradict; default "keep"
-# package_paths = []  # folders in which `package://` is looked for
-# users = []  # more folders with models of your own that use the robots: a build lists uses of removed names
-# ignore = []  # codes of warnings to hide, as in ["mesh-not-found"]
-# templates = "templates"  # folder with templates of your own; each replaces that of urdfsync with its name
+# Paths are relative to this file's folder. All other keys: docs/configuration.md of urdfsync.
 """
 _LONGEST = 80
 """The most characters of a guessed name: robots and packages become names of files."""
@@ -63,8 +51,8 @@ def add(commands: arguments.Commands) -> None:
     parser = arguments.add_command(
         commands,
         "init",
-        help="write a commented urdfsync.toml",
-        description="Write a commented urdfsync.toml for some sources, with guesses and their reasons.",
+        help="write a first urdfsync.toml",
+        description="Write a first urdfsync.toml for some sources, with guesses and their reasons.",
         epilog="example: urdfsync init cad/arm.urdf cad/gripper.urdf",
     )
     sources = "URDF files (default: all below this folder), or xacro files with arguments NAME:=VALUE"
@@ -99,8 +87,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
             "for elements, `urdfsync merge-driver --install`",
         )
         warnings.append(Diagnostic(Severity.NOTE, "no-merge-driver", message, hint=hint))
-    console.warnings(warnings)
-    return show_guesses(console, file, "written", guesses)
+    return show_guesses(console, file, "written", guesses, warnings)
 
 
 def guess_robots(
@@ -134,7 +121,7 @@ def guess_robots(
             warnings.append(msgspec.structs.replace(first, severity=Severity.WARNING, message=message, hint=hint))
         else:
             guesses.append(guess)
-            warnings += noted
+            warnings += (each for each in noted if each.severity is not Severity.NOTE)  # the first build has the notes
     if not guesses:
         raise SourceError(*errors)
     return guesses, warnings
@@ -172,13 +159,13 @@ def _guess(
 
 
 def configuration_text(domain: Domain, guesses: Sequence[Guess], *, merges: bool) -> str:
-    """Return a configuration with comments; `merges`: builds may merge edited files."""
-    defaults = _DEFAULTS.format(on_conflict="" if merges else "# ")
-    return "\n".join([_HEADER, defaults, *(robot_table(guess, domain) for guess in guesses)])
+    """Return a configuration; `merges`: builds may merge edited files."""
+    defaults = ['[defaults]\non_conflict = "merge"\n'] if merges else []
+    return "\n".join([_HEADER, *defaults, *(robot_table(guess, domain) for guess in guesses)])
 
 
 def robot_table(guess: Guess, domain: Domain) -> str:
-    """Return the table of a robot, with guessed options, and the others as comments."""
+    """Return the table of a robot, with guessed options."""
     lines = [
         f"[robots.{guess.robot}]",
         _assignment("source", guess.source),
@@ -188,14 +175,11 @@ def robot_table(guess: Guess, domain: Domain) -> str:
     ]
     if domain.name != "urdf":
         lines.append(_assignment("domain", domain.name))
-    proposed = {proposal.option: proposal for proposal in guess.options}
-    for field in msgspec.structs.fields(domain.options):
-        words = in_words(field.type)
-        if proposal := proposed.get(field.encode_name):
-            reason = " ".join("".join(char if char.isprintable() else " " for char in proposal.reason).split())
-            lines.append(f"{_assignment(proposal.option, proposal.value)}  # {words}; guessed: {reason}")
-        elif field.default not in (msgspec.NODEFAULT, None):  # TOML has no null
-            lines.append(f"# {_assignment(field.encode_name, field.default)}  # {words}")
+    types = {field.encode_name: field.type for field in msgspec.structs.fields(domain.options)}
+    for proposal in guess.options:
+        reason = " ".join("".join(char if char.isprintable() else " " for char in proposal.reason).split())
+        words = f"{in_words(types[proposal.option])}; guessed: {reason}"
+        lines.append(f"{_assignment(proposal.option, proposal.value)}  # {words}")
     return "\n".join(lines) + "\n"
 
 
@@ -234,8 +218,10 @@ def _refuse_existing(file: Path) -> None:
         raise ConfigError.of("config-exists", "the file exists already", shown(file), hint=hint)
 
 
-def show_guesses(console: Console, file: Path, done: str, guesses: Sequence[Guess]) -> int:
-    """End a command: show what was `done` to the configuration, and each guess with its reason."""
+def show_guesses(
+    console: Console, file: Path, done: str, guesses: Sequence[Guess], warnings: Sequence[Diagnostic]
+) -> int:
+    """End a command: show what was `done` to the configuration, each guess with its reason, and the warnings."""
     lines = [line((shown(file), "bold"), (f" {done}", ""))]
     for guess in guesses:
         name, package = (guess.robot, "bold"), (guess.package, "bold")
@@ -246,4 +232,4 @@ def show_guesses(console: Console, file: Path, done: str, guesses: Sequence[Gues
     console.tell([*lines, line(("Look it over, then run `urdfsync build`.", ""))])
     for guess in guesses:
         console.add(guess)
-    return console.end(Exit.IN_STEP)
+    return console.end(Exit.IN_STEP, warnings)

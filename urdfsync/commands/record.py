@@ -51,7 +51,6 @@ def run(args: argparse.Namespace, console: Console) -> int:
         raise arguments.UsageError(args.parser, f"name one source, not {len(named)}")
     name = args.class_ or (file.stem if file is not None and is_class_name(file.stem) else "")
     written = record(named[0], class_=name, within=args.within, domain=args.domain, arguments=given)
-    console.warnings(written.diagnostics)
     if file is not None:
         is_written = _write(written.text, named[0], file, force=args.force)
         console.tell([line((f"{file} {'written' if is_written else 'unchanged'}: record {written.name}", ""))])
@@ -61,7 +60,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
             sys.stdout.reconfigure(encoding="utf-8", newline="\n")  # as in a file: Modelica tools read UTF-8
         sys.stdout.write(written.text)
     console.add(written)
-    return console.end(Exit.IN_STEP)
+    return console.end(Exit.IN_STEP, written.diagnostics)
 
 
 def _write(text: str, source: Path, file: Path, *, force: bool) -> bool:
