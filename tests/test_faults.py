@@ -51,11 +51,11 @@ def stale(edited: Path) -> Path:
 
 
 def assert_error(execute: Execute, command: list[str], words: str) -> None:
-    """The command exits with 2 after one line about the error, and one that says what has become of the robot."""
+    """The command exits with 2 after a line that says what has become of the robot, and one about the error."""
     lines = execute(*command, code=Exit.ERROR).errors
     assert len([line for line in lines if ": error: " in line]) == 1, lines
-    assert words in lines[0].replace("\\", "/"), lines
-    assert lines[1:] in ([], ["ladder: 1 error, nothing was changed"])
+    assert words in lines[-1].replace("\\", "/"), lines
+    assert lines[:-1] in ([], ["ladder: 1 error, nothing was changed"])
 
 
 # Gone

@@ -28,7 +28,9 @@ def test_paths_are_shown_as_they_are_seen_from_the_working_folder(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     inside, beside = tmp_path / "cad" / "arm.urdf", tmp_path.with_name(f"{tmp_path.name}-2") / "arm.urdf"
-    assert [shown(path) for path in (tmp_path, inside, beside)] == [".", str(Path("cad/arm.urdf")), str(beside)]
+    far, seen_beside = Path(tmp_path.anchor, "arm.urdf"), Path("..", beside.parent.name, "arm.urdf")
+    seen = [".", str(Path("cad/arm.urdf")), str(seen_beside), str(far)]
+    assert [shown(path) for path in (tmp_path, inside, beside, far)] == seen, "the shorter one"
     monkeypatch.setattr(os, "getcwd", mock.Mock(side_effect=FileNotFoundError))
     assert shown(inside) == str(inside), "somebody has deleted it"
 

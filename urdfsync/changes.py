@@ -59,6 +59,8 @@ class Effect(msgspec.Struct, frozen=True):
     unit: str = ""
     hint: str = ""
     """Order to the user; empty if there is nothing to do."""
+    limit: float | None = None
+    """The greatest allowed value of the new version."""
 
 
 class Effects(Protocol):
@@ -66,6 +68,10 @@ class Effects(Protocol):
 
     def effects(self, old: Version, new: Version) -> Sequence[Effect]:
         """Return the effects of the differences on the whole model."""
+        ...
+
+    def loads(self, old: Version, new: Version, renames: Mapping[ElementKey, str]) -> Sequence[Effect]:
+        """Return the greatest load of each element of the new version, with its limit; old is None for a new one."""
         ...
 
     def interface(

@@ -28,7 +28,7 @@ _HINTS = {
 
 
 def shown(path: Path) -> str:
-    """Return a path for messages: relative to the working folder if it is inside."""
+    """Return a path for messages as a user would type it: relative to the working folder if that is shorter."""
     text = str(path)
     try:
         current = os.getcwd()  # noqa: PTH109 - every message asks, and a Path takes five times as long
@@ -37,7 +37,10 @@ def shown(path: Path) -> str:
     inside = os.path.join(current, "")  # noqa: PTH118
     if os.path.normcase(text).startswith(os.path.normcase(inside)):
         return text[len(inside) :]
-    return "." if text == current else text
+    try:
+        return min(os.path.relpath(text), text, key=len) if os.path.isabs(text) else text  # noqa: PTH117
+    except ValueError:  # on another drive
+        return text
 
 
 def digest(content: bytes) -> str:

@@ -10,6 +10,8 @@ from support.commands import Execute
 from support.crashes import Operation, before_each
 from support.files import unchanged
 
+from urdfsync import config
+
 ADD = ("add", "--domain", "rcnetwork")
 
 
@@ -46,6 +48,42 @@ def test_what_does_not_fit_changes_nothing(project: Path, execute: Execute) -> N
     file.write_text('robots = { ladder = { domain = "rcnetwork", source = "ladder.json", package = "Ladder" } }\n')
     with unchanged(project):
         assert "[toml-syntax]" in execute(*ADD, "other.json", code=2).err
+
+
+def write_fleet(folder: Path) -> str:
+    """A xacro that is several robots, one of which has a name of its own."""
+    parts = ['<xacro:arg name="kind" default="s"/>', '<link name="$(arg kind)"/>']
+    head = '<robot name="cart" xmlns:xacro="http://www.ros.org/wiki/xacro">'
+    (folder / "robot.urdf.xacro").write_text(f"{head}{''.join(parts)}</robot>")
+    return "robot.urdf.xacro"
+
+
+def test_one_xacro_is_many_robots(folder: Path, execute: Execute) -> None:
+    """The robot's own name comes first, then the arguments that differ; the same arguments are the same robot."""
+    source = write_fleet(folder)
+    execute("init", source, "kind:=s", source, "kind:=cart10", source, "kind:=s")
+    execute("add", source, "kind:=l", "name:=Big one")
+    robots = config.load(folder / "urdfsync.toml").robots
+    assert [(robot.name, robot.target.package, robot.arguments) for robot in robots] == [
+        ("cart", "Cart", {"kind": "s"}),
+        ("cart10", "Cart10", {"kind": "cart10"}),
+        ("big_one", "BigOne", {"kind": "l"}),
+    ], "a name that xacro does not ask for names the robot alone"
+    execute("build", "-q")
+    assert (folder / "modelica/Cart10/package.mo").is_file()
+
+
+def test_robots_of_a_fleet_have_names_and_arguments_of_their_own(folder: Path, execute: Execute) -> None:
+    source = write_fleet(folder)
+    execute("init", source, "kind:=s")
+    with unchanged(folder):
+        error = execute("add", source, "kind:=s", code=2).err
+        assert f"{source} is the source of `cart` already; give xacro other arguments" in error
+        error = execute("add", source, "kind:=m", "name:=Cart", code=2).err
+        assert error.startswith(f"{source}: error: another robot or package has the name `Cart`; give another one")
+        assert "`kind:=` is an argument of xacro, and no source is named" in execute("add", "kind:=m", code=2).err
+    execute("add", source, "kind:=3", "-q")
+    assert config.load(folder / "urdfsync.toml").robots[1].name == "cart_3"
 
 
 @pytest.mark.parametrize("fault", ["no schema", "write", "sync", "exchange"])

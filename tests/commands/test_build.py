@@ -64,8 +64,8 @@ def test_findings_go_to_the_error_stream(project: Path, execute: Execute) -> Non
     streams = execute("build", code=2)
     assert streams.out == ""
     assert streams.err.splitlines() == [
-        "ladder.json:8: error: 'r2' is no class name [element-name]",
         "ladder: 1 error, nothing was changed",
+        "ladder.json:8: error: 'r2' is no class name [element-name]",
     ]
 
 

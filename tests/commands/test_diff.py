@@ -79,9 +79,9 @@ def refused(execute: Execute, *arguments: str) -> str:
     """The only complaint of a command, which exits with 2."""
     printed = execute("diff", *arguments, code=2)
     assert printed.out == ""
-    first, *rest = printed.errors
-    assert all(line.endswith("so nothing can be compared") for line in rest)
-    return first
+    *before, complaint = printed.errors
+    assert all(line.endswith("so nothing can be compared") for line in before)
+    return complaint
 
 
 # the last build
@@ -236,6 +236,18 @@ def test_mistakes_in_an_older_version_are_those_of_that_version(
     Repository(arm, monkeypatch).commit()
     (arm / "arm.urdf").write_text(ARM)
     assert refused(execute, "arm.urdf", "--against", "HEAD").startswith("HEAD:arm.urdf:")
+
+
+def test_loads_are_told_if_they_changed(arm: Path, execute: Execute) -> None:
+    """Half a metre beside the axis, 2 kg and then 2.5 kg."""
+    edit("arm.urdf", "<inertial>", '<inertial><origin xyz="0 0.5 0"/>')
+    for mass, code, told in (
+        ("2.5", 1, ["  joint elbow gravity torque 9.80665 → 12.2583/54 N·m (+25 %)"]),
+        ("2", 0, []),
+    ):
+        (arm / "new.urdf").write_text(Path("arm.urdf").read_text().replace('mass value="2"', f'mass value="{mass}"'))
+        lines = execute("diff", "new.urdf", "--against", "arm.urdf", code=code).lines
+        assert [line for line in lines if " gravity " in line] == told
 
 
 # mistakes

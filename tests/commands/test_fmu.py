@@ -19,7 +19,7 @@ from urdfsync.simulation.results import SimulateOptions
 
 
 @pytest.mark.parametrize(("arguments", "words"), [
-    (["--output", "arm.zip"], "an FMU's name ends with .fmu"),
+    (["-o", "arm.zip"], "an FMU's name ends with .fmu"),
     (["--output", "none/arm.fmu"], "there is no such folder"),
     (["--input", "motion.csv"], "`--input` is the motion for `--check`"),
     (["--input", "motion.csv", "--check", "--kind", "me"], "`--input` is the motion for `--check` of co-simulation"),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 import tomllib
 from pathlib import Path
@@ -24,8 +25,7 @@ def bare(project: Path) -> Path:
 
 
 def test_init_then_build(bare: Path, execute: Execute) -> None:
-    """The file explains itself, and what is commented out in it is right."""
-    (bare / "templates").mkdir()
+    """The file has the keys that matter, and names the page with all others."""
     assert execute(*INIT, "ladder.json").lines == [
         "urdfsync.toml written",
         "  ladder: ladder.json becomes package Ladder",
@@ -33,14 +33,22 @@ def test_init_then_build(bare: Path, execute: Execute) -> None:
         "Look it over, then run `urdfsync build`.",
     ]
     file = bare / "urdfsync.toml"
-    text = file.read_text()
-    assert 'package = "Ladder"  # full name, for example Plant.Robots.Arm' in text
-    assert "ground = true  # true or false; guessed: a node is named ground" in text
-    assert '# prefix = "node"' in text
+    assert file.read_text().splitlines() == [
+        "#:schema .urdfsync/schema.json",
+        "# Robots that urdfsync keeps in step with their Modelica packages.",
+        "# Paths are relative to this file's folder. All other keys: docs/configuration.md of urdfsync.",
+        "",
+        "[robots.ladder]",
+        'source = "ladder.json"',
+        'package = "Ladder"  # full name, for example Plant.Robots.Arm; its last part names the class',
+        'domain = "rcnetwork"',
+        "ground = true  # true or false; guessed: a node is named ground",
+    ]
     execute("build")
     assert (bare / "modelica/Ladder/Ladder.mo").exists()
-    file.write_text("\n".join(line.removeprefix("# ") if " = " in line else line for line in text.splitlines()))
-    execute("build", "--dry-run")
+    file.unlink()
+    execute(*INIT, "ladder.json", "--merge")
+    assert '\n[defaults]\non_conflict = "merge"\n\n[robots.ladder]\n' in file.read_text()
 
 
 def test_choices_are_named(execute: Execute, folder: Path) -> None:
@@ -49,11 +57,19 @@ def test_choices_are_named(execute: Execute, folder: Path) -> None:
     execute("init")
     text = (folder / "urdfsync.toml").read_text()
     assert 'base = "fixed"  # "fixed" or "floating"; guessed: ' in text
-    assert '# visualizer = "standard"  # "standard" or "visualization2"' in text
-    assert '# approach = ["package"]  # a list of "package" or "record"' in text
-    assert '# frames = "leaves"  # "leaves" or "all" or a list of strings' in text
-    assert "driven" not in text, "it has no value that leaves the choice to urdfsync"
     config.load(folder / "urdfsync.toml")
+
+
+def test_a_warning_is_told_after_the_summary_and_a_note_by_the_build_alone(execute: Execute, folder: Path) -> None:
+    """A source beside the project has the same path in both."""
+    (folder / "cad").mkdir()
+    (folder / "cad/arm.urdf").write_text('<robot name="arm"><link name="world"/><gazebo><mu2>1</mu2></gazebo></robot>')
+    (folder / "demo").mkdir()
+    os.chdir(folder / "demo")
+    assert execute("init", "../cad/arm.urdf").err == ""
+    assert execute("build").err.startswith(f"{Path('../cad/arm.urdf')}:1: note: not modelled: ")
+    os.chdir("modelica")
+    assert execute("build").err == "arm: 1 finding as before; --verbose shows it\n", "by another path, it is the same"
 
 
 def test_what_a_model_leaves_out_is_allowed(execute: Execute, folder: Path) -> None:

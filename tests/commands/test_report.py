@@ -24,7 +24,7 @@ def test_the_page_is_where_it_is_wanted_and_replaces_nothing_else(arm: Path, exe
     Path("arm.html").write_text("<p>mine</p>")
     assert "urdfsync did not write it" in execute("report", code=Exit.ERROR).err
     assert Path("arm.html").read_text() == "<p>mine</p>"
-    assert "a page's name ends with .html" in execute("report", "--output", "arm.urdf", code=Exit.ERROR).err
+    assert "a page's name ends with .html" in execute("report", "-o", "arm.urdf", code=Exit.ERROR).err
     assert "there is no such folder" in execute("report", "--output", "none/arm.html", code=Exit.ERROR).err
 
 

@@ -86,8 +86,8 @@ def test_a_broken_source_does_not_hide_the_others(built: Path, execute: Execute)
     configure('[robots.other]\nsource = "no.json"\npackage = "Other"\ndomain = "rcnetwork"\n')
     found = execute("status", code=2)
     assert found.lines == ["ladder: in step, 14 files"]
-    assert "the source no.json does not exist" in found.errors[0]
-    assert found.errors[1] == "other: 1 error, nothing was changed"
+    assert "the source no.json does not exist" in found.errors[1]
+    assert found.errors[0] == "other: 1 error, nothing was changed"
     assert [robot["failed"] for robot in execute("status", "--format=json", code=2).json["results"]] == [False, True]
     assert execute("status", "ladder").lines == ["ladder: in step, 14 files"]
 

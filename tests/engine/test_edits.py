@@ -67,9 +67,27 @@ def test_other_blanks_and_no_modelica(execute: Execute, edited: Path) -> None:
     edit(RECORD, "101", " 100")
     assert "    only blanks, or the order of things" in execute("diff", "--edits", RECORD).lines
     (edited / RECORD).write_text("no model\n")
-    assert execute("diff", "--edits", RECORD).lines[-1].startswith("    edited; it is no single class")
     ((file,),) = (robot["files"] for robot in execute("diff", "--edits", "--format=json", RECORD).json["results"])
     assert file["edits"] is None  # an empty list stands for other blanks
+
+
+@pytest.mark.parametrize(
+    ("text", "what"),
+    [
+        ("model A\n  Real q;\n  Real q;\nend A;\n", "declares `q` twice"),
+        ("model\n", "lacks a name before its end"),
+    ],
+)
+def test_a_fault_is_told_as_by_a_build(execute: Execute, edited: Path, text: str, what: str) -> None:
+    (edited / RECORD).write_text(text)
+    (said,) = [line for line in execute("diff", "--edits", RECORD).lines if "only its lines can be compared" in line]
+    assert said.startswith(f"    the file {what} (line ")
+    assert f"error: the file {what}" in execute("build", code=None).err
+
+
+def test_two_classes_are_no_single_class(execute: Execute, edited: Path) -> None:
+    (edited / RECORD).write_text("model A\nend A;\nmodel B\nend B;\n")
+    assert "    the file is no single class, so only" in execute("diff", "--edits", RECORD).out
 
 
 def test_programs_get_the_texts(execute: Execute, edited: Path) -> None:

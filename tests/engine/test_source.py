@@ -501,7 +501,7 @@ def test_an_expanded_urdf_may_have_leftovers_of_xacro(folder: Path, execute: Exe
     execute("init", "arm.urdf")
     execute("build")
     assert not EXPANDED.exists()
-    assert "no source is xacro" in execute("record", "arm.urdf", "a:=1", code=2).err
+    assert "arm.urdf is no xacro" in execute("record", "arm.urdf", "a:=1", code=2).err
 
 
 def test_a_robot_that_is_xacro_no_more(built: Path, execute: Execute) -> None:
@@ -516,7 +516,7 @@ def test_init_and_add_and_record(project: Path, execute: Execute) -> None:
     execute("init", "urdf/arm.urdf.xacro", "length:=0.75")
     assert 'arguments = { length = "0.75" }' in (project / "urdfsync.toml").read_text()
     execute("build")
-    execute("add", "urdf/arm.urdf.xacro", code=2)
+    execute("add", "urdf/arm.urdf.xacro", "length:=0.75", code=2)
     shutil.copy("urdf/arm.urdf.xacro", "urdf/second.urdf.xacro")
     execute("add", "urdf/second.urdf.xacro", "name:=second")
     execute("build")

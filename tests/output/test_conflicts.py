@@ -235,6 +235,12 @@ def test_of_many_conflicts_the_first_are_shown_in_full() -> None:
     lines = seen(*found)
     shown = [line for line in lines if line.startswith("    urdfsync resolve")]
     assert shown == [f"    urdfsync resolve {path} --merge" for path in paths[:FULL]]
+    assert [line.split()[0] for line in lines if line.startswith("      --")] == [
+        "--merge",
+        "--edit",
+        "--keep",
+        "--take",
+    ]
     short = "  the changes fit together: --merge takes both"
     assert lines[-6:] == [
         "",

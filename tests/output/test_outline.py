@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from urdfsync.changes import Change, Changes, Effect
 from urdfsync.domain import ChangeClass, ChangeKind
-from urdfsync.output.outline import effect_rows, outline
+from urdfsync.output.outline import effect_rows, number_table, outline
 
 
 def change(
@@ -123,12 +123,29 @@ def test_effects() -> None:
             Effect(("robot", "mass"), 12.5, 12.75, "kg"),
             Effect(("robot", "centre of mass"), (0.1, 0.0, 0.2), (0.1, 0.0, 0.25), "m"),
             Effect(("joint wrist", "connector"), "axis[4]", "axis[5]"),
+            Effect(("joint wrist", "gravity torque"), 4.0, 5.0, "N·m", limit=80.0),
         ]
     )
     assert list(map(str, found)) == [
         "robot mass 12.5 → 12.75 kg (+2 %)",
         "robot centre of mass (0.1, 0, 0.2) → (0.1, 0, 0.25) m (by 0.05 m)",
         "joint wrist connector axis[4] → axis[5]",
+        "joint wrist gravity torque 4 → 5/80 N·m (+25 %)",
+    ]
+
+
+def test_numbers_of_a_model() -> None:
+    table = number_table(
+        [
+            Effect(("robot", "mass"), 12.5, 12.5, "kg"),
+            Effect(("joint wrist", "connector"), "axis[4]", "axis[5]"),
+            Effect(("joint wrist", "gravity torque"), 4.0, 5.0, "N·m", limit=80.0),
+            Effect(("robot", "reach"), 1.0, None, "m"),
+        ]
+    )
+    assert table.rows == [
+        ("robot mass", "", "12.5 kg", ""),
+        ("joint wrist gravity torque", "4 N·m", "5 N·m", "80 N·m"),
     ]
 
 

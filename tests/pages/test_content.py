@@ -24,6 +24,8 @@ def test_changes_edits_and_conflicts_are_told(arm: Path, report: Report) -> None
     page = read(report())
     words = " ".join(page.words.split())
     assert re.search(r"inertial / mass ?4\.2 → 5\.1 kg ?\+21\.4 %", words)
+    assert re.search(r"joint elbow gravity torque ?25\.\d+ N·m ?27\.\d+ N·m ?130 N·m", words)
+    assert re.search(r"robot reach ?1\.49\d+ m", words)
     assert "you edited it, and its generated text changed too" in words
     assert "+ parameter Real mine = 3;" in words
     assert "- mass = 4.2," in words
@@ -38,6 +40,7 @@ def test_nothing_changed_has_no_older_version(arm: Path, report: Report) -> None
     page = read(report())
     assert data_of(page)["before"] is None
     assert "nothing changed since the last build" in page.words
+    assert re.search(r"Property ?Before ?Now ?Limit ?robot mass ?52\.345 kg", " ".join(page.words.split()))
 
 
 @NEEDS_GIT

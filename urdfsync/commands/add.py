@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import argparse
+import itertools
+from pathlib import Path
 
 from urdfsync import config, registry
 from urdfsync.api import load
 from urdfsync.commands import arguments
-from urdfsync.commands.init import guess_robots, robot_table, show_guesses, write_errors, write_schema
+from urdfsync.commands.init import Guess, guess_robots, robot_table, show_guesses, write_errors, write_schema
 from urdfsync.diagnostics import ConfigError
 from urdfsync.files import shown
 from urdfsync.output.console import Console
@@ -22,7 +24,7 @@ def add(commands: arguments.Commands) -> None:
         help="add a robot to urdfsync.toml",
         description="Add a table to urdfsync.toml for each source, with guesses and their reasons. Existing tables "
         "stay as they are.",
-        epilog="example: urdfsync add cad/gripper.urdf",
+        epilog="examples: urdfsync add cad/gripper.urdf\n          urdfsync add ur.urdf.xacro ur_type:=ur10e",
     )
     sources = "the sources of the new robots; of xacro with arguments NAME:=VALUE"
     parser.add_argument("sources", nargs="+", metavar="SOURCE", help=sources)
@@ -32,14 +34,15 @@ def add(commands: arguments.Commands) -> None:
 def run(args: argparse.Namespace, console: Console) -> int:
     """Append the new tables, and show the guesses. Raises ConfigError, SourceError."""
     loaded, domain = load(args.config), registry.domain(args.domain)
-    taken = {name for robot in loaded.robots for name in (robot.name, robot.target.package)}
-    named, given = arguments.split_sources(args.sources, args.parser)
-    guesses, warnings = guess_robots(domain, loaded.root, named, given, taken)
-    known = {robot.source.resolve(): robot.name for robot in loaded.robots}
-    for guess in guesses:
-        if (source := (loaded.root / guess.source).resolve()) in known:
-            message = f"{guess.source} is the source of `{known[source]}` already"
-            hint = "write a table by hand for a second package of one source"
+    known = [
+        Guess(robot.name, str(robot.source), robot.arguments or {}, robot.target.package) for robot in loaded.robots
+    ]
+    named = arguments.split_sources(args.sources, args.parser)
+    guesses, warnings = guess_robots(domain, loaded.root, named, known)
+    for guess, one in itertools.product(guesses, known):
+        if Path(one.source).resolve() == (loaded.root / guess.source).resolve() and one.arguments == guess.arguments:
+            message = f"{guess.source} is the source of `{one.robot}` already"
+            hint = "give xacro other arguments, or write a table by hand for a second package"
             raise ConfigError.of("source-in-use", message, shown(loaded.file), hint=hint)
     content = loaded.file.read_bytes()
     text = content.decode()
@@ -51,5 +54,4 @@ def run(args: argparse.Namespace, console: Console) -> int:
     with write_errors(loaded.file):
         write_schema(loaded.root)  # first: if it fails, the configuration stays as it is
         save(loaded.file, content, new.encode())
-    console.warnings(warnings)
-    return show_guesses(console, loaded.file, "extended", guesses)
+    return show_guesses(console, loaded.file, "extended", guesses, warnings)

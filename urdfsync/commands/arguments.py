@@ -185,17 +185,22 @@ def chosen(kind: type[msgspec.Struct], args: argparse.Namespace) -> dict[str, An
     return {name: tuple(value) if isinstance(value, list) else value for name, value in given.items()}
 
 
-def split_sources(texts: Sequence[str], parser: argparse.ArgumentParser) -> tuple[list[Path], dict[str, str]]:
-    """Return the sources, and the arguments of xacro, `NAME:=VALUE`."""
-    values = dict[str, str]()
+def split_sources(texts: Sequence[str], parser: argparse.ArgumentParser) -> list[tuple[Path, dict[str, str]]]:
+    """Return each source with its arguments of xacro, `NAME:=VALUE`: they follow it, or stand before the first one."""
+    sources, values = list[tuple[Path, dict[str, str]]](), dict[str, str]()
     for text in texts:
         name, is_argument, value = text.partition(":=")
         if is_argument and name.isidentifier():
             values[name] = value
-    sources = [Path(text) for text in texts if text.partition(":=")[0] not in values]
-    if values and sources and not any(map(_may_be_xacro, sources)):
-        raise UsageError(parser, f"`{next(iter(values))}:=` is an argument of xacro, and no source is xacro")
-    return sources, values
+        else:
+            values = {} if sources else values
+            sources.append((Path(text), values))
+    if values and not sources:
+        raise UsageError(parser, f"`{next(iter(values))}:=` is an argument of xacro, and no source is named")
+    for source, given in sources:
+        if given and not _may_be_xacro(source):
+            raise UsageError(parser, f"`{next(iter(given))}:=` is an argument of xacro, and {source} is no xacro")
+    return sources
 
 
 def _may_be_xacro(source: Path) -> bool:

@@ -34,13 +34,13 @@ def add(commands: arguments.Commands) -> None:
         "It has the model's inputs and outputs under their names. It needs OpenModelica. With --check, FMPy validates "
         "the FMU and runs it, and the result is compared with `urdfsync simulate`.",
         epilog="examples: urdfsync fmu arm\n"
-        "          urdfsync fmu arm --fmi 3 --kind cs --output arm.fmu --check\n"
+        "          urdfsync fmu arm --fmi 3 --kind cs -o arm.fmu --check\n"
         "          urdfsync fmu arm --input motion.csv --check",
     )
     option = parser.add_argument
     option("robots", nargs="*", metavar="ROBOT", help="the robot, if there is more than one")
     option("--model", metavar="NAME", default="", help="the model (default: Run of the robot, else Test)")
-    option("--output", type=Path, metavar="FILE.fmu", help="where to write it (default: the model's name, here)")
+    option("-o", "--output", type=Path, metavar="FILE.fmu", help="where to write it (default: the model's name, here)")
     option("--fmi", choices=tuple(_VERSIONS), default="2", help="the version of FMI (default: 2)")
     kind = "model exchange, co-simulation or both (default: both)"
     option("--kind", choices=tuple(_EXPORTED), default="both", help=kind)

@@ -7,9 +7,9 @@ import contextlib
 import json
 import os
 import re
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
 import msgspec
 import tomli_w
@@ -30,32 +30,24 @@ from urdfsync.output.console import Console, line
 _HEADER = f"""\
 #:schema {config.STATE_FOLDER}/{schema.SCHEMA_FILE}
 # Robots that urdfsync keeps in step with their Modelica packages.
-# Paths are relative to this file's folder. `urdfsync build` builds all of them.
-"""
-_DEFAULTS = """\
-# Settings for all robots; a robot's own table wins.
-[defaults]
-output = "modelica"  # the folder that the packages go into
-# create_parents = true  # make the packages around `package` if they do not exist
-# on_build = "check"  # compile each package after its build, as `urdfsync check` does; default "nothing"
-{on_conflict}on_conflict = "merge"  # merge your edits with new exports unless they contradict; default "keep"
-# package_paths = []  # folders in which `package://` is looked for
-# users = []  # more folders with models of your own that use the robots: a build lists uses of removed names
-# ignore = []  # codes of warnings to hide, as in ["mesh-not-found"]
-# templates = "templates"  # folder with templates of your own; each replaces that of urdfsync with its name
+# Paths are relative to this file's folder. All other keys: docs/configuration.md of urdfsync.
 """
 _LONGEST = 80
 """The most characters of a guessed name: robots and packages become names of files."""
 
 
+NamedSource: TypeAlias = tuple[Path, Mapping[str, str]]
+"""A source with its arguments for xacro."""
+
+
 class Guess(msgspec.Struct, frozen=True):
-    """The proposed table of one robot."""
+    """The table of one robot, proposed or there."""
 
     robot: str
     source: str
     arguments: Mapping[str, str]
     package: str
-    options: tuple[Proposal, ...]
+    options: tuple[Proposal, ...] = ()
 
 
 def add(commands: arguments.Commands) -> None:
@@ -63,11 +55,11 @@ def add(commands: arguments.Commands) -> None:
     parser = arguments.add_command(
         commands,
         "init",
-        help="write a commented urdfsync.toml",
-        description="Write a commented urdfsync.toml for some sources, with guesses and their reasons.",
+        help="write a first urdfsync.toml",
+        description="Write a first urdfsync.toml for some sources, with guesses and their reasons.",
         epilog="example: urdfsync init cad/arm.urdf cad/gripper.urdf",
     )
-    sources = "URDF files (default: all below this folder), or xacro files with arguments NAME:=VALUE"
+    sources = "URDF files (default: all below this folder), or xacro files, each with its arguments NAME:=VALUE"
     parser.add_argument("sources", nargs="*", metavar="SOURCE", help=sources)
     merge = "let builds merge changes into files that you edited, unless they contradict your edits"
     parser.add_argument("--merge", action="store_true", help=merge)
@@ -81,8 +73,8 @@ def run(args: argparse.Namespace, console: Console) -> int:
     file = config.working_folder() / (args.config or config.FILE_NAME)
     _refuse_existing(file)
     domain = registry.domain(args.domain)
-    named, given = arguments.split_sources(args.sources, args.parser)
-    guesses, warnings = guess_robots(domain, file.parent, named, given)
+    named = arguments.split_sources(args.sources, args.parser)
+    guesses, warnings = guess_robots(domain, file.parent, named)
     is_clone = merge_driver.can_install(file.parent)
     question = "Let git merge these models by their elements, in this clone?"
     is_asked = is_clone and not args.merge_driver and arguments.can_ask(console)
@@ -99,31 +91,30 @@ def run(args: argparse.Namespace, console: Console) -> int:
             "for elements, `urdfsync merge-driver --install`",
         )
         warnings.append(Diagnostic(Severity.NOTE, "no-merge-driver", message, hint=hint))
-    console.warnings(warnings)
-    return show_guesses(console, file, "written", guesses)
+    return show_guesses(console, file, "written", guesses, warnings)
 
 
 def guess_robots(
-    domain: Domain, root: Path, named: Sequence[Path], given: Mapping[str, str], taken: Collection[str] = ()
+    domain: Domain, root: Path, named: Sequence[NamedSource], known: Sequence[Guess] = ()
 ) -> tuple[list[Guess], list[Diagnostic]]:
     """Guess a robot for each of the `named` sources, else for each source below `root`; also return warnings.
 
-    `given` are arguments for xacro, `taken` names of robots and packages. A source that is named twice counts once.
-    Raises ConfigError if there is no source, SourceError if a named one, or each found one, is unreadable.
+    `known` are the robots that are there. A source that is named twice with the same arguments counts once. Raises
+    ConfigError if there is no source or a given name is taken, SourceError if a named source, or each found one, is
+    unreadable.
     """
-    unique: dict[str, Path] = {}
-    for source in named or _search(root, f".{domain.name}"):
-        unique.setdefault(os.path.realpath(source), source)
+    unique: dict[tuple[str, str], NamedSource] = {}
+    for source, given in named or ((source, {}) for source in _search(root, f".{domain.name}")):
+        unique.setdefault((os.path.realpath(source), json.dumps(given, sort_keys=True)), (source, given))
     if not unique:
         message, hint = f"no *.{domain.name} below {shown(root)}", "name the sources: `urdfsync init SOURCE`"
         raise ConfigError.of("no-source", message, hint=hint)
     guesses: list[Guess] = []
     warnings: list[Diagnostic] = []
     errors: list[Diagnostic] = []
-    for source in unique.values():
+    for source, given in unique.values():
         try:
-            used = {*taken, *(name for one in guesses for name in (one.robot, one.package))}
-            guess, noted = _guess(domain, source, given, root, used)
+            guess, noted = _guess(domain, source, given, root, [*known, *guesses])
         except SourceError as error:
             if named:
                 raise
@@ -134,7 +125,7 @@ def guess_robots(
             warnings.append(msgspec.structs.replace(first, severity=Severity.WARNING, message=message, hint=hint))
         else:
             guesses.append(guess)
-            warnings += noted
+            warnings += (each for each in noted if each.severity is not Severity.NOTE)  # the first build has the notes
     if not guesses:
         raise SourceError(*errors)
     return guesses, warnings
@@ -149,36 +140,71 @@ def _search(folder: Path, suffix: str) -> Iterator[Path]:
 
 
 def _guess(
-    domain: Domain, source: Path, given: Mapping[str, str], root: Path, taken: Collection[str]
+    domain: Domain, source: Path, given: Mapping[str, str], root: Path, known: Sequence[Guess]
 ) -> tuple[Guess, Sequence[Diagnostic]]:
-    """Return a robot for a source, under free names; also warnings. Raises SourceError."""
+    """Return a robot for a source, under free names; also warnings. Raises SourceError, ConfigError."""
     path = source if source.is_absolute() and root not in source.parents else Path(os.path.relpath(source, root))
     if any(ord(char) < 32 or ord(char) == 127 or "\ud800" <= char <= "\udfff" for char in str(path)):
         message, hint = "the name of the source can't be written into a configuration", "rename it"
         raise SourceError.of("source-name", message, shown(source), hint=hint)
     text = source_files.read_file_source(domain, source, given, config.ros_package_path())
     advice: Advice | None = domain.advice
+    if text.expansion and "name" in text.expansion.unused:  # then it names only the robot of the configuration
+        others = {key: value for key, value in given.items() if key != "name"}
+        text = source_files.read_file_source(domain, source, others, config.ros_package_path())
     snapshot, reading = source_files.read_permissively(domain, text)
-    stem = source.name.partition(".")[0][:_LONGEST]
-    name = re.sub(r"[^a-z0-9]+", "_", stem.lower()).strip("_")
-    name, package = name if config.is_robot_name(name) else f"robot_{name}".rstrip("_"), class_name(stem)
-    names = set(map(str.casefold, taken))
-    counts = ("", *map(str, range(2, len(taken) + 2)))
-    count = next(count for count in counts if names.isdisjoint((name + count, (package + count).casefold())))
-    proposals = tuple(advice.propose(snapshot, reading.diagnostics)) if advice else ()
     values = text.expansion.arguments if text.expansion else {}
-    guess = Guess(name + count, path.as_posix(), values, package + count, proposals)
+    own_name = str(getattr(snapshot, "name", "")) if text.expansion else ""
+    fleet = [one.arguments for one in known if (root / one.source).resolve() == source.resolve()]
+    robot, package = _free_names(source, given, own_name, fleet, known)
+    proposals = tuple(advice.propose(snapshot, reading.diagnostics)) if advice else ()
+    guess = Guess(robot, path.as_posix(), values, package, proposals)
     return guess, (*text.diagnostics, *map(text.locate, reading.diagnostics))
 
 
+def _free_names(
+    source: Path, given: Mapping[str, str], own_name: str, fleet: Sequence[Mapping[str, str]], known: Sequence[Guess]
+) -> tuple[str, str]:
+    """Return names for a robot and its package that no `known` robot has.
+
+    The argument `name` comes first, then the robot's own name, then that with the arguments by which it differs from
+    the `fleet` of its source, then the file's name. Raises ConfigError if the argument `name` is taken.
+    """
+    taken = {name.casefold() for one in known for name in (one.robot, one.package)}
+    differing = "_".join(value for key, value in given.items() if any(other.get(key) != value for other in fleet))
+    if own_name.lower() not in differing.lower():
+        differing = f"{own_name}_{differing}"
+    texts = (
+        [given["name"]] if given.get("name") else [own_name, differing if fleet else "", source.name.partition(".")[0]]
+    )
+    names = [_names(text[:_LONGEST]) for text in texts if text]
+    free = next((pair for pair in names if taken.isdisjoint(map(str.casefold, pair))), None)
+    if free is None and given.get("name"):
+        message, hint = f"another robot or package has the name `{given['name']}`", "give another one with `name:=`"
+        raise ConfigError.of("source-in-use", message, shown(source), hint=hint)
+    robot, package = names[-1]
+    counts = map(str, range(2, len(taken) + 3))
+    return free or next(
+        (robot + count, package + count)
+        for count in counts
+        if taken.isdisjoint((robot + count, (package + count).casefold()))
+    )
+
+
+def _names(text: str) -> tuple[str, str]:
+    """Return names of a robot and of its package, made from any text."""
+    name = re.sub(r"[^a-z0-9]+", "_", text.lower()).strip("_")
+    return name if config.is_robot_name(name) else f"robot_{name}".rstrip("_"), class_name(text)
+
+
 def configuration_text(domain: Domain, guesses: Sequence[Guess], *, merges: bool) -> str:
-    """Return a configuration with comments; `merges`: builds may merge edited files."""
-    defaults = _DEFAULTS.format(on_conflict="" if merges else "# ")
-    return "\n".join([_HEADER, defaults, *(robot_table(guess, domain) for guess in guesses)])
+    """Return a configuration; `merges`: builds may merge edited files."""
+    defaults = ['[defaults]\non_conflict = "merge"\n'] if merges else []
+    return "\n".join([_HEADER, *defaults, *(robot_table(guess, domain) for guess in guesses)])
 
 
 def robot_table(guess: Guess, domain: Domain) -> str:
-    """Return the table of a robot, with guessed options, and the others as comments."""
+    """Return the table of a robot, with guessed options."""
     lines = [
         f"[robots.{guess.robot}]",
         _assignment("source", guess.source),
@@ -188,14 +214,11 @@ def robot_table(guess: Guess, domain: Domain) -> str:
     ]
     if domain.name != "urdf":
         lines.append(_assignment("domain", domain.name))
-    proposed = {proposal.option: proposal for proposal in guess.options}
-    for field in msgspec.structs.fields(domain.options):
-        words = in_words(field.type)
-        if proposal := proposed.get(field.encode_name):
-            reason = " ".join("".join(char if char.isprintable() else " " for char in proposal.reason).split())
-            lines.append(f"{_assignment(proposal.option, proposal.value)}  # {words}; guessed: {reason}")
-        elif field.default not in (msgspec.NODEFAULT, None):  # TOML has no null
-            lines.append(f"# {_assignment(field.encode_name, field.default)}  # {words}")
+    types = {field.encode_name: field.type for field in msgspec.structs.fields(domain.options)}
+    for proposal in guess.options:
+        reason = " ".join("".join(char if char.isprintable() else " " for char in proposal.reason).split())
+        words = f"{in_words(types[proposal.option])}; guessed: {reason}"
+        lines.append(f"{_assignment(proposal.option, proposal.value)}  # {words}")
     return "\n".join(lines) + "\n"
 
 
@@ -234,8 +257,10 @@ def _refuse_existing(file: Path) -> None:
         raise ConfigError.of("config-exists", "the file exists already", shown(file), hint=hint)
 
 
-def show_guesses(console: Console, file: Path, done: str, guesses: Sequence[Guess]) -> int:
-    """End a command: show what was `done` to the configuration, and each guess with its reason."""
+def show_guesses(
+    console: Console, file: Path, done: str, guesses: Sequence[Guess], warnings: Sequence[Diagnostic]
+) -> int:
+    """End a command: show what was `done` to the configuration, each guess with its reason, and the warnings."""
     lines = [line((shown(file), "bold"), (f" {done}", ""))]
     for guess in guesses:
         name, package = (guess.robot, "bold"), (guess.package, "bold")
@@ -246,4 +271,4 @@ def show_guesses(console: Console, file: Path, done: str, guesses: Sequence[Gues
     console.tell([*lines, line(("Look it over, then run `urdfsync build`.", ""))])
     for guess in guesses:
         console.add(guess)
-    return console.end(Exit.IN_STEP)
+    return console.end(Exit.IN_STEP, warnings)

@@ -46,14 +46,14 @@ def add(commands: arguments.Commands) -> None:
 def run(args: argparse.Namespace, console: Console) -> int:
     """Write the record to its file or to the standard output."""
     file = None if args.output == Path("-") else args.output
-    named, given = arguments.split_sources(args.source, args.parser)
+    named = arguments.split_sources(args.source, args.parser)
     if len(named) != 1:
         raise arguments.UsageError(args.parser, f"name one source, not {len(named)}")
+    ((source, given),) = named
     name = args.class_ or (file.stem if file is not None and is_class_name(file.stem) else "")
-    written = record(named[0], class_=name, within=args.within, domain=args.domain, arguments=given)
-    console.warnings(written.diagnostics)
+    written = record(source, class_=name, within=args.within, domain=args.domain, arguments=given)
     if file is not None:
-        is_written = _write(written.text, named[0], file, force=args.force)
+        is_written = _write(written.text, source, file, force=args.force)
         console.tell([line((f"{file} {'written' if is_written else 'unchanged'}: record {written.name}", ""))])
         written = msgspec.structs.replace(written, file=file, is_written=is_written)
     elif not console.is_document:
@@ -61,7 +61,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
             sys.stdout.reconfigure(encoding="utf-8", newline="\n")  # as in a file: Modelica tools read UTF-8
         sys.stdout.write(written.text)
     console.add(written)
-    return console.end(Exit.IN_STEP)
+    return console.end(Exit.IN_STEP, written.diagnostics)
 
 
 def _write(text: str, source: Path, file: Path, *, force: bool) -> bool:

@@ -7,7 +7,7 @@ from pathlib import PurePosixPath
 
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.modelica.files import PACKAGE_FILE, class_parts
-from urdfsync.modelica.lexer import find_markers, lex
+from urdfsync.modelica.lexer import Fault, find_markers, lex
 from urdfsync.modelica.names import within
 from urdfsync.modelica.parser import parse
 from urdfsync.modelica.syntax import StoredText
@@ -24,6 +24,12 @@ def with_within(text: str, name: str) -> str:
     if tokens[0].text != "within" or not end:
         return text
     return text[: tokens[0].start] + within(name) + text[tokens[end].start + 1 :]
+
+
+def first_fault(text: str, declared: StoredText) -> Fault:
+    """Return the first fault of a text that has some: a marker of a merge, else a break, else a repetition."""
+    faults = find_markers(text) or [fault for fault in declared.faults if not fault.is_repetition] or declared.faults
+    return min(faults, key=lambda fault: fault.line)
 
 
 def check_class_file(
@@ -43,8 +49,7 @@ def check_class_file(
         say(Severity.WARNING, "byte-order-mark", "the file begins with a byte order mark", 1, hint)
     declared = stored or parse(text)
     if declared.is_broken:  # report only the first place: others may follow from it
-        breaking = [fault for fault in declared.faults if not fault.is_repetition]
-        first = next(iter(find_markers(text)), min(breaking, key=lambda fault: fault.line))
+        first = first_fault(text, declared)
         hint = "correct it first: other errors in the file may follow from it" if declared.faults[1:] else ""
         say(Severity.ERROR, "syntax", f"the file {first.reason}", first.line, hint)
         return None, findings

@@ -80,13 +80,13 @@ def show(
     if console.is_document:
         console.add(told, to_section)
         return
+    if not console.quiet or (result and (result.conflicts or result.is_broken)):
+        section = to_section(told, verbose=console.verbose)
+        console.print(text(section, verbose=console.verbose, quiet=quiet), error=bool(result and result.failed))
     if result:
         show_findings(console, result, told.diagnostics)
     else:
         console.findings(told.diagnostics)
-    if not console.quiet or (result and (result.conflicts or result.is_broken)):
-        section = to_section(told, verbose=console.verbose)
-        console.print(text(section, verbose=console.verbose, quiet=quiet), error=bool(result and result.failed))
 
 
 def build_lines(result: Result) -> Iterator[StyledLine]:

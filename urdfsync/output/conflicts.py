@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 from urdfsync.engine.actions import Choice, Reason
@@ -32,9 +32,15 @@ def conflict_lines(result: Result, console: Console) -> Iterator[StyledLine]:
     """Yield all conflicts of one robot: the first ones in full, the others on a line each, and the command for all."""
     conflicts = result.conflicts
     full = len(conflicts) if console.verbose else 0 if console.quiet else FULL
+    menus = list[dict[str, str]]()
     for target in conflicts[:full]:
+        menu = _choices(target)
         yield line(("", ""))
-        yield from _full_lines(target, console)
+        yield from _full_lines(target, console, menu)
+        if menu not in menus:  # the same choices are explained once
+            width = max(map(len, menu))
+            yield from (line((f"      {choice:<{width}}  {words}", "dim")) for choice, words in menu.items())
+            menus.append(menu)
     if full and conflicts[full:]:
         yield line(("", ""))
     for target in conflicts[full:]:
@@ -53,8 +59,8 @@ def conflict_lines(result: Result, console: Console) -> Iterator[StyledLine]:
         yield line((f"  {_command(['adopt', result.robot], console)}", "bold"), (f"  {what}", "dim"))
 
 
-def _full_lines(target: DisputedFile, console: Console) -> Iterator[StyledLine]:
-    """Yield lines about one conflict: the reason, the differences, the saved versions, and what to do."""
+def _full_lines(target: DisputedFile, console: Console, choices: Mapping[str, str]) -> Iterator[StyledLine]:
+    """Yield lines about one conflict: the reason, the differences, the saved versions, and the first of the choices."""
     result, action, name = target.result, target.action, target.shown
     yield line(("  conflict   ", "bold red"), (name, "bold"), (f"  {action.owner}", "dim"))
     clauses = [reason(action, result.changes, brief=True), target.relation]
@@ -73,12 +79,8 @@ def _full_lines(target: DisputedFile, console: Console) -> Iterator[StyledLine]:
         if not result.dry:
             folder = Path(saved["generated"]).parent
             yield line((f"    saved in {folder}: {', '.join(Path(path).name for path in saved.values())}", "dim"))
-    choices = _choices(target)
-    width = max(map(len, choices))
     typed = f"./{name}" if name.startswith("-") else name
     yield line((f"    {_command(['resolve', typed, *next(iter(choices)).split()], console)}", "bold"))
-    for choice, words in choices.items():
-        yield line((f"      {choice:<{width}}  {words}", "dim"))
 
 
 def settle_hint(conflicts: Sequence[DisputedFile]) -> str:

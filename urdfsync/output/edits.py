@@ -8,6 +8,8 @@ from pathlib import Path
 from urdfsync.engine.edits import EditedFile, RobotEdits
 from urdfsync.files import shown
 from urdfsync.merge.edits import in_words
+from urdfsync.modelica.layout import first_fault
+from urdfsync.modelica.parser import parse
 from urdfsync.output.conflicts import difference_lines
 from urdfsync.output.console import StyledLine, line
 from urdfsync.output.sections import Mark, Section, Table
@@ -41,5 +43,10 @@ def _told(file: EditedFile) -> list[tuple[str, str]]:
     if file.base is None:
         return [("", "its base, the text that urdfsync wrote last, is lost: nothing to compare with")]
     if (edits := file.edits) is None:
-        return [("", "edited; it is no single class, so only its lines can be compared: --verbose shows them")]
+        declared = parse(file.mine)
+        why = "the file is no single class"
+        if declared.faults:
+            fault = first_fault(file.mine, declared)
+            why = f"the file {fault.reason} (line {fault.line})"
+        return [("", f"{why}, so only its lines can be compared: --verbose shows them")]
     return in_words(edits) or [("", "only blanks, or the order of things")]

@@ -15,6 +15,7 @@ from typing import Any, NamedTuple
 
 from urdfsync.changes import Change, Changes, Effect, is_number
 from urdfsync.domain import ChangeClass, ChangeKind
+from urdfsync.output.sections import Table
 from urdfsync.spelling import same_count
 
 _NAMES = 140
@@ -161,8 +162,19 @@ def effect_rows(effects: Sequence[Effect]) -> list[Row]:
         elif is_number(old) and is_number(new):
             is_same = math.isclose(old, new, rel_tol=_SAME)
         if not is_same:
-            rows.append(Row(" ".join(effect.path), f"{value} {effect.unit}".rstrip(), relation))
+            limit = "" if effect.limit is None else f"/{_value(effect.limit)}"
+            rows.append(Row(" ".join(effect.path), f"{value}{limit} {effect.unit}".rstrip(), relation))
     return rows
+
+
+def number_table(effects: Sequence[Effect]) -> Table:
+    """Return the numbers of the whole model as a table; `Before` is empty where nothing changed."""
+    rows = []
+    for effect in (each for each in effects if each.unit and each.new is not None):
+        values = effect.old if effect_rows([effect]) else None, effect.new, effect.limit
+        cells = ("" if value is None else f"{_value(value)} {effect.unit}" for value in values)
+        rows.append((" ".join(effect.path), *cells))
+    return Table("In numbers", ("Property", "Before", "Now", "Limit"), rows)
 
 
 # --- values in few characters -------------------------------------------------------------------------------------

@@ -5,6 +5,7 @@ This machine notes the shown findings. If the notes are lost, all are shown agai
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
 
 import msgspec
@@ -46,4 +47,5 @@ def show_findings(console: Console, result: Result, diagnostics: Sequence[Diagno
 
 
 def _key(diagnostic: Diagnostic) -> str:
-    return digest(f"{diagnostic.code}\0{diagnostic.message}\0{diagnostic.file}".encode(errors="surrogatepass"))
+    file = os.path.abspath(diagnostic.file)  # noqa: PTH100 - the same finding from each working folder
+    return digest(f"{diagnostic.code}\0{diagnostic.message}\0{file}".encode(errors="surrogatepass"))

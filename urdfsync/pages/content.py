@@ -7,7 +7,7 @@ from pathlib import Path
 
 import msgspec
 
-from urdfsync.changes import Changes, compare
+from urdfsync.changes import Changes, Effect, Effects, compare
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import UrdfsyncError
 from urdfsync.domain import ChangeClass, ChangeKind
@@ -19,8 +19,8 @@ from urdfsync.engine.renames import find_matching
 from urdfsync.engine.result import DisputedFile
 from urdfsync.engine.stage import Drawing
 from urdfsync.files import shown
-from urdfsync.output.outline import outline
-from urdfsync.output.sections import Section
+from urdfsync.output.outline import number_table, outline
+from urdfsync.output.sections import Section, Table
 from urdfsync.pages.picture import Picture, picture
 from urdfsync.versions.comparison import Comparison, Contents, compare_sources
 from urdfsync.versions.report import to_section
@@ -34,6 +34,8 @@ class Content(msgspec.Struct, frozen=True):
     """The version that is shown."""
     section: Section
     """The changes in words."""
+    numbers: Table
+    """Mass, reach, loads and the like, of both versions."""
     against: str
     """The older version, in words."""
     picture: Picture
@@ -78,6 +80,7 @@ def gather(
         robot=robot,
         version=(generation.now, generation.imported.contents),
         section=to_section(compared),
+        numbers=number_table(compared.effects or _numbers(generation)),
         against=(compared.against or "the last build").encode("utf-8", "replace").decode(),
         picture=picture(generation, older if changes.changes else None),
         statuses=_statuses(changes),
@@ -103,6 +106,13 @@ def _with_older(
     changes = compare(other[0], generation.now, domain, robot.options, same)
     result = msgspec.structs.replace(compared.result, changes=changes)
     return msgspec.structs.replace(compared, result=result, against="the picture before"), other
+
+
+def _numbers(generation: Generation) -> Sequence[Effect]:
+    """Return the properties of an unchanged model."""
+    asked: Effects | None = generation.inputs.domain.effects
+    now = generation.now
+    return (*asked.effects(now, now), *asked.loads(now, now, {})) if asked else ()
 
 
 def _last_build(generation: Generation) -> Contents | None:

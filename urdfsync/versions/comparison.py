@@ -298,7 +298,8 @@ def _effects(
     asked: Effects | None = domain.effects
     if asked is None:
         return ()
-    return (*asked.effects(old, new), *asked.interface(old, new, differences.renames, robot.target, robot.options))
+    names = asked.interface(old, new, differences.renames, robot.target, robot.options)
+    return (*asked.effects(old, new), *names, *asked.loads(old, new, differences.renames))
 
 
 def _read(

@@ -6,11 +6,11 @@ from typing import Any
 
 import msgspec
 import pytest
-from support.urdfs import joint, link, links, version
+from support.urdfs import joint, limit, link, links, version
 
 from urdfsync.changes import Effect
 from urdfsync.domain import ElementKey, Target, Version
-from urdfsync.urdf.diff.effects import effects, find_doubtful, interface
+from urdfsync.urdf.diff.effects import effects, find_doubtful, interface, loads
 from urdfsync.urdf.names import identify
 from urdfsync.urdf.options import Options
 
@@ -198,13 +198,28 @@ def test_mass_and_centre_of_mass_of_both_versions() -> None:
         version(link("base", mass, center="0 0 0"), link("tip", mass and 3.0, center="0 0 1"), turn)
         for mass in (None, 1.0, 3.0)
     )
-    mass, centre = effects(light, heavy)
+    mass, centre, reach = effects(light, heavy)
     assert (mass.path, mass.old, mass.new, mass.unit) == (("robot", "mass"), 4.0, 6.0, "kg")
     assert (centre.path, centre.unit) == (("robot", "centre of mass"), "m")
     assert centre.old == pytest.approx((1.5, 0, 0.75), abs=1e-15)
     assert centre.new == pytest.approx((1.0, 0, 0.5), abs=1e-15)
-    assert [effect.old for effect in effects(massless, heavy)] == [0.0, None]
+    assert (reach.path, reach.old, reach.new, reach.unit) == (("robot", "reach"), 2.0, 2.0, "m")
+    assert [effect.old for effect in effects(massless, heavy)] == [0.0, None, 2.0]
     assert effects(version(link("base", 0.5, center="1 0 0")), heavy)[1].old == (1.0, 0.0, 0.0)
+
+
+def test_the_greatest_load_of_gravity_stands_beside_the_limit_of_the_effort() -> None:
+    def arm(mass: float, name: str, *more: str) -> Version:
+        parts = links(base=1.0, tip=None), link("bar", mass, center="0.5 0 0")
+        turn = joint(name, "revolute", "base", "bar", rpy="0 0 0", axis="0 1 0", inside=[limit(effort=20.0)])
+        return version(*parts[0], parts[1], turn, *(more or [joint("lift", "fixed", "bar", "tip")]))
+
+    slide = joint("lift", "prismatic", "bar", "tip", inside=["<limit lower='0' upper='1' effort='0' velocity='1'/>"])
+    turn, lift = loads(arm(2.0, "j"), arm(4.0, "turn", slide), {("joint", "j"): "turn"})
+    assert turn == Effect(("joint turn", "gravity torque"), 9.80665, 19.6133, "N·m", limit=20.0)
+    assert lift == Effect(("joint lift", "gravity force"), None, 0.0, "N"), "new, and without a limit"
+    swapped = loads(arm(2.0, "j"), arm(4.0, "j", slide), {("joint", "j"): "lift"})
+    assert [effect.old for effect in swapped] == [None, 9.80665]
 
 
 def test_masses_that_jump_are_one_warning() -> None:

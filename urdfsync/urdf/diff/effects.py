@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 from collections.abc import Iterator, Mapping, Sequence
 
@@ -9,11 +10,12 @@ from urdfsync.changes import Effect
 from urdfsync.config.advice import brings_back
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.domain import ElementKey, Target, Version, displaced
+from urdfsync.processes import machine
 from urdfsync.urdf.connectors import Connectors, connector_names, connector_options, every_connector, input_vector
 from urdfsync.urdf.kinematics.poses import compose, link_poses, pose
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.robot import Vector
+from urdfsync.urdf.robot import MOTION_KINDS, Motion, Vector
 
 _JUMP = 9.99
 """Ratio of two masses that is likely a mistake: a factor of 10, less rounding."""
@@ -27,10 +29,15 @@ _DRIVE = {
 }
 """Fields of `Drive`, and their words in a report."""
 _INPUT = "input of Run"
+_LOADS: Mapping[Motion, tuple[str, str]] = {
+    "rotational": ("gravity torque", "N·m"),
+    "translational": ("gravity force", "N"),
+}
+"""The greatest load of each kind of motion in words, and its unit."""
 
 
 def effects(old: Version, new: Version) -> Sequence[Effect]:
-    """Return mass and centre of mass of both versions.
+    """Return mass, centre of mass and reach of both versions.
 
     The centre is in metres, in the frame of the root link, with all joints at zero; None without mass.
     """
@@ -39,7 +46,33 @@ def effects(old: Version, new: Version) -> Sequence[Effect]:
     return [
         Effect(("robot", "mass"), old_mass, new_mass, "kg"),
         Effect(("robot", "centre of mass"), old_centre, new_centre, "m"),
+        Effect(("robot", "reach"), _extremes(before)[0], _extremes(after)[0], "m"),
     ]
+
+
+def loads(old: Version, new: Version, renames: Mapping[ElementKey, str]) -> Sequence[Effect]:
+    """Return the greatest gravity torque or force of each joint of the new version, beside its limit of effort."""
+    trees = [KinematicTree.of(version.snapshot) for version in (old, new)]
+    before, after = (_extremes(tree)[1] for tree in trees)
+    earlier, changes = {new_name: name for (kind, name), new_name in renames.items() if kind == "joint"}, list[Effect]()
+    for joint in trees[1].joints:
+        if joint.name in after:
+            words, unit = _LOADS[MOTION_KINDS[joint.type]]
+            effort = joint.limit.effort if joint.limit else None
+            limit = effort if effort and effort < math.inf else None  # zero: the source has none
+            # a new joint may have the former name of a renamed one
+            name = earlier.get(joint.name, "" if ("joint", joint.name) in renames else joint.name)
+            load = before.get(name)
+            changes.append(Effect((f"joint {joint.name}", words), load, after[joint.name], unit, limit=limit))
+    return changes
+
+
+@functools.lru_cache(maxsize=2)  # both versions are asked for their reach, then for their loads: 0.1 s for a large one
+def _extremes(tree: KinematicTree) -> tuple[float | None, Mapping[str, float]]:
+    with machine.single_thread():
+        from urdfsync.urdf.kinematics.loads import find_extremes  # 60 ms for numpy, needed by no build
+
+    return find_extremes(tree)
 
 
 def _mass(tree: KinematicTree) -> tuple[float, Vector | None]:
