@@ -128,7 +128,8 @@ def execute(
     standard = modelica_libraries.standard_library_copy(found, (), CACHE)  # the part of it that robots need
     folders = list(packages)
     texts = [text for folder in folders for text in modelica_libraries.library_texts(folder).values()]
-    own = modelica_libraries.own_library_copy(own, [*texts, *(task.source.encode() for task in todo)], CACHE)
+    if tool == "rumoca":
+        own = modelica_libraries.own_library_copy(own, [*texts, *(task.source.encode() for task in todo)], CACHE)
     roots, tasks = tuple(map(str, (standard, own, *folders))), []
     for task in todo:
         runs = (Simulation(run.stop, run.step, run.parameters, run.tolerance) for run in task.runs)

@@ -27,6 +27,8 @@ from urdfsync.urdf.robot import MOTION_KINDS, Joint
 
 _MARGIN = 0.9
 """Part of ranges and speeds that Test uses."""
+_REACH = {"rotational": 1.0, "translational": 0.1}
+"""The longest way of Test, in rad and m, unless loops leave less."""
 _SHARES = tuple(0.25**k for k in range(8))
 
 
@@ -91,7 +93,8 @@ class Subject:
         for joint in self.axes:
             if joint.type in MOTION_KINDS:
                 start, (lower, upper) = self.starts[joint.name], ranges[joint.name]
-                most = min(self.assembly.reach.get(joint.name, 1.0), _MARGIN * speed(joint) * motion.PERIOD / math.pi)
+                reach = self.assembly.reach.get(joint.name, _REACH[MOTION_KINDS[joint.type]])
+                most = min(reach, _MARGIN * speed(joint) * motion.PERIOD / math.pi)
                 above, below = (min(most, _MARGIN * room) for room in (upper - start, start - lower))
                 yield joint, start, start + above if above >= below else start - below
 
