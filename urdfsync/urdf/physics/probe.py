@@ -142,7 +142,7 @@ def moving_probe(
     source = text(target, options, "", declarations, connections, _driven_balls(subject))
     last = float(max(motion.Instant))
     # loops are closed by integration: its error appears in accelerations, times the square of its rate of decay
-    tolerance = 1e-11 if subject.tree.loops else None
+    tolerance = 3e-12 if subject.tree.loops else None
     return Probe(source, "Probe_.Probe", last, step, tuple(values), tuple(optional), tolerance)
 
 
