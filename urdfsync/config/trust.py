@@ -27,7 +27,7 @@ def find_untrusted_output(config: Config, robot: RobotConfig) -> Diagnostic | No
     """
     if robot.output.is_relative_to(config.root):
         return None
-    message = f"`output` leads out of the configuration's folder, to {shown(robot.output)}"
+    message = f"`output` leads out of the configuration's folder, to {robot.output}"  # whole: a user decides by it
     return _find_untrusted(config, message, robot.lines.get("output", 0))
 
 
