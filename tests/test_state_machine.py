@@ -398,6 +398,8 @@ class Walk(RuleBasedStateMachine):
             self.git("clean", "-fdxq")  # as a clone has it
         self.mark_mixtures()
         self.look()
+        # of united orders, lines without a class go: the other branch may have renamed it
+        self.give_up([line.path for line in self.expected.edits.values() if line.path.endswith("package.order")])
         self.build(full=False)
 
     def settle(self, random: Random) -> None:
@@ -464,7 +466,8 @@ class Walk(RuleBasedStateMachine):
         lost = [edit for edit in self.expected.lost(now) if edit[0] not in self.expected.given_up]
         assert not lost, ("lost", lost)
         aside = b"".join(replay.contents(Path(".urdfsync")).values())
-        assert all(tag.encode() in aside for tag, _, _ in self.expected.lost(now)), "given up, and not put aside"
+        texts_lost = [tag for tag, line, _ in self.expected.lost(now) if not line.path.endswith("package.order")]
+        assert all(tag.encode() in aside for tag in texts_lost), "given up, and not put aside"
         self.expected.edits = edits.tagged(now)
         self.tally[" ".join(command.split()[:1] + [word for word in command.split() if word[:2] == "--"])] += 1
         merged = {one["path"] for one in writes if one["reason"] == "merge" and not one["origin"]}

@@ -205,11 +205,11 @@ def test_a_robot_without_joints_stands_on_the_ground_too() -> None:
 
 
 def test_test_moves_each_axis_within_its_limits_and_those_of_its_followers() -> None:
-    """From zero a metre at most, or nine tenths of the range and of the speed, to the roomier side."""
+    """From zero a radian or a tenth of a metre at most, or nine tenths of range and speed, to the roomier side."""
     joints = [
         joint("wide", "continuous", "base", "a"),
         joint("near", "revolute", "a", "b", inside=[limit(-0.5, 0.2)]),
-        joint("slow", "prismatic", "b", "c", inside=[limit(-3, 3, 0.1)]),
+        joint("slow", "prismatic", "b", "c", inside=[limit(-3, 3, 0.01)]),
         joint("leader", "revolute", "c", "d"),
         joint("led", "prismatic", "d", "e", inside=[mimic("leader", -0.1, 0.01), limit(-0.02, 0.02)]),
         joint("hurried", "revolute", "e", "f", inside=[limit(1, 3)]),
@@ -217,7 +217,7 @@ def test_test_moves_each_axis_within_its_limits_and_those_of_its_followers() -> 
     ]
     motion = experiment(robot(*links(**dict.fromkeys("abcdefg", 1.0), base=1.0), *joints)).trials[0]
     ways = {each.element.removeprefix("joint "): each for each in motion.compared if each.quantity is Quantity.SWEEP}
-    expected = {"wide": 1, "near": -0.45, "slow": 0.9 / math.pi, "leader": 0.27, "hurried": 1 + 1.35 / math.pi}
+    expected = {"wide": 1, "near": -0.45, "slow": 0.09 / math.pi, "leader": 0.27, "hurried": 1 + 1.35 / math.pi}
     assert {name: motion.expected[each.values[0]][5] for name, each in ways.items()} == pytest.approx(expected)
     assert {name: motion.expected[each.values[0]][10] for name, each in ways.items()} == pytest.approx(
         dict.fromkeys(expected, 0) | {"hurried": 1}
