@@ -14,6 +14,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from urdfsync.diagnostics import SourceError
+from urdfsync.files import shown
 from urdfsync.simulation.models import Input
 from urdfsync.simulation.motion import MOST_ROWS, read_motion, second_derivatives
 
@@ -69,7 +70,7 @@ def test_what_is_no_motion_is_refused_with_its_line(tmp_path: Path, text: str | 
     (found,) = caught.value.diagnostics
     assert words in str(found)
     assert found.line == line
-    assert found.file == str(tmp_path / "motion.csv")
+    assert found.file == shown(tmp_path / "motion.csv")
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no such files there")

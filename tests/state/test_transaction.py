@@ -15,7 +15,7 @@ import pytest
 from support.crashes import CHANGES, Operation, before_each
 
 from urdfsync.diagnostics import OutputError
-from urdfsync.files import digest
+from urdfsync.files import digest, shown
 from urdfsync.state import file_operations, transaction
 from urdfsync.state.transaction import FileChange, Transactions, UnfinishedError, is_interrupted, save
 
@@ -246,7 +246,7 @@ def test_of_two_saves_in_between_the_earlier_one_is_kept_beside_the_file(tmp_pat
         "mine.toml.saved": "first",
     }
     (found,) = error.value.diagnostics
-    assert found.hint == f"an earlier save is kept as {tmp_path}/mine.toml.saved; run the command again"
+    assert found.hint == f"an earlier save is kept as {shown(tmp_path / 'mine.toml.saved')}; run the command again"
 
 
 def test_a_full_disk_leaves_a_file_as_it_was(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
