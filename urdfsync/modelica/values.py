@@ -100,7 +100,8 @@ def _of_statement(text: str, tokens: list[Token], titles: dict[str, str]) -> Ite
 
 def _modifiers(text: str, tokens: Sequence[Token], at: int, path: str, type_: str) -> Iterator[Value]:
     """Yield the values of the modifiers in the parentheses that open at a token."""
-    words, stop = [token.text for token in tokens], _close([token.text for token in tokens], at)
+    words = [token.text for token in tokens]
+    stop = _close(words, at)
     at += 1
     while at < stop:
         end, depth = at, 0

@@ -88,11 +88,8 @@ def positions(joint: Joint, lower: float, upper: float, start: float) -> list[fl
 
 def find_grids(tree: KinematicTree) -> Iterator[tuple[Sequence[Joint], Sequence[Array]]]:
     """Yield the joints of each branch, and their positions in all poses of a grid; one if it stands still."""
-    towards, starts, ranges = (
-        {joint.child: joint for joint in tree.joints},
-        start_positions(tree),
-        position_ranges(tree),
-    )
+    towards = {joint.child: joint for joint in tree.joints}
+    starts, ranges = start_positions(tree), position_ranges(tree)
     for leaf in tree.leaves():
         path, link = list[Joint](), leaf.name
         while link in towards:

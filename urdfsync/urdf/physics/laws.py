@@ -59,11 +59,8 @@ def _declarations(k: int, model: str, joint: Joint, laws: str) -> Iterator[str]:
 
     The body is light, so that its energy hides no loss; on a spring it swings slowly enough for any solver.
     """
-    is_turning, is_pushed, numbers = (
-        MOTION_KINDS[joint.type] == "rotational",
-        laws == "stiction",
-        f"joint{k}.parameters",
-    )
+    is_turning, is_pushed = MOTION_KINDS[joint.type] == "rotational", laws == "stiction"
+    numbers = f"joint{k}.parameters"
     breakaway, stiffness = f"{numbers}.dynamics.breakaway", f"{numbers}.transmission.stiffness"
     light = f"1e-4*{stiffness}" if "spring" in laws else breakaway if is_pushed else "1e-6"
     mass, inertia = ("1", light) if is_turning else (light, "1")
