@@ -109,7 +109,7 @@ def test_the_build_after_a_merge_is_a_fresh_one(
 
 
 def test_a_line_for_a_class_that_is_a_link_stays(repository: Repository, execute: Execute, tmp_path: Path) -> None:
-    """Others are of what a branch has renamed, and go."""
+    """Others are of what a branch has renamed, and go, with a copy of the file."""
     (tmp_path / "Linked.mo").write_text("within Arm.Joints;\nmodel Linked\nend Linked;\n")
     (PACKAGE / "Joints/Linked.mo").symlink_to(tmp_path / "Linked.mo")
     unite(repository, execute, PIVOT, {"wrist": "grip"})
@@ -119,6 +119,8 @@ def test_a_line_for_a_class_that_is_a_link_stays(repository: Repository, execute
     execute("build", code=None)
     assert "Linked" in order.read_text().split()
     assert "Nowhere" not in order.read_text().split()
+    copies = Path(".urdfsync/aside").rglob("package.*.order")
+    assert [copy.read_text().split()[-1] for copy in copies] == ["Nowhere"]
 
 
 def test_a_whole_model_serves_for_renames_and_reports(repository: Repository, execute: Execute) -> None:

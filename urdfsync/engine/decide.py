@@ -339,13 +339,14 @@ def _removable_lines(
     """Return the lines of a `package.order` to remove: deleted classes, and recorded lines without a class.
 
     A recorded line may name a class of the user's, so the class is looked for on disk. If git has united two states,
-    the file may name classes that the other branch renamed: then the class of each line is looked for.
+    the package may name classes that the other branch renamed: then the class of each line is looked for.
     """
     inputs, folder = generation.inputs, order.removesuffix("package.order")
     paths = (action.path.removesuffix("/package.mo").removesuffix(".mo") for action in actions if action.is_deletion)
     deleted = [path.removeprefix(folder) for path in paths if path.rpartition("/")[0] == folder.rstrip("/")]
     listed = {line.strip() for line in text.splitlines()}
-    candidates = listed if inputs.last.record.is_united else listed.intersection(recorded)
+    is_united = inputs.last.record.is_united and order.startswith(inputs.folder.key(""))
+    candidates = listed if is_united else listed.intersection(recorded)
     return [*deleted, *_dangling_lines(inputs.files, order, candidates.difference(deleted))]
 
 
