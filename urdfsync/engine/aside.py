@@ -94,13 +94,13 @@ def _replaced(
 
     Of a `package.order`, builds remove recorded lines; after a union by git also others, so its text is saved, too.
     """
-    files, last = generation.inputs.files, generation.inputs.last
+    files, last, folder = generation.inputs.files, generation.inputs.last, generation.inputs.folder.key("")
     origins = {action.origin for action in decision.actions if action.origin and action.writes}
     for action in decision.actions:
         key, is_moving = action.path, action.reason is Reason.MOVE
         if not action.writes or key not in contents or (key in origins and not is_moving):
             continue  # the user's text moves to another file
-        if action.role is Role.ORDER and not (last.record.is_united and key.startswith(inputs.folder.key(""))):
+        if action.role is Role.ORDER and not (last.record.is_united and key.startswith(folder)):
             continue
         text = files.read(action.origin or key) if is_moving else files.read_on_disk(key)
         if text is None or state_of(text).text_sha256 in last.notes.written:
