@@ -21,7 +21,7 @@ from benchmarks.measuring import Cost, Measurement, Pair, Reading, UnexpectedErr
 from benchmarks.published import Published
 from benchmarks.robots import Source, mesh, write_meshes, write_workspace, write_xacro_workspace
 from urdfsync.checks.cache import UserCache
-from urdfsync.checks.libraries import find_standard_library, standard_library_copy
+from urdfsync.checks.libraries import copy_named, find_standard_library
 from urdfsync.merge import merge
 
 ARM = REPOSITORY / "modelica/UrdfSync/Resources/robots/six_axis_arm/six_axis_arm.urdf"
@@ -215,8 +215,8 @@ def simulate(tools: Tools) -> Iterator[Pair]:
     (place / "urdfsync.toml").write_text('[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\n')
     run(tools.urdfsync("build", "--quiet"), place)
     texts = [file.read_bytes() for file in (place / "modelica").rglob("*.mo")]
-    standard = standard_library_copy(find_standard_library(), texts, UserCache.default())
-    roots = [str(standard), str(REPOSITORY / "modelica/UrdfSync"), str(place / "modelica/Arm")]
+    parts = find_standard_library() | {"UrdfSync": REPOSITORY / "modelica/UrdfSync"}
+    roots = [str(copy_named(parts, texts, UserCache.default())), str(place / "modelica/Arm")]
     direct = [str(tools.scripts / "python"), "-c", _DIRECT, *roots]
     stops = itertools.count(5.0, 1e-9)  # what was simulated before is not simulated again
 

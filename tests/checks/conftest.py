@@ -25,8 +25,7 @@ def compiler(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Compiling:
     """A stand-in for the compiler, and a cache in which nothing is yet."""
     found = Compiling()
     monkeypatch.setattr("urdfsync.checks.compilers.run_job", found)
-    monkeypatch.setattr(libraries, "standard_library_copy", lambda *_: tmp_path)
-    monkeypatch.setattr(libraries, "own_library_copy", lambda own, *_: own)
+    monkeypatch.setattr(libraries, "copy_named", lambda *_: tmp_path)
     monkeypatch.setattr("platformdirs.user_cache_path", lambda *_, **__: tmp_path / "cache")
     return found
 

@@ -94,17 +94,16 @@ def test_files_may_have_another_content_in_a_copy(jobs: Jobs, reading: Reading) 
     assert (library / "Small.mo").read_bytes() == b"as it was"
 
 
-def test_a_place_in_a_packed_library_is_one_in_its_folder(
-    jobs: Jobs, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
+def test_a_place_in_a_packed_library_is_one_in_its_folder(jobs: Jobs, monkeypatch: pytest.MonkeyPatch) -> None:
     def complain(_tool: Tool, job: CompileJob, *_: object) -> list[CompileResult]:
-        text = Path(job.roots[1]).read_text()
+        packed = Path(job.roots[0], "UrdfSync.mo")
+        text = packed.read_text()
         (line,) = [number for number, each in enumerate(text.split("\n"), 1) if "model PartialBench" in each]
-        return [CompileResult(f"too few equations [{job.roots[1]}:{line}:7]")]
+        return [CompileResult(f"too few equations [{packed}:{line}:7]")]
 
     monkeypatch.setattr("urdfsync.checks.compilers.run_job", complain)
-    monkeypatch.setattr("urdfsync.checks.libraries.standard_library_copy", lambda *_: tmp_path)
-    (result,) = msgspec.structs.replace(jobs, tool=Tool("rumoca")).run("it", TEXTS, [TASK])
+    task = CompileTask("P", "model P\n  extends UrdfSync.Robots.PartialBench;\nend P;\n")
+    (result,) = msgspec.structs.replace(jobs, tool=Tool("rumoca")).run("it", TEXTS, [task])
     bench = library_folder() / "UrdfSync/Robots/PartialBench.mo"
     line = next(number for number, each in enumerate(bench.read_text().split("\n"), 1) if "model PartialBench" in each)
     assert result.problem == f"too few equations [{bench}:{line}:7]"

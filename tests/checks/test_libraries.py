@@ -14,11 +14,10 @@ import pytest
 
 from urdfsync.checks.cache import UserCache
 from urdfsync.checks.libraries import (
+    copy_named,
     find_library,
     find_standard_library,
     needed_libraries,
-    own_library_copy,
-    standard_library_copy,
 )
 from urdfsync.diagnostics import UrdfsyncError
 
@@ -135,30 +134,28 @@ def test_libraries_are_what_names_begin_with(text: str, names: set[str], tmp_pat
     assert needed_libraries([text.encode()], "Arm", [place], ()).keys() == names
 
 
-# --- the copy of the Modelica Standard Library ------------------------------------------------------------------------
+# --- the classes that are named ---------------------------------------------------------------------------------------
 
-COPIED = (
-    *("package", "Blocks/package", "Constants", "Icons", "Math", "Mechanics/package", "Mechanics/MultiBody/package"),
-    "Mechanics/MultiBody/Body",
-    *("Thermal/package", "Thermal/HeatTransfer/package", "Electrical/package", "Electrical/Machines/package"),
-    *("Electrical/Machines/Thermal", "Units", "Utilities"),
-)
-LEFT_OUT = (
-    *("Mechanics/MultiBody/Examples/package", "Mechanics/MultiBody/Examples/Pendulum", "Fluid/package"),
-    *("Thermal/FluidHeatFlow", "UsersGuide/package"),
-)
+CLASSES = {
+    "package": "package Modelica end Modelica;",
+    "Mechanics/package": "package Mechanics end Mechanics;",
+    "Mechanics/Body": "model Body extends Icons.Part; end Body;",
+    "Icons": "package Icons partial model Part end Part; partial model Other end Other; end Icons;",
+    "Fluid/package": "package Fluid end Fluid;",
+    "Fluid/Tank": "model Tank end Tank;",
+}
 
 
 @pytest.fixture
 def small(tmp_path: Path) -> Mapping[str, Path]:
     """A made-up library."""
     folder = whole(tmp_path / "libraries", "4.1.0")
-    for name in (*COPIED, *LEFT_OUT):
+    for name, text in CLASSES.items():
         file = folder / "Modelica 4.1.0" / f"{name}.mo"
         file.parent.mkdir(parents=True, exist_ok=True)
-        file.touch()
+        file.write_text(text)
     (folder / "Modelica 4.1.0" / "Resources").mkdir()
-    (folder / "Modelica 4.1.0" / "Resources" / "large.bin").touch()
+    (folder / "Modelica 4.1.0" / "Resources" / "Large.mo").write_text("model Large end Large;")
     return find_standard_library(folder)
 
 
@@ -167,54 +164,34 @@ def cache(tmp_path: Path) -> UserCache:
     return UserCache(tmp_path / "cache")
 
 
-def names(library: Path) -> set[str]:
-    """The files whose texts are in the one of a copied library."""
-    return set(re.findall(r"^// urdfsync: (.+):1$", library.read_text(), re.MULTILINE))
-
-
-@pytest.mark.parametrize(("text", "whole"), [
-    ("", False),
-    ("Modelica.Mechanics.MultiBody.Body b; import SI = Modelica.Units.SI; import Modelica.Math.{sin, cos};", False),
-    ('Real x "Modelica.Fluid.Tank"; // Modelica.Fluid.Tank', False),
-    ("Modelica . Fluid.Tank t;", True),
-    ("import Modelica.Thermal.*;", True),
-    ("import M = Modelica;", True),
-    ("extends Modelica.Mechanics.MultiBody.Examples.Pendulum;", True),
+@pytest.mark.parametrize(("text", "classes"), [
+    ("", "Modelica"),
+    ("Modelica.Mechanics.Body b;", "Modelica Mechanics Body Icons Part"),
+    ("Modelica . Fluid.Tank t;", "Modelica Fluid Tank"),
+    ("import Modelica.Fluid.*; Tank t; Large large;", "Modelica Fluid Tank"),
+    ('Real Fluid "Modelica.Tank"; // Tank', "Modelica Fluid"),
 ])  # fmt: skip
-def test_what_robots_need_is_copied_and_all_if_more_is_named(
-    text: str, whole: bool, small: Mapping[str, Path], cache: UserCache
+def test_classes_are_copied_that_are_named_and_those_that_they_need(
+    text: str, classes: str, small: Mapping[str, Path], cache: UserCache
 ) -> None:
-    copied = standard_library_copy(small, [text.encode()], cache)
-    wanted = (*COPIED, *LEFT_OUT) if whole else COPIED
+    copied = copy_named(small, [text.encode()], cache)
     assert {path.name for path in copied.iterdir()} == {"Complex.mo", "Modelica.mo", "ModelicaServices.mo"}
-    assert names(copied / "Modelica.mo") == {f"{name}.mo" for name in wanted}
-
-
-def test_examples_of_urdfsync_are_copied_only_if_they_are_named(tmp_path: Path, cache: UserCache) -> None:
-    own = tmp_path / "UrdfSync"
-    files = [f"{name}.mo" for name in ("package", "Joints/package", "Joints/Fixed", "Examples/package", "Examples/Arm")]
-    for name in (*files, "Joints/package.order", "UsersGuide/package.mo"):
-        (own / name).parent.mkdir(parents=True, exist_ok=True)
-        (own / name).touch()
-    found = own_library_copy(own, [b"import UrdfSync.Examples.*;"], cache)
-    assert (found.name, names(found)) == ("UrdfSync.mo", {*files})
-    found = own_library_copy(own, [b"UrdfSync.Joints.Fixed j; // Examples"], cache)
-    assert (found.name, names(found)) == ("UrdfSync.mo", {*files[:3]})
+    assert {*re.findall(r"(?:package|model) (\w+)", (copied / "Modelica.mo").read_text())} == {*classes.split()}
 
 
 def test_a_copy_is_made_once_for_each_state(small: Mapping[str, Path], cache: UserCache) -> None:
-    first = standard_library_copy(small, (), cache)
+    first = copy_named(small, (), cache)
     (first / "mark").touch()
     os.utime(first, (0, 0))
     with ThreadPoolExecutor(8) as pool:
-        assert set(pool.map(lambda _: standard_library_copy(small, (), cache), range(8))) == {first}
+        assert set(pool.map(lambda _: copy_named(small, (), cache), range(8))) == {first}
     assert (first / "mark").exists()
     assert first.stat().st_mtime > 0, "its last use is noted"
-    (small["Modelica"] / "Blocks" / "package.mo").write_text("package Blocks end Blocks;")
-    assert standard_library_copy(small, (), cache) != first
+    (small["Modelica"] / "package.mo").write_text("package Modelica constant Real x = 1; end Modelica;")
+    assert copy_named(small, (), cache) != first
 
 
-def test_a_folder_that_can_not_be_read_hides_no_change_behind_it(
+def test_a_folder_that_can_not_be_read_is_named(
     small: Mapping[str, Path], cache: UserCache, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def refuse(path: Any) -> Any:
@@ -224,9 +201,8 @@ def test_a_folder_that_can_not_be_read_hides_no_change_behind_it(
 
     genuine = os.scandir
     monkeypatch.setattr(os, "scandir", refuse)
-    first = standard_library_copy(small, (), cache)
-    (small["Modelica"] / "Mechanics" / "package.mo").write_text("package Mechanics end Mechanics;")
-    assert standard_library_copy(small, (), cache) != first
+    with pytest.raises(UrdfsyncError, match=r"Fluid: error: the package can't be read: Permission denied"):
+        copy_named(small, (), cache)
 
 
 def test_a_standard_library_with_a_link_out_of_it_is_refused(
@@ -234,5 +210,5 @@ def test_a_standard_library_with_a_link_out_of_it_is_refused(
 ) -> None:
     (small["Modelica"] / "Mechanics/Loop").symlink_to(tmp_path, target_is_directory=True)
     with pytest.raises(UrdfsyncError, match="the link leads out of its library"):
-        standard_library_copy(small, (), cache)
+        copy_named(small, (), cache)
     assert not list(cache.libraries.glob("*/Modelica"))

@@ -6,7 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from urdfsync.checks.packed import original_place, packed
+from urdfsync.checks.libraries import library_texts
+from urdfsync.checks.packed import names_in, original_place, packed, pieces
 from urdfsync.modelica.parser import parse
 from urdfsync.modelica.syntax import declared
 
@@ -42,8 +43,15 @@ def library(tmp_path: Path) -> Path:
     return tmp_path / "Lib"
 
 
+def whole(library: Path) -> str:
+    """The text of a library with all classes."""
+    taken_apart = pieces("Lib", library_texts(library))
+    names = {name for piece in taken_apart for name in piece.owner.split(".")}
+    return packed({"Lib": taken_apart}, names)["Lib"]
+
+
 def test_all_classes_are_where_they_were_and_looks_are_gone(library: Path) -> None:
-    text = packed(library)
+    text = whole(library)
     stored = parse(text)
     assert not stored.faults
     assert {".".join(found.path) for found in declared(stored.classes)} == {
@@ -57,7 +65,7 @@ def test_all_classes_are_where_they_were_and_looks_are_gone(library: Path) -> No
 
 
 def test_each_line_is_found_in_its_file(library: Path) -> None:
-    text = packed(library)
+    text = whole(library)
     for word, place in {
         "extends Icon": ("package.mo", 4),
         "end Lib": ("package.mo", 7),
@@ -71,5 +79,54 @@ def test_each_line_is_found_in_its_file(library: Path) -> None:
 
 def test_a_library_may_be_one_file(tmp_path: Path) -> None:
     (tmp_path / "Lib.mo").write_text("package Lib\nend Lib;\n")
-    text = packed(tmp_path / "Lib.mo")
+    text = whole(tmp_path / "Lib.mo")
     assert original_place(text, len(text.splitlines())) == ("Lib.mo", 2)
+
+
+PACKAGE = """package Lib
+  partial package Tanks
+    type Level = Real(unit = "m; end Lib;");
+    model Tank // end Tank;
+      record Tank end Tank;
+      Level level = Math.height(1);
+      outer replaceable model Lid = Icon;
+    end Tank;
+    constant Real most = Pi.half;
+  end Tanks;
+  package Math
+    function height input Real x; external "C"; end height;
+    protected function 'end width' end 'end width';
+    replaceable function width
+      package Inner end Inner;
+    end width;
+  end Math;
+  operator record Complex operator '+' end '+'; end Complex;
+  package Pi constant Real half = 1.5; end Pi; model Last end Last;
+end Lib;
+"""
+
+
+@pytest.mark.parametrize(
+    ("named", "kept"),
+    {
+        "": "",
+        "Tanks": "Tanks Pi",
+        "Lib.Tanks.Tank": "Tanks Pi Level Tank Math height width",
+        "Tank": "",
+        "Math": "Math width",
+        "Complex": "Complex",
+        "import Lib.*; Last": "Last",
+    }.items(),
+)
+def test_classes_are_kept_that_are_reached_by_names(named: str, kept: str) -> None:
+    text = packed({"Lib": pieces("Lib", {"Lib.mo": PACKAGE.encode()})}, names_in(named))["Lib"]
+    stored = parse(text)
+    assert not stored.faults
+    found = {".".join(each.path[1:]).rpartition(".")[2] for each in declared(stored.classes)}
+    assert found & {*"Tanks Level Tank Math height width 'end width' Complex Pi Last".split(" ")} == {*kept.split()}
+    lines = {line: number for number, line in enumerate(PACKAGE.split("\n"), 1)}
+    assert all(
+        original_place(text, number) == ("Lib.mo", lines[line])
+        for number, line in enumerate(text.split("\n"), 1)
+        if line in lines and line.strip()
+    )

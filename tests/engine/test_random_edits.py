@@ -294,8 +294,7 @@ def refusal(modelica_library: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPa
 
     What rumoca accepts is shown to OpenModelica, where there is one.
     """
-    parts = libraries.find_standard_library()
-    standard, own = libraries.standard_library_copy(parts, (), CACHE), libraries.own_library_copy(URDFSYNC, (), CACHE)
+    parts = libraries.find_standard_library() | {"UrdfSync": URDFSYNC}
     for name, value in rumoca.environment(str(CACHE.compiler), str(tmp_path)).items():
         monkeypatch.setenv(name, value)
 
@@ -303,7 +302,9 @@ def refusal(modelica_library: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPa
         imports = "import Modelica; import UrdfSync; import Arm;"
         bench = BENCHES[path if path in BENCHES else path.partition("/")[0]]
         task = CompileTask("Bench", f"model Bench\n  {imports}\n  {bench}\nend Bench;\n")
-        roots = (str(standard), str(own), str(tmp_path / "modelica/Arm"))
+        package = tmp_path / "modelica/Arm"
+        texts = (*libraries.library_texts(package).values(), task.source.encode())
+        roots = (str(libraries.copy_named(parts, texts, CACHE)), str(package))
         (result,) = rumoca.work(CompileJob(roots, (task,)))
         if not result.problem and omc.program(""):
             (result,) = omc.work(CompileJob(roots, (task,)))

@@ -125,12 +125,12 @@ def execute(
     A child that dies gives outcomes with its last words as the error.
     """
     found = modelica_libraries.find_standard_library(library)
-    standard = modelica_libraries.standard_library_copy(found, (), CACHE)  # the part of it that robots need
-    folders = list(packages)
-    texts = [text for folder in folders for text in modelica_libraries.library_texts(folder).values()]
+    folders, whole, copied = list(packages), [own], dict(found)
     if tool == "rumoca":
-        own = modelica_libraries.own_library_copy(own, [*texts, *(task.source.encode() for task in todo)], CACHE)
-    roots, tasks = tuple(map(str, (standard, own, *folders))), []
+        whole, copied["UrdfSync"] = [], own
+    texts = [text for folder in (*folders, *whole) for text in modelica_libraries.library_texts(folder).values()]
+    copies = modelica_libraries.copy_named(copied, [*texts, *(task.source.encode() for task in todo)], CACHE)
+    roots, tasks = tuple(map(str, (copies, *whole, *folders))), []
     for task in todo:
         runs = (Simulation(run.stop, run.step, run.parameters, run.tolerance) for run in task.runs)
         tasks.append(CompileTask(task.model, task.source, tuple(runs), tuple(task.values), task.pattern))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import partial
@@ -51,23 +52,24 @@ class Jobs(msgspec.Struct, frozen=True):
         around = {path: changed.get(self.robot.output / path, content) for path, content in self.around.items()}
         own = find_own_library(LIBRARY, self.robot.target.package)
         needed = {**({LIBRARY: own} if own else {}), **self.needed.others}
-        copies: dict[str, Path] = {}
-        originals: dict[str, Path] = {}
+        top, copied = write_package(folder, self.robot, texts, around), dict[str, Path]()
+        originals = dict[str, Path]()
         """The user's folders and files, by their copies."""
-        roots: list[str] = []
+        roots = list[str]()
         if not compilers.COMPILERS[self.tool.name].HAS_STANDARD_LIBRARY:
-            others = (text for path in self.needed.others.values() for text in libraries.library_texts(path).values())
-            every = [*texts.values(), *around.values(), *others]
-            standard = libraries.standard_library_copy(self.needed.standard, every, cache)
-            roots.append(str(standard))
-            originals |= {str(standard / f"{name}.mo"): path for name, path in self.needed.standard.items()}
-            if own and not any(own in file.parents for file in changed):
-                every += [task.source.encode() for task in tasks]
-                copies[LIBRARY] = libraries.own_library_copy(own, every, cache)
-        top = write_package(folder, self.robot, texts, around)
+            copied = dict(self.needed.standard)
+            whole = dict(self.needed.others)
+            if own:
+                (whole if any(own in file.parents for file in changed) else copied)[LIBRARY] = own
+            others = (text for path in whole.values() for text in libraries.library_texts(path).values())
+            changes, sources = changed.values(), (task.source.encode() for task in tasks)
+            every = (*texts.values(), *around.values(), *others, *changes, *sources)
+            roots.append(str(libraries.copy_named(copied, every, cache)))
+            originals |= {f"{roots[0]}{os.sep}{name}.mo": path for name, path in copied.items()}
         for name, path in needed.items():
-            roots.append(_readable(copies.get(name, path), folder / ".libraries", changed))
-            originals[roots[-1]] = path
+            if name not in copied:
+                roots.append(_readable(path, folder / ".libraries", changed))
+                originals[roots[-1]] = path
         roots.append(str(top))
         originals[roots[-1]] = self.robot.output / top.name
         tasks = [_with_imports(task, needed) for task in tasks]

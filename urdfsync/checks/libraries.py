@@ -1,4 +1,4 @@
-"""Finds the Modelica libraries that a package needs, and copies the part of the MSL that robots need."""
+"""Finds the Modelica libraries that a package needs, and copies the classes of them that it names."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ import msgspec
 
 from urdfsync.answers.facts import read_unrecorded
 from urdfsync.checks.cache import UserCache, cache_errors, digest
-from urdfsync.checks.contents import RESOURCES, content_hash, copy_library, package_texts
-from urdfsync.checks.packed import packed
+from urdfsync.checks.contents import RESOURCES, content_hash, package_texts
+from urdfsync.checks.packed import Library, Piece, names_in, packed, pieces
 from urdfsync.config import Config, RobotConfig, find_own_library
 from urdfsync.diagnostics import Diagnostic, UrdfsyncError
 from urdfsync.modelica.names import LIBRARY, STANDARD_LIBRARIES
@@ -25,21 +25,11 @@ Version: TypeAlias = tuple[int, ...]
 OLDEST: Version = (4, 1)  # the oldest that the embedded compiler accepts
 NEXT: Version = (5,)  # newer versions are untested, and used only if there is no other
 
-# With a copy of these parts, the compiler takes a fifth of the time and memory of the whole library (5 s and 1.1 GB).
-_COPIED = tuple(
-    tuple(part.split("."))
-    for part in (
-        "Blocks Constants Icons Math Mechanics Units Utilities Thermal.HeatTransfer Electrical.Machines.Thermal"
-    ).split()
-)
-_LEFT_OUT = frozenset({"Examples", "UsersGuide", RESOURCES})
-_COPY_REVISION = 3  # to be raised when other parts are copied, or in another form
+_COPY_REVISION = 5  # to be raised when libraries are taken apart in another way
 
 _ANNOTATED_VERSION = re.compile(r'(?:^|,|\bannotation\s*\()\s*version\s*=\s*"(\d+(?:\.\d+)*)', re.MULTILINE)
 _NOISE = re.compile(rb'"(?:\\.|[^"\\])*"|//[^\n]*|/\*.*?\*/', re.DOTALL)
 _LIBRARY_NAME = re.compile(rb"\bimport\s+(?:\w+\s*=\s*)?\.?(\w+)|(?<![\w.\])'])\.?\b(\w+)\s*\.")
-_STANDARD_NAME = re.compile(rb"\bModelica((?:\s*\.\s*[\w*{]+)+)")
-_STANDARD_ALIAS = re.compile(rb"=\s*Modelica\s*;")
 _HINT = (
     "name the folder that holds `Modelica`, `ModelicaServices` and `Complex`, 4.1.0 or newer, with `library` in the "
     "table `[check]`, or put it on MODELICAPATH"
@@ -167,75 +157,40 @@ def library_texts(path: Path) -> Mapping[str, bytes]:
     return {path.name: read_unrecorded(path)} if path.suffix == ".mo" else package_texts(path)
 
 
-def standard_library_copy(parts: Mapping[str, Path], texts: Iterable[bytes], cache: UserCache) -> Path:
-    """Return a copy of the part of the library that robots need, or of the whole if `texts` name another part.
+def copy_named(parts: Mapping[str, Path], texts: Iterable[bytes], cache: UserCache) -> Path:
+    """Return a folder with the classes of libraries that `texts` name, and those that these need: a file for each.
 
-    It is made once for each content of the library. The whole is copied without its resources: the compiler needs all
-    parts in one folder, and reads everything in it. Raises CacheError, and as `copy_library`.
+    The compiler goes through all libraries for each model. A library is taken apart once for each of its states.
+    Raises CacheError, OutputError for a library that can't be read, and UrdfsyncError for one with bad links.
     """
-    whole = not all(map(_is_in_copy, texts))
-    key = digest(_COPY_REVISION, [content_hash(path, [RESOURCES]) for _, path in sorted(parts.items())])[:16]
-    target, top = cache.libraries / f"{'whole' if whole else 'part'}-{key}", parts["Modelica"].resolve()
-
-    def ignored(folder: str, names: list[str]) -> list[str]:
-        left_out = [name for name in names if name in (RESOURCES, "package.order") or name.startswith(".")]
-        if not whole and Path(folder).is_relative_to(top):
-            below = Path(folder).relative_to(top).parts
-            for name in names:
-                path = (*below, name.removesuffix(".mo"))
-                is_part = any(path[: len(part)] == part[: len(path)] for part in _COPIED)  # inside one, or around one
-                if path[-1] != "package" and not (is_part and _LEFT_OUT.isdisjoint(path)):
-                    left_out.append(name)
-        return left_out
-
-    _copy(parts, target, ignored, cache)
-    return target
-
-
-def own_library_copy(own: Path, texts: Iterable[bytes], cache: UserCache) -> Path:
-    """Return a copy of the library UrdfSync, without its examples unless `texts` name any.
-
-    The embedded compiler goes through all libraries for each model: examples take a fifth of its time. Raises
-    CacheError, and as `copy_library`.
-    """
-    has_examples = any(b"Examples" in _NOISE.sub(b"", text) for text in texts)
-    left_out = _LEFT_OUT - {"Examples"} if has_examples else _LEFT_OUT
-    target = cache.libraries / f"own-{digest(_COPY_REVISION, content_hash(own, left_out))[:16]}"
-    _copy({own.name: own}, target, lambda _, names: [*left_out.intersection(names), "package.order"], cache)
-    return target / f"{own.name}.mo"
-
-
-def _copy(
-    parts: Mapping[str, Path], target: Path, ignored: Callable[[str, list[str]], list[str]], cache: UserCache
-) -> None:
-    """Copy libraries to a folder of the cache, each as one file, unless they are there.
-
-    Raises CacheError, and as `copy_library`.
-    """
+    named = frozenset[str]().union(*(names_in(text.decode("utf-8", "surrogateescape")) for text in texts))
+    libraries = {name: _pieces(name, path, cache) for name, path in sorted(parts.items())}
+    copies = packed(libraries, named)
+    target = cache.libraries / digest(copies)[:16]
     with cache_errors(cache.folder):
         if not target.is_dir():
             target.parent.mkdir(parents=True, exist_ok=True)
             with tempfile.TemporaryDirectory(prefix="new-", dir=target.parent) as folder:
-                made = Path(folder) / "library"
+                made = Path(folder) / "libraries"
                 made.mkdir()
-                for name, path in parts.items():
-                    copy = Path(folder) / (f"{name}.mo" if path.suffix == ".mo" else name)
-                    copy_library(path, copy, ignored)
-                    (made / f"{name}.mo").write_text(packed(copy), "utf-8", "surrogateescape")
+                for name, text in copies.items():
+                    (made / f"{name}.mo").write_text(text, "utf-8", "surrogateescape")
                 try:
                     made.rename(target)
                 except OSError:
                     if not target.is_dir():  # else another process was faster
                         raise
         os.utime(target)  # so the cache keeps it
+    return target
 
 
-def _is_in_copy(text: bytes) -> bool:
-    """Whether the copied part of the Modelica Standard Library has all names of a text."""
-    code = _NOISE.sub(b"", text)
-    names = [tuple(re.sub(r"\s", "", name.decode()).strip(".").split(".")) for name in _STANDARD_NAME.findall(code)]
-    covered = (any(name[: len(part)] == part for part in _COPIED) and "Examples" not in name for name in names)
-    return all(covered) and not _STANDARD_ALIAS.search(code)
+def _pieces(name: str, path: Path, cache: UserCache) -> Library:
+    """Return all pieces of a library. Raises UrdfsyncError, and OutputError for one that can't be read."""
+    key = f"library-{digest(_COPY_REVISION, name, content_hash(path, [RESOURCES]))}"
+    if (found := cache.load(key, list[Piece])) is None:
+        found = pieces(name, library_texts(path))
+        cache.save(key, found)
+    return found
 
 
 def _versions(place: Path, name: str) -> list[tuple[Version, Path]]:
