@@ -9,10 +9,11 @@ import pinocchio as pin
 import pytest
 from support.urdfs import dynamics, joint, limit, link, links, robot
 
-from urdfsync.urdf.parse import xml
+from urdfsync.urdf.options import Options
 from urdfsync.urdf.parse.source import read_robot
 from urdfsync.urdf.physics.motion import GRAVITY, Course
-from urdfsync.urdf.physics.reference import Reference, read, read_place
+from urdfsync.urdf.physics.reference import Reference, read
+from urdfsync.urdf.second.reading import read_again
 
 SOURCE = """\
 <robot name="bot">
@@ -38,9 +39,10 @@ def test_both_readers_find_the_same_place_of_a_sensor() -> None:
     robot = read_robot(text, "bot.urdf").robot
     assert robot
     assert len(robot.sensors) == 8
+    again = read_again(text, Options()).sensors
     for sensor in robot.sensors:
-        place, angles = read_place(xml.parse(text).root, sensor)
-        assert [*place, *angles] == pytest.approx([*sensor.origin.xyz, *sensor.origin.rpy], abs=1e-15)
+        place, turn = (again[sensor.name].values[f"origin.{part}"].value for part in ("xyz", "rpy"))
+        assert [*place, *turn] == pytest.approx([*sensor.origin.xyz, *sensor.origin.rpy], abs=1e-15)
 
 
 def test_a_ball_of_pinocchio_has_the_freedoms_and_the_damping_of_the_joint_and_others_keep_theirs() -> None:
@@ -87,8 +89,6 @@ def test_a_sensor_at_rest_shows_the_weight_behind_it_in_its_frame(kind: str, fra
         *(link("base", 1.0), link("arm", None if is_deeper else 2.0), bodies, *joints),
         *(f'<gazebo reference="{at}">{load}</gazebo>', f'<gazebo reference="{last}">{imu}</gazebo>'),
     ).encode()
-    found = read_robot(text, "bot.urdf").robot
-    assert found
     moving = [] if kind == "fixed" else ["elbow"]
     reference = Reference(read(text, "bot.urdf", {at}), moving)
     rest = Course(0.0, 0.0, 0.0)
@@ -98,10 +98,10 @@ def test_a_sensor_at_rest_shows_the_weight_behind_it_in_its_frame(kind: str, fra
     parent, child = (arm, arm @ turned(*angles)) if is_deeper else (base, arm)
     weight = np.array([0, 0, -2 * GRAVITY])
     axes = {"child": child, "parent": parent, "sensor": child @ turned(0.3, 0.2, -0.1)}
-    root, sensors = xml.parse(text).root, {sensor.kind: sensor for sensor in found.sensors}
-    force, torque = reference.wrench(state, sensors["force_torque"], "arm" if is_deeper else "base", root)
+    sensors = read_again(text, Options()).sensors
+    force, torque = reference.wrench(state, sensors["load"], "arm" if is_deeper else "base")
     assert force == pytest.approx(axes[frame].T @ weight)
     assert torque == pytest.approx(axes[frame].T @ np.cross(child @ centre, weight))
-    gain, spin = reference.acceleration(state, sensors["imu"], root)
+    gain, spin = reference.acceleration(state, sensors["imu"])
     assert gain == pytest.approx(axes["sensor"].T @ [0, 0, GRAVITY])
     assert spin == pytest.approx([0, 0, 0])

@@ -123,15 +123,14 @@ def sensors(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
     parents, balls = {joint.name: joint.parent for joint in subject.tree.joints}, [ball.name for ball in subject.balls]
     for sensor in subject.tree.sensors:
         if SENSOR_KINDS[sensor.kind].name == "Imu":
-            outputs = SENSOR_KINDS["imu"].outputs  # all values of the component are compared
-            rows = [subject.reference.acceleration(subject.states[t], sensor, subject.root) for t in COMPARED]
+            outputs, again = SENSOR_KINDS["imu"].outputs, subject.sensors[sensor.name]
+            rows = [subject.reference.acceleration(subject.states[t], again) for t in COMPARED]
         elif sensor.at in balls:
             subject.unchecked[f"sensor {sensor.name}, in a ball: what prescribes the ball acts beside it"] = None
             continue
         elif sensor.is_in_joint:
-            outputs = SENSOR_KINDS[sensor.kind].outputs
-            at = parents[sensor.at]
-            rows = [subject.reference.wrench(subject.states[t], sensor, at, subject.root) for t in COMPARED]
+            outputs, again = SENSOR_KINDS[sensor.kind].outputs, subject.sensors[sensor.name]
+            rows = [subject.reference.wrench(subject.states[t], again, parents[sensor.at]) for t in COMPARED]
         else:
             continue
         for k, (output, modelica_unit, _) in enumerate(outputs):

@@ -1,7 +1,7 @@
 """The reference: poses, efforts, accelerations and readings of sensors of a robot by Pinocchio.
 
-Pinocchio reads the file itself. Only the parts that its reader leaves out are added here: `mimic` elements, drives, and
-the places of sensors. They are read separately, since our own reader is under test.
+Pinocchio reads the file itself. Only the parts that its reader leaves out are added here: `mimic` elements and drives.
+They are read separately, since our own reader is under test; sensors are those of the second reading.
 
 Notation as in Featherstone, Rigid Body Dynamics Algorithms (2008): efforts by the recursive Newton-Euler algorithm
 (RNEA, section 5.3). Joints that mimic others enter through q = B·p + c with the positions p of the axes, whose efforts
@@ -10,10 +10,9 @@ are Bᵀ·tau. With loops, q̇ = N(p)·ṗ and q̈ = N·p̈ + drift (see `closin
 
 from __future__ import annotations
 
-import contextlib
 from collections.abc import Collection, Mapping, Sequence
 from typing import Any, NamedTuple
-from xml.etree.ElementTree import Element, tostring
+from xml.etree.ElementTree import tostring
 
 import msgspec
 import numpy as np
@@ -27,8 +26,9 @@ from urdfsync.urdf.parse import xml
 from urdfsync.urdf.physics import motion
 from urdfsync.urdf.physics.closing import CLOSED, Closing, Reaction
 from urdfsync.urdf.physics.motion import Course
-from urdfsync.urdf.robot import Mimic, Sensor, Vector
+from urdfsync.urdf.robot import Mimic, Vector
 from urdfsync.urdf.second.gears import Gear, read_gears
+from urdfsync.urdf.second.reading import Element, origin
 
 Array = NDArray[np.float64]
 
@@ -116,38 +116,6 @@ def _with_balls(pin: Any, model: Any, balls: Collection[str]) -> Any:
         parts = frame.name, frame.parentJoint, frame.parentFrame, frame.placement, frame.type, frame.inertia
         changed.addFrame(pin.Frame(*parts), append_inertia=False)
     return changed
-
-
-def find_sensor(root: Element, sensor: Sensor) -> Element:
-    """Return the element of a sensor by its name and place; an empty one for a sensor of ros2_control."""
-    children = {
-        joint.get("name"): child.get("link") for joint in root.findall("joint") for child in joint.findall("child")
-    }
-    for holder in root:
-        for element in [holder] if holder.tag == "sensor" else holder.findall("sensor"):
-            at = holder.get("reference" if holder.tag == "gazebo" else "name")
-            for parent in element.findall("parent"):
-                at = parent.get("link") or parent.get("joint") or at
-            name = element.get("name") or f"{at} {sensor.kind}"
-            if at in (sensor.at, children.get(sensor.at)) and sensor.name in (name, f"{sensor.at}/{name}"):
-                return element
-    return Element("sensor")
-
-
-def read_place(root: Element, sensor: Sensor) -> tuple[list[float], list[float]]:
-    """Return place and angles of a sensor on its link; zeros for none."""
-    element = find_sensor(root, sensor)
-    if (origin := element.find("origin")) is not None:
-        texts = origin.get("xyz", "0 0 0"), origin.get("rpy", "0 0 0")
-        return [float(x) for x in texts[0].split()], [float(x) for x in texts[1].split()]
-    pose, values = element.find("pose"), [0.0] * 6
-    if pose is None:
-        return values[:3], values[3:]
-    if len(words := (pose.text or "").split()) == 6:
-        with contextlib.suppress(ValueError):  # the reader warns of it and takes zeros
-            values = [float(word) for word in words]
-    in_degrees = pose.get("degrees", "").strip().lower() in ("true", "1")
-    return values[:3], list(np.radians(values[3:])) if in_degrees else values[3:]
 
 
 def pinocchio() -> Any:
@@ -281,12 +249,11 @@ class Reference:
             return np.zeros(len(efforts))  # numbers without end in the source, which no simulation takes
         return np.asarray(np.linalg.lstsq(mass, efforts)[0])
 
-    def acceleration(self, state: Configuration, sensor: Sensor, root: Element) -> tuple[Array, Array]:
+    def acceleration(self, state: Configuration, sensor: Element) -> tuple[Array, Array]:
         """Return acceleration minus gravity and angular velocity at a place on a link, in the axes of the sensor."""
         pin, model = self.pin, self.model
-        place, angles = read_place(root, sensor)
-        link = model.frames[model.getFrameId(sensor.at, pin.BODY)]
-        pose = link.placement * pin.SE3(pin.rpy.rpyToMatrix(*angles), np.array(place))
+        link = model.frames[model.getFrameId(sensor.parent, pin.BODY)]
+        pose = link.placement * pin.SE3(origin(sensor))
         added = pin.Frame(f"sensor {sensor.name}", link.parentJoint, pose, pin.OP_FRAME)
         frame = model.addFrame(added, append_inertia=False)
         data = model.createData()
@@ -296,24 +263,21 @@ class Reference:
         gain = pin.getFrameClassicalAcceleration(model, data, frame, pin.LOCAL).linear - gravity
         return gain, pin.getFrameVelocity(model, data, frame, pin.LOCAL).angular
 
-    def wrench(self, state: Configuration, sensor: Sensor, parent: str, root: Element) -> tuple[Array, Array]:
+    def wrench(self, state: Configuration, sensor: Element, parent: str) -> tuple[Array, Array]:
         """Return force and torque in the joint of a sensor, below the link `parent`, in the sensor's axes."""
         pin, model = self.pin, self.model
-        data, joint = model.createData(), model.getJointId(sensor.at)
+        data, joint = model.createData(), model.getJointId(sensor.parent)
         load = self._load(data, state, state.a)
         if self.closing:
             forces = self.closing.forces(state.positions, load)
             pin.rnea(model, data, state.q, state.v, state.a, forces)
         pin.framesForwardKinematics(model, data, state.q)  # `rnea` leaves `oMi` at the identity
-        element = find_sensor(root, sensor)
-        where, way = (element.findtext(f"force_torque/{tag}", "").strip() for tag in ("frame", "measure_direction"))
-        axes = np.eye(3)
-        if where == "parent":
+        has_parents_axes, has_parents_sign = sensor.axes
+        axes = origin(sensor)[:3, :3].T
+        if has_parents_axes:
             link = data.oMf[model.getFrameId(parent, pin.BODY)].rotation
             axes = link.T @ data.oMi[joint].rotation
-        elif where == "sensor":
-            axes = pin.rpy.rpyToMatrix(*read_place(root, sensor)[1]).T
-        sign = 1 if way == "parent_to_child" else -1
+        sign = 1 if has_parents_sign else -1
         return sign * axes @ data.f[joint].linear, sign * axes @ data.f[joint].angular
 
     def solve(self, state: Configuration) -> Solution:

@@ -7,7 +7,6 @@ import itertools
 import math
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from functools import cached_property
-from xml.etree.ElementTree import Element
 
 import numpy as np
 from numpy.polynomial import Polynomial
@@ -18,12 +17,12 @@ from urdfsync.urdf.drives import assembly, sharing_joint
 from urdfsync.urdf.kinematics.poses import position_ranges, start_positions
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.options import Options
-from urdfsync.urdf.parse import xml
 from urdfsync.urdf.physics import contacts, motion
 from urdfsync.urdf.physics.closing import OpenLoopError
 from urdfsync.urdf.physics.motion import COMPARED, LOADS, Course, Instant
 from urdfsync.urdf.physics.reference import Configuration, Reference, Solution, read
 from urdfsync.urdf.robot import MOTION_KINDS, Joint
+from urdfsync.urdf.second.reading import Element, read_again
 
 _MARGIN = 0.9
 """Part of ranges and speeds that Test uses."""
@@ -39,7 +38,7 @@ class Subject:
         options: Options = sample.options
         self.assembly = closed = assembly(tree, options)
         self.tree, self.target, self.options = closed.tree, sample.target, options
-        self.root: Element = xml.parse(sample.content).root
+        self.content = sample.content
         driven = (joint for joint in motion.driven_axes(tree) if joint.name not in closed.dependent)
         self.balls = tuple(joint for joint in tree.joints if joint.type == "ball")
         self.axes = (*driven, *self.balls)
@@ -68,6 +67,11 @@ class Subject:
             self._put_down(sample.imports)
         self.states = {float(instant): self._state(instant, self.courses) for instant in Instant}
         self.solved = {time: self.reference.solve(state) for time, state in self.states.items()}
+
+    @cached_property
+    def sensors(self) -> Mapping[str, Element]:
+        """The sensors as they are read again."""
+        return read_again(self.content, self.options).sensors
 
     @cached_property
     def checked_by_robot(self) -> Collection[str]:
