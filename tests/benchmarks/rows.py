@@ -215,7 +215,7 @@ def simulate(tools: Tools) -> Iterator[Pair]:
     (place / "urdfsync.toml").write_text('[robots.arm]\nsource = "arm.urdf"\npackage = "Arm"\n')
     run(tools.urdfsync("build", "--quiet"), place)
     texts = [file.read_bytes() for file in (place / "modelica").rglob("*.mo")]
-    parts = find_standard_library() | {"UrdfSync": REPOSITORY / "modelica/UrdfSync"}
+    parts = {**find_standard_library(), "UrdfSync": REPOSITORY / "modelica/UrdfSync"}
     roots = [str(copy_named(parts, texts, UserCache.default())), str(place / "modelica/Arm")]
     direct = [str(tools.scripts / "python"), "-c", _DIRECT, *roots]
     stops = itertools.count(5.0, 1e-9)  # what was simulated before is not simulated again

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
+from typing import get_args
 
 import pytest
 from support.commands import Execute
 from support.networks import LADDER, ROBOT, configure, edit, source
 
 from urdfsync.engine.result import Exit
+from urdfsync.output.console import Format
 
 
 def test_robots_are_chosen_by_name(execute: Execute, project: Path) -> None:
@@ -55,7 +57,7 @@ def test_what_was_meant_is_said(execute: Execute) -> None:
     assert "; `urdfsync --help` says more [usage]" in execute("swim", code=2).err
 
 
-@pytest.mark.parametrize("written", ["json", "markdown", "sarif"])
+@pytest.mark.parametrize("written", sorted({*get_args(Format)} - {"text"}))
 def test_a_command_that_fails_writes_its_document(folder: Path, execute: Execute, written: str) -> None:
     printed = execute("build", "--format", written, code=Exit.ERROR)
     assert "urdfsync init" in printed.out

@@ -294,7 +294,7 @@ def refusal(modelica_library: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPa
 
     What rumoca accepts is shown to OpenModelica, where there is one.
     """
-    parts = libraries.find_standard_library() | {"UrdfSync": URDFSYNC}
+    parts = {**libraries.find_standard_library(), "UrdfSync": URDFSYNC}
     for name, value in rumoca.environment(str(CACHE.compiler), str(tmp_path)).items():
         monkeypatch.setenv(name, value)
 

@@ -30,8 +30,8 @@ GRIPPER = robot(
     *(link(name, 1.5) for name in ("arm", "slide", "wheel", "finger", "thumb")),
     link("sensor", 0.3),
     joint("bolts", "fixed", "base", "plate"),
-    joint("shoulder", "revolute", "plate", "arm", axis="0.6 0 0.8", inside=[dynamics(0.4, 0.2, 0.6)]),
-    joint("rail", "prismatic", "arm", "slide", axis="0 1 0", inside=[dynamics(3.0, 0.5, 1.1)]),
+    joint("shoulder", "revolute", "plate", "arm", axis="0.6 0 0.8", inside=[dynamics(0.4, 0.2, armature=0.6)]),
+    joint("rail", "prismatic", "arm", "slide", axis="0 1 0", inside=[dynamics(3.0, 0.5, armature=1.1)]),
     joint("mount", "fixed", "slide", "sensor"),
     joint("roll", "continuous", "sensor", "wheel", axis="1 0 0"),
     joint("press", "revolute", "slide", "thumb", axis="0 0 1", inside=[mimic("grip", -4.0, 0.3)]),
@@ -41,7 +41,7 @@ GRIPPER = robot(
         "slide",
         "finger",
         axis="1 0 0",
-        inside=[mimic("shoulder", 0.1, 0.02), dynamics(2, 0.4, 0.3)],
+        inside=[mimic("shoulder", 0.1, 0.02), dynamics(2, 0.4, armature=0.3)],
     ),
 )
 """A chain with branches; press follows grip, which comes after it, and grip follows shoulder."""

@@ -59,10 +59,11 @@ def limit(lower: float = -3, upper: float = 3, velocity: float = 10, effort: flo
     return f'<limit lower="{lower!r}" upper="{upper!r}" velocity="{velocity!r}" effort="{effort!r}"/>'
 
 
-def dynamics(damping: float, friction: float, armature: float | None = None) -> str:
-    """Losses of a joint, and what its drive adds to the inertia."""
-    more = "" if armature is None else f' armature="{armature!r}"'
-    return f'<dynamics damping="{damping!r}" friction="{friction!r}"{more}/>'
+def dynamics(damping: float, friction: float, **more: float) -> str:
+    """Losses of a joint, and other numbers of it by their attributes, such as `armature`."""
+    numbers = {"damping": damping, "friction": friction, **more}
+    words = " ".join(f'{name}="{value!r}"' for name, value in numbers.items())
+    return f"<dynamics {words}/>"
 
 
 def mimic(leader: str, multiplier: float | None = None, offset: float | None = None) -> str:

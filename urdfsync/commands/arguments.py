@@ -17,7 +17,7 @@ from urdfsync.api import load
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.engine.options import BuildOptions
-from urdfsync.output.console import Console, Format
+from urdfsync.output.console import PURPOSES, Console, Format
 from urdfsync.overview import CODES
 
 DRIVER_ERROR = 255
@@ -120,7 +120,7 @@ def add_command(commands: Commands, name: str, shared: str = "", *, formats: boo
     group = parser.add_argument_group("common options")
     group.add_argument("--config", type=Path, metavar="PATH", help="default: urdfsync.toml, here or in a folder above")
     choices = get_args(Format) if formats else ("text", "json")
-    words = "; markdown for a comment, sarif for findings at their lines" if formats else ""
+    words = "; " + ", ".join(f"{name} {purpose}" for name, purpose in PURPOSES.items()) if formats else ""
     words = f"json: one JSON document on the standard output{words} (default: text)"
     group.add_argument("--format", choices=choices, default="text", help=words)
     group.add_argument("-q", "--quiet", action="store_true", help="only errors and conflicts")

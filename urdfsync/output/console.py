@@ -13,7 +13,7 @@ import os
 import sys
 import time
 from collections import Counter
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import IO, TYPE_CHECKING, Any, Literal, TypeAlias, TypeVar
 
 import msgspec
@@ -31,6 +31,8 @@ if TYPE_CHECKING:
 R = TypeVar("R", bound=msgspec.Struct)
 Format: TypeAlias = Literal["text", "json", "markdown", "sarif"]
 """The format of the output stream."""
+PURPOSES: Mapping[Format, str] = {"markdown": "for a comment", "sarif": "for findings at their lines"}
+"""What the help says of formats."""
 FEW = 5
 """The most warnings of one code that are shown; the others are counted."""
 BAR_AFTER = 0.5

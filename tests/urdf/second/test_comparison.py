@@ -78,7 +78,7 @@ SAFE = '<safety_controller k_velocity="5" k_position="6" soft_lower_limit="-0.5"
 URDF = urdf(
     *(link("base", 3.0), link("arm", 2.0).replace("</link>", f"{SHAPES}</link>"), link("hand", 0.7), link("tip", 0.1)),
     joint("shoulder", "revolute", "base", "arm", axis="0 1 0",
-          inside=[dynamics(0.5, 0.2, 0.01), limit(-1, 2, 3, 40), SAFE, '<calibration rising="0.3"/>']),
+          inside=[dynamics(0.5, 0.2, armature=0.01), limit(-1, 2, 3, 40), SAFE, '<calibration rising="0.3"/>']),
     joint("slide", "prismatic", "arm", "hand", axis="1 2 2", inside=[limit(0, 0.5, 0.6, 70)]),
     joint("twist", "revolute", "hand", "tip", axis="0 0 1", inside=[limit(-2, 3), mimic("shoulder", 0.5, 0.1)]),
     *(CONTROL, GEAR, GROUND, IMU, WRENCH),
