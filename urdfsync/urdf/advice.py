@@ -32,7 +32,7 @@ _CAMEL = re.compile(r"(?<=[a-z0-9])(?=[A-Z])")
 
 
 def propose(robot: Robot, diagnostics: Sequence[Diagnostic]) -> Sequence[Proposal]:
-    """Guess the base, and a start if loops are at a dead point; allow the errors about parts that no model has."""
+    """Propose a base, a start if loops are at a dead point, and to allow errors about parts that no model has."""
     proposals, codes = [guess_base(robot)], {entry.code for entry in diagnostics}
     if "loop-singular" in codes and (start := assembly(KinematicTree.of(robot), Options()).proposed):
         proposals.append(Proposal("start", start, "with all joints at zero, loops are at a dead point"))
@@ -42,7 +42,7 @@ def propose(robot: Robot, diagnostics: Sequence[Diagnostic]) -> Sequence[Proposa
 
 
 def option_for(name: str, robot: Robot, target: Target, options: Options) -> str:
-    """Return the option that brings the record of the robot, a frame of a link, or a variable of Run."""
+    """Return the option that adds `name`: the record of the robot, a frame of a link, or a variable of Run."""
     if name == f"{target.name}Parameters" and "record" not in options.approach:
         return 'approach = ["package", "record"]'
     return connector_options(KinematicTree.of(robot, (target.name,)), options).get(name, "")

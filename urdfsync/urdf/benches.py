@@ -47,7 +47,7 @@ def bench(robot: Robot, target: Target, options: Options) -> Bench | None:
 
 
 def freedoms(robot: Robot, options: Options) -> int | None:
-    """Return the degrees of freedom of a robot in its bench; None if there is none."""
+    """Return the degrees of freedom of a robot in its bench; None if it has no bench."""
     if "package" not in options.approach and not has_bench(robot.joints, options):
         return None
     tree = KinematicTree.of(robot)
@@ -119,12 +119,12 @@ def numbers(sample: Sample, *packages: Mapping[str, bytes]) -> Sequence[Numbers]
 
 
 def models(robot: Robot, target: Target, options: Options) -> Sequence[str]:
-    """Return the robot, its benches, and the record if there is no robot."""
+    """Return the classes of the robot and its benches; of the record, if there is no robot model."""
     return package_models(robot.joints, target, options)
 
 
 def experiment(sample: Sample, step: float | None = None) -> Experiment | str:
-    """Return the comparison with Pinocchio, or why a robot has none, such as one with planar or floating joints."""
+    """Return the comparison with Pinocchio, or why there is none, such as for planar or floating joints."""
     from urdfsync.urdf.physics.experiment import experiment  # with numpy, which no build needs
 
     return experiment(sample, step)

@@ -42,7 +42,7 @@ class Drive(msgspec.Struct, frozen=True):
     command: Command | None
     """Variable that is the input of Run; None if Run does not drive the joint."""
     position: str | None
-    """Variable of Run; None if Run has none, or has it in the vector of all inputs."""
+    """Variable of Run for the position; None if Run has none, or has it in the vector of all inputs."""
     velocity: str | None
     """Likewise."""
     effort: str | None
@@ -124,7 +124,7 @@ def connector_names(tree: KinematicTree, options: Options) -> Connectors:
 
 
 def connector_options(tree: KinematicTree, options: Options) -> dict[str, str]:
-    """Return the option that brings each connector, and each variable of Run, that the options leave out.
+    """Return, for each connector and variable of Run that the options leave out, the option that adds it.
 
     An option is a line of the configuration.
     """
@@ -151,7 +151,7 @@ def input_vector(names: Connectors) -> str:
 
 
 def every_connector(tree: KinematicTree, options: Options) -> Connectors:
-    """Return the names for a robot with all frames and motors, and with a Run that drives all that can be driven."""
+    """Return the names for a robot with all frames and motors, and with a Run that drives all drivable joints."""
     joints = tuple(joint.name for joint in tree.joints)
     return connector_names(
         tree, msgspec.structs.replace(options, frames="all", driven=joints, inputs="names", drives="motor")
@@ -168,7 +168,7 @@ def taken_names(tree: KinematicTree) -> frozenset[str]:
 
 
 def free_name(identifier: Identifier, suffix: str, taken: frozenset[str]) -> str:
-    """Return the component's name with a suffix, and with the first free number from 2 if that is taken."""
+    """Return the component's name with a suffix; if that is taken, with the first free number from 2, too."""
     name, number = identifier.component + suffix, 2
     while name.lower() in taken:
         name, number = f"{identifier.component}{suffix}_{number}", number + 1

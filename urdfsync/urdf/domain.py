@@ -37,7 +37,7 @@ WARNINGS = frozenset(
 
 
 class _Module:
-    """A module of this package that answers further questions: loaded for the first of them, which few builds ask."""
+    """A module of this package that few builds need: it is loaded at its first use."""
 
     def __init__(self, name: str) -> None:
         self._name = f"urdfsync.urdf.{name}"
@@ -68,8 +68,8 @@ class UrdfDomain(Domain):
     def read(self, content: bytes, file: str, options: Options) -> Reading:
         """Read a URDF.
 
-        Without errors, also warn of implausible values, and of robots that can't be simulated. Names in options are
-        checked against the robot.
+        If there are no errors, also warn of implausible values, and of robots that can't be simulated. Names in options
+        are checked against the robot.
         """
         robot, diagnostics, lines, unmodelled = read_robot(content, file, options)
         if robot is None:
@@ -92,7 +92,7 @@ class UrdfDomain(Domain):
         return Reading(None if is_wrong else robot.by_name(), diagnostics, lines, tuple(about_options))
 
     def names(self, snapshot: Robot, target: Target) -> Mapping[str, Mapping[str, str]]:
-        """Return the components of links, joints, and loops if there are any."""
+        """Return the component names of links and joints, and of loops if there are any."""
         elements = {"link": snapshot.links, "joint": snapshot.joints, "loop": snapshot.loops}
         names = identify([(kind, one.name) for kind, of_kind in elements.items() for one in of_kind], (target.name,))  # type: ignore[attr-defined]
         by_kind: dict[str, dict[str, str]] = {}
@@ -103,7 +103,7 @@ class UrdfDomain(Domain):
     def artifacts(
         self, snapshot: Robot, imports: Mapping[str, Import], target: Target, options: Options
     ) -> Sequence[Artifact | Order]:
-        """Return the files of both approaches, as the options choose."""
+        """Return the files of the approaches that the options choose."""
         return package.artifacts(snapshot, imports, target, options)
 
     def dependencies(
@@ -139,7 +139,7 @@ class UrdfDomain(Domain):
     def record(
         self, reading: Reading, file: str, target: Target, options: Options
     ) -> tuple[Artifact, Sequence[Diagnostic]]:
-        """Return the record of the whole robot, and which joints the generic robot can't move."""
+        """Return the record of the whole robot, and findings about joints that the generic robot can't move."""
         robot = reading.snapshot
         findings = out_of_scope(KinematicTree.of(robot))
         return package.record(robot, target, options), located(findings, file, reading.lines)

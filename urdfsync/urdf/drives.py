@@ -1,11 +1,10 @@
 """The joints that Run and Test drive.
 
-A joint can be driven if it has one axis and follows no other joint. Passive are joints that the source only measures.
-If the source drives any joint, continuous joints without a drive and a limit, such as casters, are passive, too. Other
-joints without a drive are driven, since transmissions are often left out. A source without any drives has no passive
-joints.
+A joint can be driven if it has one axis and follows no other joint. Joints that the source only measures are passive.
+If the source drives any joint, a continuous joint with neither drive nor limit, such as a caster, is passive, too.
+Other joints without a drive are driven, since transmissions are often left out.
 
-Loops leave fewer freedoms than joints: then no more of these are driven, see `kinematics.loops.Assembly`.
+Loops leave fewer freedoms than joints. At most one joint per freedom is driven: see `kinematics.loops.Assembly`.
 """
 
 from __future__ import annotations
@@ -22,7 +21,7 @@ from urdfsync.urdf.robot import MOTION_KINDS, Joint
 def assembly(tree: KinematicTree, options: Options) -> Assembly:
     """Return the closed loops of a robot, and the joints that Run and Test drive.
 
-    These are the `wanted_joints`, as many as loops leave free.
+    The driven joints are the `wanted_joints`, but in loops at most one per freedom.
     """
     wanted = wanted_joints(tree.joints, options)
     if not tree.loops:
@@ -38,9 +37,9 @@ def assembly(tree: KinematicTree, options: Options) -> Assembly:
 def wanted_joints(joints: Iterable[Joint], options: Options) -> frozenset[str]:
     """Return the names of the joints to drive: those of the option `driven` if it is set, else all but passive ones.
 
-    A passive joint with a command in the options is driven, too. Numbers of joints do not matter: a structure without
-    numbers has the same drives. Names in the option that no drivable joint has are left out: `check_options` reports
-    them.
+    A passive joint with a command in the options is driven, too. The numbers of a joint do not matter: a structure
+    without numbers has the same drives. Names in the option that no drivable joint has are left out: `check_options`
+    reports them.
     """
     joints = list(joints)
     can = frozenset(joint.name for joint in joints if can_be_driven(joint))
@@ -67,7 +66,7 @@ def has_motor(joint: Joint, options: Options) -> bool:
 
 
 def sharing_joint(joint: Joint, drives: str) -> str | None:
-    """Return the other joint that the motor of a joint moves; None if it has neither flange nor rotor, and no gear."""
+    """Return the other joint that a joint's motor moves; None if it moves none, or has neither flange nor rotor."""
     gear = joint.transmission
     return gear.joint if gear and (drives == "motor" or gear.rotor_inertia is not None) else None
 

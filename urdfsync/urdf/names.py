@@ -1,7 +1,7 @@
-"""Turns URDF names into Modelica identifiers: only an element's own name decides.
+"""Turns URDF names into Modelica identifiers: an identifier depends only on its element's own name.
 
-Links and joints of a robot share one namespace, because both become components of the robot model. The exception are
-twins: elements whose names differ at most in case and kind. `docs/naming.md` states the rule for users.
+Twins are the exception: elements whose names differ at most in case and kind. Links and joints of a robot share one
+namespace, because both become components of the robot model. `docs/naming.md` states the rule for users.
 """
 
 from __future__ import annotations
@@ -49,11 +49,11 @@ class Identifier(msgspec.Struct, frozen=True):
     """The Modelica spellings of one link or joint."""
 
     component: str
-    """Begins with a small letter: the component in the robot model."""
+    """The component in the robot model; begins with a small letter."""
 
     @property
     def type(self) -> str:
-        """Begins with a capital letter: the class, and the stem of its file."""
+        """The class, and the stem of its file; begins with a capital letter."""
         return self.component[0].upper() + self.component[1:]
 
     @property
@@ -69,7 +69,7 @@ def is_reserved(spelling: str) -> bool:
 
 
 def spell(name: str, kind: str) -> str:
-    """Return the identifier of an element without a twin: its name, or the rest of its name with a hash."""
+    """Return the identifier of an element without a twin: its name, or the usable part of its name with a hash."""
     plain = name.replace("-", "__")
     if _PLAIN.fullmatch(name) and len(plain) <= LONGEST and not is_reserved(plain):
         return plain[0].lower() + plain[1:]
@@ -104,8 +104,8 @@ def natural_key(name: str) -> tuple[tuple[int, int, str, str], ...]:
 def identify(names: Iterable[ElementKey], taken: Iterable[str] = ()) -> Mapping[ElementKey, Identifier]:
     """Return identifiers of all links, joints and loops; no two are equal when case is folded, none is in `taken`.
 
-    Each element has three spellings; the last one is unique. It gets its first spelling that no other element has. So
-    all twins give way, and a new element never takes another one's former name.
+    Each element has three spellings; the last one is unique. It gets the first of them that no other element has. So
+    none of several twins gets its first spelling, and a new element never takes another one's former name.
     """
     spelled = {key: spell(key[1], key[0]) for key in names}
     folded, taken = {spelling.lower() for spelling in spelled.values()}, {name.lower() for name in taken}

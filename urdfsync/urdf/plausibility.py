@@ -1,6 +1,6 @@
 """Finds legal but implausible parts of a URDF: no inertia, numbers in another unit, a shape far outside of its link.
 
-The bounds leave a wide margin, since a warning about a sound robot is worse than none.
+The bounds leave a wide margin, since a warning about a sound robot is worse than no warning.
 """
 
 from __future__ import annotations
@@ -29,20 +29,23 @@ from urdfsync.urdf.validate import Finding
 _DENSEST = 10_000
 """Density of a cube as large as the robot, in kg/m³; steel has 7,900."""
 _HEAVY = 500
-"""In kg: lighter robots may be smaller than their known parts."""
+"""In kg: the density of a lighter robot is not checked, since its size is not fully known."""
 _GYRATION = 3
-"""Radius of gyration, relative to the farthest point of a body.
+"""Greatest radius of gyration, relative to the distance of a body's farthest point.
 
 Real bodies have at most 1, but shapes may be simplified.
 """
 _MARKER = 0.002
-"""In m: a shape that reaches no farther only marks a place, so that the size of the body is unknown."""
+"""In m: a shape that reaches no farther only marks a place, and the size of its body is unknown."""
 _UNKNOWN_GYRATION, _UNKNOWN_SIZE = 10, 0.5
-"""The same in relation to the robot, for bodies with a mesh or no shape, and the least size in m that counts."""
+"""Greatest radius of gyration of a body of unknown size, in lengths of the robot, and the least such length in m."""
 _FAR, _FAR_AWAY = 10, 2
-"""Distance of a shape in relation to the robot's size, and in m."""
+"""A shape is far from its link if its distance exceeds both: the first in lengths of the robot, the second in m."""
 _LONG_SLIDE, _LONGEST_SLIDE, _LONG_JOINT = 20, 5000, 50
-"""In m; the first one also in relation to the robot's size."""
+"""Limits of a slide are implausible between the first (in m, and in lengths of the robot) and the second (in m).
+
+The third is the greatest distance of a joint from its parent, in m.
+"""
 _FOUR_TURNS, _TWO_TURNS_IN_DEGREES = 8 * math.pi, 720
 _LIGHT = 0.05
 """In kg: a lighter part may only mark a place, and its inertia may be rounded to 0."""
@@ -66,7 +69,7 @@ def find_implausible(tree: KinematicTree) -> Iterator[Finding]:
 
 
 def find_length(tree: KinematicTree) -> float:
-    """Return how far the joints of a robot lead at the most, in m, straight from one to the next."""
+    """Return the length of the longest chain of a robot in m: the straight distances from joint to joint, added up."""
     distances = {tree.links[0].name: 0.0}
     for joint in tree.joints:
         distances[joint.child] = distances[joint.parent] + math.hypot(*joint.origin.xyz)
@@ -76,7 +79,7 @@ def find_length(tree: KinematicTree) -> float:
 def _check_masses(tree: KinematicTree, masses: Mapping[str, float], length: float) -> Iterator[Finding]:
     """Check that each joint moves a mass, and that the robot is no denser than steel.
 
-    `masses` are those of each link with all links behind it.
+    `masses` has, for each link, the mass of the link and of all links behind it.
     """
     total = max(masses.values())
     moving = [joint for joint in tree.joints if joint.type != "fixed"]
@@ -125,7 +128,7 @@ def _check_shapes(link: Link, length: float) -> Iterator[Finding]:
 
 
 def _check_angles(path: str, origin: Origin) -> Iterator[Finding]:
-    """Check that an orientation is no whole number of degrees: nobody turns a frame by more than a turn."""
+    """Check that an orientation is not in degrees: if it is, its angles are whole numbers, and one exceeds a turn."""
     widest = max(map(abs, origin.rpy))
     if math.tau < widest <= _TWO_TURNS_IN_DEGREES and all(angle.is_integer() for angle in origin.rpy):
         shown = " ".join(f"{angle:g}" for angle in origin.rpy)
@@ -135,7 +138,7 @@ def _check_angles(path: str, origin: Origin) -> Iterator[Finding]:
 def _check_limits(joint: Joint, length: float, mass: float) -> Iterator[Finding]:
     """Check that place and limits of a joint are plausible in SI units.
 
-    `mass` is the child link's: a joint without mass may let a robot go anywhere.
+    `mass` is the child link's mass. A slide that carries a massless link may let a whole robot go anywhere.
     """
     path, away = f"joint {joint.name}", math.hypot(*joint.origin.xyz)
     if away > _LONG_JOINT:

@@ -46,9 +46,9 @@ class JointKind(msgspec.Struct, frozen=True):
     does: str
     """Its motion in words, for the documentation of generated models."""
     motion: Motion | None = None
-    """Kind of motion of a joint with one degree of freedom: only these have flanges, mimic, and are mimicked."""
+    """Kind of motion of a joint with one degree of freedom: only such joints have flanges, mimic or are mimicked."""
     has_axis: bool = False
-    """Whether it has an axis: then damping and friction have an effect; on a ball joint damping alone."""
+    """Whether it has an axis: then damping and friction have an effect; on a ball joint, only damping has."""
     has_limits: bool = False
     """Whether its position has limits."""
 
@@ -82,9 +82,9 @@ class SensorModel(msgspec.Struct, frozen=True):
     """Its class in the library's `Sensors`."""
     at: Literal["link", "joint"] = "link"
     outputs: tuple[Output, ...] = ()
-    """Those of Run."""
+    """The outputs of Run for such a sensor."""
     has_frame: bool = False
-    """Whether the robot has a frame for what looks through it."""
+    """Whether the robot model has a connector at the sensor's frame, for a model of what the sensor sees."""
     record: str = "Sensor"
     """The class of its numbers in the library's `Records`."""
 
@@ -193,7 +193,7 @@ class Contact(msgspec.Struct, frozen=True, gc=False, rename="camel", omit_defaul
     kp: Annotated[float | None, Unit("N/m")] = None
     """Stiffness of a point."""
     kd: Annotated[float | None, Unit("N·s/m")] = None
-    """Its damping beside that of the ground."""
+    """Damping of a point, in addition to the damping of the ground."""
     min_depth: Annotated[float | None, _LENGTH] = None
     """Depth in the ground up to which a point has no force."""
 
@@ -286,7 +286,7 @@ class Joint(msgspec.Struct, frozen=True, gc=False):
     actuated: bool | None = None
     """Whether a `<transmission>`, `<ros2_control>` or plugin of the robot drives it."""
     measured: bool | None = None
-    """Whether these only measure it."""
+    """Whether such elements only measure it."""
     transmission: Transmission | None = None
     """None if there is no gear: neither reduction nor offset nor rotor."""
     command: Command | None = None
@@ -298,7 +298,7 @@ class Joint(msgspec.Struct, frozen=True, gc=False):
 class Loop(msgspec.Struct, frozen=True, gc=False):
     """A joint that closes a chain: it holds a frame of link `child` at a frame of link `parent`.
 
-    The links and joints of a robot are a tree without it. It has no drive, no limits and no losses.
+    Without loops, the links and joints of a robot form a tree. A loop has no drive, no limits and no losses.
     """
 
     name: str
@@ -349,7 +349,7 @@ def effective(joint: Joint) -> Joint:
 
 
 def structure(joint: Joint) -> Joint:
-    """Return the data of a joint in the robot model; `model.joint` has those of its own model."""
+    """Return the data of a joint on which the robot model depends; `model.joint` has those of the joint's model."""
     mimic = None if joint.mimic is None else Mimic(joint.mimic.joint)
     start = None if joint.start is None else 0.0
     return Joint(joint.name, joint.type, joint.parent, joint.child, mimic=mimic, start=start)

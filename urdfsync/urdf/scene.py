@@ -122,7 +122,7 @@ def _matrix(pose: poses.Pose) -> Pose:
 
 
 def _facts(values: msgspec.Struct, joint: Joint | None = None, label: str = "") -> Iterator[tuple[str, str]]:
-    """Yield the properties of a link or joint with their units; of several shapes the number."""
+    """Yield the properties of a link or joint with their units; for shapes, only their number."""
     for field in msgspec.structs.fields(values):
         value, name = getattr(values, field.name), f"{label}{field.name.replace('_', ' ')}"
         if isinstance(value, msgspec.Struct):

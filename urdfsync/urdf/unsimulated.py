@@ -42,7 +42,7 @@ def find_unsimulated(tree: KinematicTree, closed: Assembly, options: Options) ->
 
 
 def _has_massless_axis(tree: KinematicTree, ball: Joint) -> bool:
-    """Return whether a ball turns no inertia about an axis of its frame, or about that through its child's centre."""
+    """Return whether a ball turns no inertia about an axis of its frame, or about one through its child's centre."""
     inertial = next(link.inertial for link in tree.links if link.name == ball.child)
     for axis in (*_AXES, unit_vector(inertial.origin.xyz if inertial else _AXES[0])):
         hinge = replace(ball, type="continuous", axis=axis)
@@ -53,7 +53,7 @@ def _has_massless_axis(tree: KinematicTree, ball: Joint) -> bool:
 
 
 def out_of_scope(tree: KinematicTree) -> Iterator[Finding]:
-    """Yield each joint for which the record has no tables, or else joints that can't move freely."""
+    """Yield loops, shared rotors and joints that the generic robot lacks; if it has all, joints that move no mass."""
     if tree.loops:
         message = "the generic robot has no loops, and is open in the record"
         yield Finding("loops-not-in-record", f"loop {tree.loops[0].name}", message)

@@ -45,7 +45,7 @@ _MAGNITUDES = (
     ("negative-inertia", "dynamics", ("armature",)),
     ("negative-inertia", "transmission", ("rotor_inertia",)),
 )
-"""Codes of negative numbers, by their blocks of a joint."""
+"""Numbers of a joint that must not be negative: the finding's code, the block of the joint, and its fields."""
 
 _Element = TypeVar("_Element", Link, Joint)
 
@@ -191,7 +191,7 @@ ADVICE: Mapping[str, tuple[Severity, str]] = {
 class Finding(NamedTuple):
     """A finding about the element at `path`, which names it as a diff does: `link wheel`, `joint elbow / limit`.
 
-    The second element of a name is `link wheel #2`.
+    A second link of that name is `link wheel #2`.
     """
 
     code: str
@@ -210,7 +210,7 @@ def diagnostic(
 
 
 def check(robot: Robot, *, complete: bool = True) -> Iterator[Finding]:
-    """Check a robot with its written axes.
+    """Check a robot whose axes are as written, not yet unit vectors.
 
     `complete` is false if faulty joints or links were left out: then the number of roots has no meaning.
     """
@@ -235,7 +235,7 @@ def _check_names(kind: str, elements: Iterable[tuple[str, Link | Joint]]) -> Ite
 
 
 def check_loops(loops: Sequence[Loop], links: Collection[str]) -> Iterator[Finding]:
-    """Check that loops have unique names, frames on two existing links, and axes; one fault for each."""
+    """Check that loops have unique names, frames on two existing links, and axes. A loop gets one finding at most."""
     seen: dict[Loop, str] = {}
     for path, loop in zip(element_paths("loop", (loop.name for loop in loops)), loops, strict=True):
         same = msgspec.structs.replace(loop, name="")
@@ -256,7 +256,7 @@ def check_loops(loops: Sequence[Loop], links: Collection[str]) -> Iterator[Findi
 
 
 def perhaps(name: str, names: Collection[str], likeness: float = 0.7) -> str:
-    """Return the hint with the one of `names` most like `name`; empty without one.
+    """Return a hint with the one of `names` that is most like `name`; empty if none is alike.
 
     More than 500 names are not compared: that would take longer than the rest of the reading.
     """
@@ -287,7 +287,7 @@ def unit_vector(axis: Vector) -> Vector:
         return axis
     scaled = [value / largest for value in axis]  # else the square of a large number overflows
     length = math.hypot(*scaled)
-    # Adding 0.0 makes a zero of -0.0, which a tiny negative number becomes; equal robots then give the same text.
+    # A tiny negative number becomes -0.0; adding 0.0 makes it 0.0, so that equal robots give the same text.
     return (scaled[0] / length + 0.0, scaled[1] / length + 0.0, scaled[2] / length + 0.0)
 
 
@@ -321,7 +321,7 @@ def _check_tree(robot: Robot, joints: Iterable[tuple[str, Joint]], complete: boo
 
 
 def _as_loop(joint: Joint) -> str:
-    """Return how a joint whose child has another parent is written as a loop; nothing if no loop is of its type."""
+    """Return a hint to write a joint as a loop, since its child has another parent; empty if no loop is of its type."""
     if joint.type not in ("revolute", "continuous", "fixed"):
         return ""
     vectors = joint.origin.xyz, joint.origin.rpy, joint.axis
@@ -391,7 +391,7 @@ def principal_moments(inertia: Inertia) -> Vector:
 
 
 def _is_empty(geometry: Geometry) -> bool:
-    """Return whether a size is not positive; spheres may be points of contact, and meshes may be mirrored."""
+    """Return whether a size is not positive. A sphere may be a contact point, and a negative scale mirrors a mesh."""
     match geometry:
         case Box(size=size):
             return min(size) <= 0
@@ -406,7 +406,7 @@ def _is_empty(geometry: Geometry) -> bool:
 
 
 def _check_joint(path: str, joint: Joint) -> Iterator[Finding]:
-    """Check the axis of a joint (it has a direction), its limits (a range, and magnitudes) and its losses."""
+    """Check the axis of a joint, its limits and its losses."""
     kind, length = JOINT_KINDS[joint.type], math.hypot(*joint.axis)
     if kind.has_axis and length == 0:
         yield Finding("zero-axis", f"{path} / axis", f"{path}: the axis has no direction")

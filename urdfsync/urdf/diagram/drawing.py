@@ -21,12 +21,12 @@ Kind: TypeAlias = Literal["link", "fixed", "rotational", "translational", "free"
 _Entry: TypeAlias = tuple[Kind, str, float, int, float]
 """Entry of the legend: the kind of its icon, its text, its place (x, y), and its width."""
 
-# Size of one unit of the diagram. It grows with the robot, so that the smallest text is 10 pixels high at 100 %:
-# a viewer scrolls over a wide robot.
+# Pixels of one unit of the diagram: at 100 %, the smallest text is 10 pixels high. So the picture grows with the robot,
+# and a viewer scrolls over a wide one.
 _PIXELS = 4
 _MARGIN = 10
 _HEADER = 24  # room for the title and the names of the connectors at the top
-_FOOTER, _LEGEND = 8, 10  # above the legend, and height of each of its rows
+_FOOTER, _LEGEND = 8, 10  # space above the legend, and height of each of its rows
 _FONT, _SMALLEST = 3.6, 2.5
 _ADVANCE = 0.56  # mean width of a character, by font size
 _BEND = 2.0  # radius of the bends of flange lines: joining a bus looks unlike crossing it
@@ -153,7 +153,7 @@ def _junctions(diagram: Diagram) -> list[tuple[LineKind, Point]]:
             else:
                 upright[x1].add((y1, y2))
         for x, y in {point for path in paths for point in path}:
-            # Coordinates are even: one step beside a point lies inside a segment or outside of all.
+            # Coordinates are even, so the place one step beside a point is inside a segment or outside of all.
             sides = [(across[y], x - 1), (across[y], x + 1), (upright[x], y - 1), (upright[x], y + 1)]
             ways = [any(start < step < end for start, end in segments) for segments, step in sides]
             if sum(ways) > 2:
@@ -177,7 +177,7 @@ def _legend(kinds: Collection[Kind], start: Point, right: float) -> tuple[list[_
 
 
 def _fit(text: str, size: float, room: float) -> tuple[str, str]:
-    """Return a text and its font size. One that is longer than `room` gets smaller letters, then loses its middle."""
+    """Return a text and its font size. A text longer than `room` gets smaller letters, then loses its middle."""
     fitting = max(min(size, size * room / _width(text, size)), min(size, _SMALLEST))
     most = max(3, int(room / _width("x", fitting) + 1e-9))
     if len(text) > most:

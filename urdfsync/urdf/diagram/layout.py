@@ -2,7 +2,7 @@
 
 A chain runs from left to right and ends at the connector of its last link. One child joint of a link continues the
 link's chain: the first whose branch has more than two links and more than half as many as the largest one, else the
-first. Every other one starts a chain of its own, in a row below, in the columns that follow the link's:
+first. Every other child joint starts a chain of its own in a row below, from the link's column on:
 
     frame_a ──┬── joint ──┬── joint ──┬── joint ──┬── handFrame
               ├ link      ├ link      ├ link      └ link
@@ -13,14 +13,14 @@ first. Every other one starts a chain of its own, in a row below, in the columns
                           └ link
 
 Places stay, so that a new leaf changes few lines of the model. All rows are of one height, all columns of one width.
-The row of a chain follows from a hash of its joint's name, and from what is taken: large chains choose before small
-ones, those further left before others. So a new leaf displaces other leaves at most. That costs empty cells, and
-crossings: a chain may run between another one and the link that this starts at.
+The row of a chain follows from a hash of its joint's name, and from the rows that are free. Large chains choose before
+small ones, then those further left before others. So a new leaf displaces only other leaves. The price is empty cells
+and crossings: a chain may run between another chain and the link where that one starts.
 
 A link hangs on a short trunk at the left of its column. The lines to chains and sensors below it run down in the gap
-between two columns, on a track that no other line has there. Above a joint that can be driven stand the connectors of
-its axis and its support. A mimic coupling stands above its follower; the line from its leader runs on such a track,
-too. So does the gear of a motor that moves two joints: it stands above the first of them. A joint that closes a loop
+between two columns, on a track that no other line has there. The connectors of axis and support stand above a joint
+that can be driven. A mimic coupling stands above its follower; the line from its leader runs on such a track, too. The
+gear of a motor that moves two joints stands above the first, with such a line to the second. A joint that closes a loop
 stands below all rows, in the column of its parent; the lines from its links run down to it on tracks.
 
 Lines consist of axis-parallel segments. All coordinates are even, y points upwards.
@@ -46,7 +46,7 @@ _Cell: TypeAlias = tuple[int, int]
 _End: TypeAlias = tuple[str, str]
 """A loop and one of its frames, or a link and `below`: its joints and sensors in other rows."""
 _Spans: TypeAlias = dict[str | _End, list[int]]
-"""Places per leader, or end; its lines run from the first to the last of them."""
+"""Rows or columns by leader or end; its lines run from the first to the last of them."""
 
 PORTS: Mapping[str, Point] = {
     "frame_a": (-100, 0),
@@ -79,7 +79,7 @@ _BELOW = 44  # from a row's spine down to its end: link, its name, a gap; a sens
 _ABOVE = 20  # from a row's spine up to the connectors of its joints
 _TRUNK = 8  # from the connector of the root frame to the first trunk
 _MARGIN = 64  # from the last trunk to the right edge: a connector and its name
-_ASIDE = 8  # from an axis to the support's connector, and to the line that passes the axis's own
+_ASIDE = 8  # from an axis to the support's connector, and to the line that passes the axis's connector
 
 
 class Placement(NamedTuple):
@@ -127,7 +127,7 @@ class _Grid(NamedTuple):
     joints: Mapping[str, Point]
     """Points at which the trunk of a joint's parent meets the spine of the joint's row."""
     sensors: Mapping[str, Point]
-    """Likewise, of the link that carries the sensor."""
+    """Points at which the trunk of a sensor's link meets the row of the sensor."""
     couplings: Mapping[str, Point]
     """Middles of the couplings, by follower, and of gears, by joint."""
     detours: Mapping[str, Point]
@@ -135,7 +135,7 @@ class _Grid(NamedTuple):
     loops: Mapping[str, Point]
     """Middles of the joints that close a loop."""
     descents: Mapping[_End, int]
-    """Where, from left to right, lines run down in the gaps between columns."""
+    """The x at which the lines of an end run down in the gap between columns."""
     top: int
     right: int
     bottom: int
@@ -153,10 +153,10 @@ def layout(tree: KinematicTree, names: Connectors) -> Diagram:
 
 
 def find_rows(starts: Mapping[str, tuple[int, range]], taken: set[_Cell]) -> dict[str, int]:
-    """Return a row for each name, at or below its first one, in which its columns are free; these are taken then.
+    """Return a row for each name, at or below its first one, in which its columns are free; their cells become `taken`.
 
-    A hash of the name chooses among one row, then two, three and ever more. First all try their first choice, then the
-    others their second one: so a new name displaces few, and these find a place where they displace none.
+    A hash of the name chooses among one row, then two, three and ever more. First all names try their first choice,
+    then those without a row try their second. So a new name displaces few others, and these hardly any more.
     """
     rows: dict[str, int] = {}
     waiting = [
@@ -260,7 +260,7 @@ class _Cells(NamedTuple):
     """A joint stands in its parent's column and in its child's row."""
     sensors: Mapping[str, _Cell]
     below: list[tuple[str, int]]
-    """Links, and the rows of their joints and sensors there."""
+    """Links with joints or sensors in rows below, each with such a row."""
 
 
 def _cells(tree: KinematicTree) -> _Cells:
@@ -292,7 +292,7 @@ def _cells(tree: KinematicTree) -> _Cells:
             links[link] = row, columns[link]
 
     def rank(joint: Joint) -> tuple[bool, int]:
-        """A chain goes after the one that it starts at: this one is large if it is, and begins further left."""
+        """Rank a chain after the one that it starts at: that one is large if this one is, and begins further left."""
         return not is_large[joint.name], columns[joint.parent]
 
     start(0, root)
@@ -412,7 +412,7 @@ def _lines(
         route(drive.motion, support, drive.support, (x, y + 2), (place(drive.support)[0], y + 2))
         if drive.motor and drive.gear:
             route("rotational", f"{drive.gear}.flange_a", drive.motor)
-        elif drive.motor:  # its connector stands above the axis's: the line passes it
+        elif drive.motor:  # the motor's connector stands above the axis's, which the line passes
             route("rotational", motor, drive.motor, (place(motor)[0], place(drive.motor)[1]))
 
     def route_axis(start: str, joint: str, *bends: Point) -> None:
@@ -420,7 +420,7 @@ def _lines(
         axis, y = f"{tree.joint(joint).component}.axis", (place(start), *bends)[-1][1]
         x, end_y = place(axis)
         down: list[Point] = [(x, y)]
-        if joint in names.drives:  # its connector stands above the axis: pass it, and the line of its motor
+        if joint in names.drives:  # pass the connector above the axis, and the line of the motor
             aside = x + _ASIDE + (_TRACK if names.drives[joint].motor else 0)
             down = [(aside, y), (aside, end_y + 2), (x, end_y + 2)]
         route(motions[joint], start, axis, *bends, *down)
@@ -442,7 +442,7 @@ def _has_starts(tree: KinematicTree) -> bool:
 
 
 def _tracks(spans: _Spans) -> dict[str | _End, int]:
-    """Number the tracks of a channel, from 0: each span gets the first one on which it touches none before it."""
+    """Number the tracks of a channel, from 0: each span gets the first track on which it touches no earlier span."""
     assigned: dict[str | _End, int] = {}
     tracks: list[list[tuple[int, int]]] = []  # the spans on each, in order
     for key, places in spans.items():

@@ -92,7 +92,7 @@ def _mass(tree: KinematicTree) -> tuple[float, Vector | None]:
 
 
 def find_doubtful(old: Version, new: Version, renames: Mapping[ElementKey, str]) -> Iterator[tuple[str, Diagnostic]]:
-    """Yield one warning, at the first of all links that have ten times their mass, or a tenth of it."""
+    """Yield one warning, at the first link, if links have at least ten times their old mass, or at most a tenth."""
     before = {renames.get(("link", link.name), link.name): link.inertial for link in old.snapshot.links}
     jumps = []
     for link in new.snapshot.links:

@@ -1,7 +1,7 @@
 """Classifies the differences of two robots, and names them in the words of URDF.
 
-To classify a difference, only this value is exchanged in the data of templates. It is structural if data of models
-differ then, a parameter if only data of records do, and else unmodelled.
+To classify a difference, only its value is exchanged in the data of templates. The difference is structural if the data
+of models change, a parameter if only the data of records do, and else unmodelled.
 """
 
 from __future__ import annotations
@@ -27,13 +27,13 @@ _Fields: TypeAlias = Sequence[str | int]
 
 _SHAPES = ("visuals", "collisions")
 _STRUCTURE = ("kind", "at", "in_parent", "on_child", "parent", "child")
-"""Fields of sensors and loops in models."""
+"""Fields of sensors and loops on which models depend."""
 _UNSCALED = lookup.key(Mesh(""))
 """End of the key of a mesh without a scale."""
 
 
 class _Side(NamedTuple):
-    """One version, under the names of the new one."""
+    """One version of the robot; its elements have their names in the new version."""
 
     links: Mapping[str, Link]
     joints: Mapping[str, Joint]
@@ -41,7 +41,7 @@ class _Side(NamedTuple):
 
 
 def describe(old: Version, new: Version, renames: Mapping[ElementKey, str], options: Options) -> Iterator[Change]:
-    """Yield the changes of robots, but for those that others explain."""
+    """Yield the changes of a robot, except those that other changes explain."""
     sides = [
         _Side({link.name: link for link in robot.links}, {joint.name: joint for joint in robot.joints}, imports)
         for robot, imports in ((renamed(old.snapshot, renames), old.imports), (new.snapshot, new.imports))
@@ -65,8 +65,8 @@ def _describe(difference: Difference, old: _Side, new: _Side, options: Options) 
                 _path(words), _reach(old.links[name], new.links[name], difference, old, new, options), _unit(fields)
             )
         case ("joints", str(name), "drive"):
-            # An added or removed drive follows from type or mimic, which is reported itself. With the option `driven`,
-            # the source does not decide it.
+            # An added or removed drive follows from a changed type or mimic, which is reported itself. With the option
+            # `driven`, the source does not decide on drives.
             by_source = options.driven is None and "package" in options.approach
             is_change = by_source and difference.kind is ChangeKind.CHANGED
             return difference.change((f"joint {name}", "drive"), ChangeClass.STRUCTURAL) if is_change else None
@@ -120,7 +120,7 @@ def _unit_of(field: str) -> Unit | None:
 
 
 def _unit(fields: _Fields, motion: str | None = None) -> str:
-    """Return the unit of a number, of a joint by its kind of motion."""
+    """Return the unit of a number; `motion` is the kind of motion of its joint."""
     unit = next((_unit_of(field) for field in reversed(fields) if isinstance(field, str)), None)
     if unit is None or (unit.sliding is not None and motion is None):
         return ""
@@ -128,7 +128,7 @@ def _unit(fields: _Fields, motion: str | None = None) -> str:
 
 
 def _joint_unit(name: str, joints: Mapping[str, Joint], fields: _Fields) -> str:
-    """Return the unit of a number of a joint; `joints` are all of the version: a multiplier depends on its leader.
+    """Return the unit of a number of a joint; `joints` are all of its version: a multiplier needs its leader.
 
     Losses of a planar joint have no unit: one number stands for sliding and turning.
     """
@@ -161,7 +161,7 @@ def _reach(
 
 
 def _exchanged(value: Any, other: Any, fields: _Fields) -> Any:
-    """Return `value` with a part of `other`: the smallest common part around the place `fields`."""
+    """Return `value` with one part taken from `other`: the smallest part around the place `fields` that both have."""
     if not fields or type(value) is not type(other):
         return other
     field, *inside = fields
@@ -174,7 +174,7 @@ def _exchanged(value: Any, other: Any, fields: _Fields) -> Any:
 
 
 def _data(element: Link | Joint, imports: Mapping[str, Import] | None, options: Options) -> tuple[Any, Any]:
-    """Return the data of models, and those of records, of an element; without `imports` all meshes count as found."""
+    """Return the data of an element's model and of its record; without `imports` all meshes count as found."""
     if isinstance(element, Joint):
         joint = effective(element)
         return (structure(joint), joint_model(joint, options, can_be_driven(joint))), joint
@@ -195,9 +195,9 @@ def _mesh_keys(link: Link) -> set[str]:
 
 
 def _of_import(difference: Difference, key: str, old: _Side, new: _Side, options: Options) -> Change | None:
-    """Return the change to another content of a mesh; None if no link has it in both versions.
+    """Return the change of a mesh's content; None if no link has the mesh in both versions.
 
-    A further file of a mesh belongs to its first one.
+    The further files of a mesh count with its first one.
     """
     imports = {name: file for name, file in (old.imports or {}).items() if not name.startswith(key)}
     imports |= {name: file for name, file in (new.imports or {}).items() if name.startswith(key)}

@@ -1,4 +1,4 @@
-"""What links, joints and loops are found again by, and robots under new names."""
+"""Finds the features by which renamed links, joints and loops are recognised, and renames them in a robot."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _NAMES = frozenset(
 )
 """Entries of joints and loops that are names, or follow from names elsewhere, such as those of the configuration."""
 _Said: TypeAlias = tuple[Any, Mapping[str, str]]
-"""An element, and what else is said of it."""
+"""An element, and further facts about it."""
 _KINDS = ("links", "joints", "sensors", "loops")
 _ENDS = {"parent": "link", "child": "link", "joint": "joint"}
 """Fields that name another element, and its kind."""
@@ -62,7 +62,7 @@ def _without_names(value: Any) -> Any:
 
 
 def renamed(robot: Robot, renames: Mapping[ElementKey, str]) -> Robot:
-    """Return the robot with other names of links, joints and loops, and without `displaced` ones."""
+    """Return the robot with its links, joints and loops renamed, and without `displaced` ones."""
     gone = displaced(renames)
 
     def new(kind: str, name: str) -> str:
@@ -98,7 +98,7 @@ def renamed(robot: Robot, renames: Mapping[ElementKey, str]) -> Robot:
 def comparable(
     old: Robot, new: Robot, renames: Mapping[ElementKey, str]
 ) -> tuple[Mapping[str, Any], Mapping[str, Any]]:
-    """Return the elements of two robots that differ as plain data by kind and name, with extensions keyed.
+    """Return the elements in which two robots differ, as plain data by kind and name; extensions have keys.
 
     Each joint that can be driven has an entry `drive` in place of `actuated` and `measured`: `driven` or `passive`, by
     the source. A transmission can change it for joints that the transmission does not name.
@@ -108,7 +108,7 @@ def comparable(
 
 
 def _elements(robot: Robot, renames: Mapping[ElementKey, str]) -> dict[tuple[str, str], _Said]:
-    """Return each element of a robot, and what else is said of it, by kind and new name."""
+    """Return each element of a robot, with further facts about it, by kind and new name."""
     passive, new = passive_joints(robot.joints), renamed(robot, renames) if renames else robot
     drives = {
         renames.get(("joint", joint.name), joint.name): {"drive": "passive" if joint.name in passive else "driven"}
@@ -131,7 +131,7 @@ def _differing(elements: Mapping[tuple[str, str], Any], others: Mapping[tuple[st
 
 
 def _keyed(tags: Mapping[str, Sequence[str]]) -> Mapping[str, Any]:
-    """Return texts of extensions by `tag name`, with a number from 2 on for repeated keys."""
+    """Return texts of extensions by `tag name`; repeated keys are numbered from 2."""
     result: dict[str, str] = {}
     counts: Counter[str] = Counter()
     for tag, texts in tags.items():

@@ -1,1 +1,1 @@
-"""A robot as a tree: its canonical order, poses of links, joints that move no mass, and a guess of its base."""
+"""A robot as a tree: its canonical order, poses of links, closed loops, loads, and joints that move no mass."""

@@ -1,8 +1,9 @@
 """Closes the loops of a robot: finds its start pose, its freedoms, and the equations and states of its model.
 
-Generic poses are closed poses near the start, reached by small motions of all joints: only there the rank of the
-constraints is that of the mechanism. Numbers are compared without units: lengths of a loop are divided by its size.
-Choices have a fixed order and one tolerance, and the start is refined in decimals: all machines give the same result.
+Generic poses are closed poses near the start, reached by small motions of all joints. There the constraints have the
+rank of the mechanism; at the start it may be lower. Numbers are compared without units: lengths of a loop are divided
+by its size. All machines give the same result: choices have a fixed order and one tolerance, and the start is refined
+in decimals.
 """
 
 from __future__ import annotations
@@ -34,17 +35,17 @@ from urdfsync.urdf.robot import MOTION_KINDS, Joint, Loop, Vector
 from urdfsync.urdf.validate import Finding
 
 _PARALLEL = 1e-4
-"""Angle between axes that are meant to be parallel, in rad: exporters write 1.5708."""
+"""Greatest angle between axes that are meant to be parallel, in rad: exporters write 1.5708 for π/2."""
 _INDEPENDENT = 1e-3
-"""Least part of a row or column, without units, that others do not cancel.
+"""A row or column, without units, is independent if others leave a part of it that is longer than this.
 
-It is above the part that `_PARALLEL` leaves.
+Axes that are meant to be parallel leave a shorter part.
 """
 _CLOSED = 1e-4
 """Greatest gap of a closed loop, in m."""
 _CLOSED_ANGLE = 1e-3
 _AMPLITUDES = (0.4, 0.2, 0.1, 0.05)
-"""Motions to generic poses, in rad; the first closable one counts."""
+"""Sizes of the motions to generic poses, in rad, tried in this order."""
 _POSES = 3
 _STEPS = 16
 """Steps of the way along which Test moves the driven joints."""
@@ -72,10 +73,10 @@ class _Problem(Mechanism):
         levers = np.linalg.norm(poses[None, 1:, :3, 3] - self.frames(poses)[1][:, None, :3, 3], axis=2)
         sizes = (levers * (self.signs != 0) * self.turns.T).max(axis=1)
         self.sizes = np.where(sizes > 0, sizes, 1.0)
-        """Of each loop, the distance from its frames to the farthest axis; 1 without axes."""
+        """For each loop, the distance from its frames to the farthest axis; 1 without axes."""
         self.units = np.ones(len(limits))
         for k, joint in enumerate(self.independent):
-            if joint.type == "prismatic":  # it may move by the size of its first loop
+            if joint.type == "prismatic":  # its unit is the size of its first loop
                 self.units[k] = self.sizes[np.argmax(self.moves[:, k])]
         self.work = 0
 
@@ -90,10 +91,10 @@ class _Problem(Mechanism):
         return self.scaled(q, rows)[1]
 
     def close(self, start: Array, rows: Rows, free: Array | None = None, *, bounded: bool = True) -> Array:
-        """Return the pose with the least residuals near a start, by Levenberg's method with the free joints.
+        """Return the pose near a start with the least residuals, by Levenberg's method; only the free joints move.
 
-        Directions in which the equations of the kinds are dependent do not count: residuals of inexact numbers stay
-        there.
+        The `whole` equations depend on each other. Joints do not move along directions that hardly change these:
+        inexact numbers leave residuals there.
         """
         least = _INDEPENDENT**2 if rows is self.whole else 1e-12  # chosen rows are independent
         q, caution, lower, upper = start, 1.0, self.lower, self.upper
@@ -127,11 +128,11 @@ class _Problem(Mechanism):
         return q
 
     def openness(self, q: Array) -> float:
-        """Return the largest residual of the equations of the kinds."""
+        """Return the largest residual of the `whole` equations."""
         return float(np.abs(self.scaled(q, self.whole)[0]).max())
 
     def parts(self, held: Array) -> Iterator[tuple[_Problem, Array]]:
-        """Yield the loops that share joints which are not held, as problems of their own with the columns of joints."""
+        """Yield each group of loops that share joints which are not held: a problem, with the columns of its joints."""
         labels, names = np.arange(len(self.loops)), [joint.name for joint in self.independent]
         for shared in self.moves[:, ~held].T:
             labels[np.isin(labels, labels[shared])] = labels[shared].min(initial=len(labels))
@@ -156,19 +157,19 @@ class _Problem(Mechanism):
 
 
 class _UnclosableError(Exception):
-    """Stops an assembly; without faults, it would take too long."""
+    """Stops an assembly; if there are no faults, the assembly would take too long."""
 
     def __init__(self, *faults: Finding) -> None:
         self.faults = faults
 
 
-# A build asks ten times, for two versions, and one takes 40 ms.
+# A build calls this ten times, for two versions, and a call takes 40 ms.
 @functools.lru_cache(maxsize=2)
 def assemble(tree: KinematicTree, wanted: frozenset[str], named: frozenset[str]) -> Assembly:
     """Close all loops of a robot near its start, or report why that is impossible.
 
-    `wanted` joints shall be driven; the source or the options name `named` of them as drives. If none of these is in a
-    loop, independent wanted ones are driven: first those whose names say so, then those with a limit of effort.
+    `wanted` joints shall be driven; the source or the options name the `named` joints as drives. If no named joint is
+    in a loop, independent wanted ones are driven: first those with names of motors, then those with a limit of effort.
     """
     try:
         with np.errstate(all="ignore"):  # huge numbers overflow, and NaN counts as not closed
@@ -217,7 +218,7 @@ def _assemble(tree: KinematicTree, wanted: frozenset[str], named: frozenset[str]
         if k not in driven:
             raise _singular(tree.loops[np.argmax(problem.moves[:, k])], f"joint {names[k]!r} is at a dead point")
     states = _with_others(freedom, driven)
-    kept += driven  # the start of these has few digits
+    kept += driven  # the driven joints, too, keep starts of few digits
     exact = _with_others(freedom, [kept[k] for k in _independent([freedom[kept]])])
     free = np.array([k not in exact for k in range(len(names))])
     q = np.where(np.abs(closed - problem.start) > 1e-9, np.round(closed, 9), problem.start)
@@ -249,14 +250,14 @@ def _assemble(tree: KinematicTree, wanted: frozenset[str], named: frozenset[str]
 
 
 def _given_limits(limits: tuple[float, float]) -> tuple[float, float]:
-    """Return limits, and none if they are equal: both are zero if an exporter leaves them out."""
+    """Return the limits; infinite ones if both are equal, since some exporters write zero for both."""
     return (-math.inf, math.inf) if limits[0] == limits[1] else limits
 
 
 def _spectrum(matrix: Array) -> tuple[Array, Array]:
-    """Return the squares of the singular values, smallest first, and their directions of columns.
+    """Return the squares of the singular values, smallest first, and their right singular vectors as columns.
 
-    For 40 joints on a busy machine, `numpy.linalg.svd` takes 50 ms, by its threads, and this half a millisecond.
+    For 40 joints on a busy machine, this takes half a millisecond; `numpy.linalg.svd` takes 50 ms, due to its threads.
     """
     squares, directions = np.linalg.eigh(matrix.T @ matrix)
     return squares, directions
@@ -288,7 +289,7 @@ def _null_space(matrix: Array) -> Array:
 
 
 def _with_others(space: Array, states: Sequence[int]) -> list[int]:
-    """Return states and further ones, until nothing else can move; each moves nearly as freely as any other one."""
+    """Return the states, and add joints until no other one can move; each added one moves nearly as freely as any."""
     states = list(states)
     while len(states) < space.shape[1]:
         held = space[states]
@@ -354,14 +355,14 @@ def _rank(joint: Joint) -> int:
 
 
 def _reason(ranks: Mapping[int, int], k: int) -> str:
-    """Return the reason to drive a joint; what holds for all joints is none."""
+    """Return the reason to drive a joint; a reason that holds for all joints does not count."""
     return _REASONS[ranks[k] if ranks[k] < max(ranks.values()) else -1]
 
 
 def _find_regular_start(tree: KinematicTree, wanted: frozenset[str], named: frozenset[str]) -> dict[str, float]:
-    """Return positions of joints, not far away, where loops are regular that are singular at the start.
+    """Return positions of joints near the start at which no loop is singular.
 
-    Only joints of singular loops move. Empty if a few poses do not have such loops.
+    Only joints of loops that are singular at the start move. Empty if none of the few tried poses is regular.
     """
     problem, start = _Problem(tree), dict[str, float]()
     names = [joint.name for joint in problem.independent]
@@ -391,7 +392,7 @@ def _motions(count: int, number: int = 4) -> list[Array]:
 
 
 def _closed_near(problem: _Problem, drives: Sequence[int]) -> tuple[Array, list[int]]:
-    """Return a closed pose near the start, and the joints that stay there exactly.
+    """Return a closed pose near the start, and the joints that stay at the start exactly.
 
     All joints with a given start stay if that is possible, else as many as possible. Other drives stay if the loops can
     be closed nearby. Raises an error with the loops that cannot be closed.
@@ -403,7 +404,7 @@ def _closed_near(problem: _Problem, drives: Sequence[int]) -> tuple[Array, list[
         given = tuple(sorted(given, key=lambda at: at not in driven))
         both = tuple(dict.fromkeys((*given, *driven)))
         opened = dict[Sequence[int], list[tuple[_Problem, Array]]]()
-        # a far pose is worse than drives that move, and better than none
+        # a far pose is worse than moved drives, and better than no pose
         for held, most in dict.fromkeys(((both, 1), (given, None), (driven, 1), ((), None), (driven, None))):
             closed, opened[held] = _search(part, held, most)
             if not opened[held]:
@@ -418,7 +419,7 @@ def _closed_near(problem: _Problem, drives: Sequence[int]) -> tuple[Array, list[
 
 
 def _keep(part: _Problem, held: Sequence[int], given: Sequence[int], closed: Array) -> tuple[list[int], Array]:
-    """Hold also as many of the given joints as possible, one after the other; return all and the closed pose."""
+    """Hold as many more of the given joints as possible, one by one; return all held joints and the closed pose."""
     kept = [*held]
     for k in given if not set(given).issubset(held) else []:
         squares, directions = _spectrum(part.jacobian(closed, part.whole))
@@ -435,9 +436,9 @@ def _keep(part: _Problem, held: Sequence[int], given: Sequence[int], closed: Arr
 def _search(
     problem: _Problem, held: Sequence[int], most: int | None = None
 ) -> tuple[Array, list[tuple[_Problem, Array]]]:
-    """Return a closed pose within limits with some joints at the start; also the loops that stay open, in their pose.
+    """Return a closed pose within limits, the `held` joints at the start; also the open loops, in their best poses.
 
-    Loops that share no other joint are closed one by one, each from `most` poses.
+    Loops that share no other joint are closed one by one, each from `most` poses at most.
     """
     q, open_parts = problem.start.copy(), list[tuple[_Problem, Array]]()
     is_held = np.zeros(len(q), bool)
@@ -455,7 +456,7 @@ def _search(
 
 
 def _generic_poses(problem: _Problem, closed: Array) -> list[Array]:
-    """Return closed poses around one, without regard to limits; this one if there are no others."""
+    """Return closed poses around the closed pose, without regard to limits; only this pose if none is found."""
     motions = [size * motion * problem.units for size in _AMPLITUDES for motion in _motions(len(closed))]
     poses = (problem.close(closed + motion, problem.whole, bounded=False) for motion in motions)
     near = (q for q in poses if problem.openness(q) < 3 * _CLOSED_ANGLE)
@@ -473,7 +474,7 @@ def _refine(tree: KinematicTree, problem: _Problem, q: Array, rows: Rows, free: 
 
 
 def _reach(problem: _Problem, q: Array, rows: Rows, driven: Sequence[int], free: Array) -> Mapping[str, float]:
-    """Return the longest ways of the driven joints, along the way that Test takes."""
+    """Return how far Test can move each driven joint when all of them move at once."""
     joints = problem.independent
     reach = {k: _SWEEP[MOTION_KINDS[joints[k].type]] for k in driven}
     while True:  # ends: each joint changes its side once at most
@@ -495,7 +496,7 @@ def _way(joint: Joint, start: float, reach: float) -> float:
 
 
 def _follow(problem: _Problem, q: Array, rows: Rows, ways: Mapping[int, float], free: Array) -> int:
-    """Return the number of steps along the ways with closed, regular loops within limits."""
+    """Return the number of steps along the ways before a loop opens or is singular, or a joint leaves its limits."""
     way, start, at = np.zeros(len(q)), q, q
     for k, value in ways.items():
         way[k] = value
@@ -515,7 +516,7 @@ def _least(matrix: Array) -> float:
 
 
 def _check_joints(mechanism: Mechanism) -> None:
-    """Raise an error for loops that nothing moves, and for joints in loops with more than one freedom."""
+    """Raise an error for loops that no joint moves, and for planar and floating joints in loops."""
     faults = []
     for loop, path, moves in zip(mechanism.loops, mechanism.paths, mechanism.moves, strict=True):
         free = [j for j in mechanism.joints if j.name in path and j.type in ("planar", "floating")]
@@ -537,7 +538,7 @@ def _open_loops(problem: _Problem, q: Array) -> Iterator[tuple[Loop, Gap]]:
 
 
 def _find_open(problem: _Problem, q: Array) -> Iterator[Finding]:
-    """Yield why loops stay open: of several ones, those that no pose closes alone, if there are any."""
+    """Yield why loops stay open. If some of several loops cannot even be closed alone, only these are reported."""
     singles = [_Problem(replace(problem.tree, loops=(loop,))) for loop in problem.loops if len(problem.loops) > 1]
     if alone := [found for single in singles for found in _search(single, [])[1]]:
         for part, best in alone:

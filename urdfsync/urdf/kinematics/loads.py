@@ -32,7 +32,7 @@ _QUARTER = math.pi / 2
 def find_extremes(tree: KinematicTree) -> tuple[float | None, Mapping[str, float]]:
     """Return the distance of the farthest link frame from the root's, and the greatest load of each joint with an axis.
 
-    For a robot with loops, which close in few of the poses: None, and no loads.
+    A robot with loops, which close in few of the poses, gives None and no loads.
     """
     if tree.loops:
         return None, {}
@@ -87,7 +87,7 @@ def positions(joint: Joint, lower: float, upper: float, start: float) -> list[fl
 
 
 def find_grids(tree: KinematicTree) -> Iterator[tuple[Sequence[Joint], Sequence[Array]]]:
-    """Yield the joints of each branch, and their positions in all poses of a grid; one if it stands still."""
+    """Yield the joints of each branch, and their positions in all poses of a grid, or one if they stand still."""
     towards = {joint.child: joint for joint in tree.joints}
     starts, ranges = start_positions(tree), position_ranges(tree)
     for leaf in tree.leaves():
@@ -140,6 +140,6 @@ def _sum(moments: Sequence[_Moment]) -> _Moment:
 
 
 def _placed(at: Pose, moment: _Moment) -> _Moment:
-    """Return a moment in the frame around the one at a pose."""
+    """Return a moment, given in the frame at a pose, in the frame in which the pose is given."""
     rotation, place = map(np.array, at)
     return moment[0], rotation @ moment[1] + moment[0] * place

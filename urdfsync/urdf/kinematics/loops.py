@@ -14,7 +14,7 @@ from urdfsync.urdf.robot import Vector
 from urdfsync.urdf.validate import Finding
 
 NOTABLE = 1e-5
-"""Least reported gap of the source's start and motion of a joint, in m and rad: above rounding in exports."""
+"""Smaller gaps at the source's start and smaller motions of joints are not reported, in m and rad: exports round."""
 
 
 class Gap(msgspec.Struct, frozen=True):
@@ -53,26 +53,25 @@ class Assembly(msgspec.Struct, frozen=True, kw_only=True):
     joints: tuple[str, ...] = ()
     """Joints whose motion the loops restrict, with the leaders of followers, in canonical order."""
     states: tuple[str, ...] = ()
-    """Of `joints`, one for each freedom: driven ones, then others.
+    """Of `joints`, one for each freedom: driven ones, then others. All other joints follow from these.
 
-    All others follow from them. Their number is that of joints without followers, less the rank of the constraints at
-    generic poses.
+    They are as many as the joints that follow no other joint, less the rank of the constraints at generic poses.
     """
     excess: tuple[str, ...] = ()
-    """Named drives that are not driven, since others move the loops already."""
+    """Joints that are named as drives but not driven, since others move the loops already."""
     reach: Mapping[str, float] = {}
-    """Longest way in Test of each driven one of `joints`, so that the loops stay closed when all move at once."""
+    """How far Test moves each driven one of `joints` at most: the loops stay closed when all move at once."""
     closures: Mapping[str, Closure] = {}
     gaps: Mapping[str, Gap] = {}
-    """Of the start of the source."""
+    """The gap of each loop at the start of the source."""
     moved: Mapping[str, str] = {}
-    """Joints with a given start that begin elsewhere, and how far from it they do, in words."""
+    """Joints that do not begin at their given start, each with the distance in words."""
     choices: Mapping[str, str] = {}
-    """Of `joints`, the driven ones if neither source nor options name any, with the reason of the choice."""
+    """The driven ones of `joints` with the reason for each, if neither source nor options name any."""
     faults: tuple[Finding, ...] = ()
-    """Why the loops can't be closed: then there are only the unchanged robot and the drives."""
+    """Why the loops can't be closed. If they can't, the tree is unchanged, and only `driven` and `proposed` are set."""
     proposed: Mapping[str, float] = {}
-    """If the loops are singular at the start, positions of joints where they are not, if there are any nearby."""
+    """If loops are singular at the start: nearby positions of joints at which no loop is; empty if none are found."""
 
     @property
     def dependent(self) -> frozenset[str]:

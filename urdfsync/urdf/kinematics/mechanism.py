@@ -32,7 +32,7 @@ class Rows(NamedTuple):
     """
 
     loops: Array
-    """Numbers of the loops."""
+    """For each equation, the number of its loop."""
     u: Array
     v: Array
     products: Array
@@ -52,14 +52,14 @@ class Rows(NamedTuple):
 class Mechanism:
     """The joints between the root and the frames of all loops; `dtype` is float, or object for decimals.
 
-    The positions of the `independent` joints give the poses: these joints move a loop, and follow no other joint.
+    The `independent` joints move a loop, and follow no other joint. Their positions determine all poses.
     """
 
     def __init__(self, tree: KinematicTree, dtype: type = float) -> None:
         by_child, on_paths = {joint.child: joint for joint in tree.joints}, joints_of_loops(tree)
         paths = [[{*_path(by_child, link)} for link in (loop.parent, loop.child)] for loop in tree.loops]
         self.paths = [parent ^ child for parent, child in paths]
-        """Of each loop, the joints from frame to frame."""
+        """For each loop, the joints from one of its frames to the other."""
         self.loops = tree.loops
         self.joints = [joint for joint in tree.joints if joint.name in on_paths]
         index = {joint.child: k for k, joint in enumerate(self.joints, 1)}
@@ -71,7 +71,7 @@ class Mechanism:
         self.turns, self.slides = (np.array([motion == kind for motion in motions], int)[:, None] for kind in MOTIONS)
         signs = [[(j.name in child) - (j.name in parent) for j in self.joints] for parent, child in paths]
         self.signs = np.array(signs, int).reshape(len(paths), -1) * (self.turns + self.slides).T
-        """Of each loop, 1 for joints that move the child's frame against the parent's, -1 the other way round."""
+        """For each loop, 1 for joints that move the child's frame against the parent's, -1 the other way round."""
         self._links = np.array([[index.get(loop.parent, 0), index.get(loop.child, 0)] for loop in tree.loops]).T
         self._frames = [_poses([loop.origin for loop in tree.loops], dtype)]
         self._frames += [_poses([loop.child_origin for loop in tree.loops], dtype)]
@@ -87,7 +87,7 @@ class Mechanism:
                 gears[k, column[leader]], offsets[k] = multiplier, offset
         self._gears, self._offsets = array_of(gears, dtype), array_of(offsets, dtype)
         self.moves = self.signs @ gears != 0
-        """Of each loop, whether an independent joint moves it."""
+        """For each loop, whether each independent joint moves it."""
         self.whole = Rows.of(map(_whole, tree.loops))
 
     def poses(self, q: Array) -> Array:
@@ -107,13 +107,13 @@ class Mechanism:
         return a, b
 
     def twists(self, poses: Array) -> tuple[Array, Array]:
-        """Return for each joint its angular velocity, and the velocity of a moved point at the origin of the root."""
+        """Return for each joint its angular velocity, and the velocity that it gives a point at the root's origin."""
         axes = (poses[1:, :3, :3] @ self._axes[:, :, None])[:, :, 0]
         turns = axes * self.turns
         return turns, axes * self.slides + _cross(poses[1:, :3, 3], turns)
 
     def left(self, q: Array, rows: Rows) -> Array:
-        """Return the residuals of the equations, in m and without unit."""
+        """Return the residuals of the equations: in m for translations, without unit for rotations."""
         return self._left(self.poses(q), rows)[0]
 
     def evaluate(self, q: Array, rows: Rows) -> tuple[Array, Array]:
@@ -143,9 +143,9 @@ class Mechanism:
 
 
 def _whole(loop: Loop) -> list[Equation]:
-    """Return more equations than the independent ones.
+    """Return all equations of a loop's kind, of which some depend on others.
 
-    A loop that is closed the wrong way round has their largest residuals.
+    Their residuals are largest for a loop that is closed the wrong way round.
     """
     equations: list[Equation] = [(u, ORIGIN, 0.0) for u in AXES]
     if loop.kind == "universal":
@@ -161,7 +161,7 @@ def array_of(values: Any, dtype: type) -> Array:
 
 
 def _cross(a: Array, b: Array) -> Array:
-    """Return the vector products of rows; numpy's own takes five times as long, and took most of the time."""
+    """Return the vector products of rows; numpy's own takes five times as long, which was most of the time."""
     crossed: Array = a[:, [1, 2, 0]] * b[:, [2, 0, 1]] - a[:, [2, 0, 1]] * b[:, [1, 2, 0]]
     return crossed
 

@@ -12,7 +12,7 @@ Matrix = tuple[Vector, Vector, Vector]
 Pose = tuple[Matrix, Vector]
 """Rotation R and translation p: v_world = R·v + p."""
 
-# No joint moves so far, and arithmetic does not overflow. Also in leaderPosition of the library.
+# Greatest position: no joint moves so far, and arithmetic does not overflow. The library's leaderPosition has it, too.
 _FAR = 1e60
 
 IDENTITY: Pose = (((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)), (0.0, 0.0, 0.0))
@@ -30,7 +30,7 @@ def pose(origin: Origin) -> Pose:
 
 
 def roll_pitch_yaw(quaternion: Sequence[float]) -> Vector:
-    """Return the angles of an orientation x, y, z, w of any length but zero, precise also where pitch is ±π/2."""
+    """Return the angles of a quaternion x, y, z, w of any length but zero; they are precise even if pitch is ±π/2."""
     largest = max(map(abs, quaternion))  # else the squares of large numbers overflow
     length = math.hypot(*(value / largest for value in quaternion))
     x, y, z, w = (value / largest / length for value in quaternion)
@@ -46,7 +46,7 @@ def roll_pitch_yaw(quaternion: Sequence[float]) -> Vector:
 
 
 def compose(outer: Pose, inner: Pose) -> Pose:
-    """Return `inner`, a pose in the frame `outer`, in the frame around `outer`."""
+    """Return the pose `inner`, which is given in the frame `outer`, in the frame in which `outer` is given."""
     (rotation, translation), columns = outer, tuple(zip(*inner[0], strict=True))
     turned = tuple(tuple(dot(row, column) for column in columns) for row in rotation)
     moved = tuple(p + dot(row, inner[1]) for p, row in zip(translation, rotation, strict=True))

@@ -1,7 +1,7 @@
 """A robot's tree in canonical order: depth-first from the root, siblings in natural order of their names.
 
-The order of elements in the URDF does not matter here; numbers of links, joints, axes and frames
-follow from this order.
+The order of elements in the URDF does not matter here; the numbers of links, joints, axes and frames follow from the
+canonical order.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ class KinematicTree(msgspec.Struct, frozen=True):
     def of(cls, robot: Robot, taken: Iterable[str] = ()) -> KinematicTree:
         """Return the tree of a robot that passed all checks; `taken` names are not given to any element.
 
-        Raises KeyError or ValueError for another robot.
+        Raises KeyError or ValueError for a robot that failed a check.
         """
         links = {link.name: link for link in robot.links}
         if len({joint.child for joint in robot.joints}) < len(robot.joints):
@@ -112,7 +112,7 @@ class KinematicTree(msgspec.Struct, frozen=True):
         return tuple(j for j in self.joints if MOTION_KINDS.get(j.type) == motion and j.mimic is None)
 
     def starts(self) -> tuple[Joint, ...]:
-        """Return the joints with a start position of the source or the configuration."""
+        """Return the joints whose start positions the source or the configuration states."""
         return tuple(joint for joint in self.joints if joint.start is not None)
 
     def followers(self) -> Iterator[tuple[Joint, Mimic]]:

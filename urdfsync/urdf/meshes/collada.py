@@ -1,9 +1,8 @@
 """The triangles of a COLLADA file (.dae), placed by its scene, in metres.
 
-Of the metadata, `<unit>` is applied and `<up_axis>` is not. RViz treats the meshes of a URDF so (ros-visualization/rviz
-issue 1045 and `getMeshUnitRescale`). Neither MoveIt nor Gazebo classic turns them (moveit/geometric_shapes pull request
-52, gazebosim/gazebo-classic issue 1305), and exporters count on that. The transformations of the scene's nodes are
-applied.
+The file's `<unit>` is applied, but its `<up_axis>` is not, as in RViz (ros-visualization/rviz issue 1045 and
+`getMeshUnitRescale`). MoveIt and Gazebo classic do not turn meshes either (moveit/geometric_shapes pull request 52,
+gazebosim/gazebo-classic issue 1305), and exporters rely on that. The transformations of the scene's nodes are applied.
 """
 
 from __future__ import annotations
@@ -45,14 +44,14 @@ def collada_parts(
 ) -> Iterator[tuple[Color | None, Triangles]]:
     """Yield the triangles of each geometry at its places in the scene, in metres. Raises MeshError.
 
-    The triangles have their colours if `others` has the textures.
+    The triangles have their colours only if `others` is given; it has the textures.
     """
     root = _parse(content)
     unit = _unit(root)
     for tag, name in _NOT_READ.items():
         if root.find(f".//{{*}}{tag}") is not None:
             raise MeshError(f"it has {name}, which urdfsync doesn't read")
-    if any("-" in (indices.text or "") for indices in root.iter("{*}p")):  # numpy would count them from the end
+    if any("-" in (indices.text or "") for indices in root.iter("{*}p")):  # numpy counts negative ones from the end
         raise MeshError("one of its faces has an index that no vertex has")
     _place_skins(root)
     if others is not None:
@@ -61,7 +60,7 @@ def collada_parts(
     etree.strip_elements(root, *(f"{{*}}{tag}" for tag in without), with_tail=False)
     _move_once_per_node(root)
     shapes = io.BytesIO(etree.tostring(root))
-    del root  # pycollada parses them into a tree of its own
+    del root  # frees memory: pycollada has a tree of its own
     # `load_scene` would merge vertices and drop infinite triangles
     loaded = load_collada(shapes, ignore_broken=False)
     for node in loaded["graph"]:
@@ -113,7 +112,7 @@ def _parse(content: bytes) -> etree._Element:
 
 
 def _unit(root: etree._Element) -> float:
-    """Return the metres of one unit of length; 1 without a number in the file."""
+    """Return the file's unit of length in metres; 1 if the file states none."""
     node = root.find("{*}asset/{*}unit")
     text = "1" if node is None else node.get("meter", "1")
     try:
@@ -126,7 +125,7 @@ def _unit(root: etree._Element) -> float:
 
 
 def _place_skins(root: etree._Element) -> None:
-    """Put the geometry of each skin to its place: trimesh ignores skins."""
+    """Put the geometry of each skin in its place in the scene, since trimesh ignores skins."""
     skins = {f"#{skin.get('id')}": skin[0] for skin in root.iterfind("{*}library_controllers/{*}controller")}
     for instance in list(root.iter("{*}instance_controller")):
         skin = skins[instance.get("url", "")]
@@ -137,11 +136,11 @@ def _place_skins(root: etree._Element) -> None:
             etree.SubElement(node, f"{space}matrix").text = bind.text
         geometry = etree.SubElement(node, f"{space}instance_geometry", url=skin.get("source", ""))
         geometry.extend(instance.iterfind("{*}bind_material"))
-        instance.getparent().replace(instance, node)  # type: ignore[union-attr] # the root is none
+        instance.getparent().replace(instance, node)  # type: ignore[union-attr] # only the root has no parent
 
 
 def _move_once_per_node(root: etree._Element) -> None:
-    """Give each transformation a node of its own: pycollada multiplies those of one node in single precision."""
+    """Give each transformation a node of its own: pycollada multiplies several of one node in single precision."""
     for node in list(root.iter("{*}node")):
         moves = [child for child in node if etree.QName(child).localname in _MOVES]
         others = [child for child in node if child not in moves]

@@ -20,12 +20,12 @@ _process = MeshProcess()
 def convert(dependency: Dependency, file: Path, content: bytes, others: Mapping[str, bytes]) -> Conversion:
     """Return the imported form of a mesh at `file`, and its facts. Both depend only on contents, URI and scale.
 
-    `others` has the libraries of materials and the textures that it names.
+    `others` has the libraries of materials and the textures that the mesh names.
 
     STL and OBJ files without a scale stay as they are; all else becomes binary STL with the scale applied. The facts
     are `bounds` (`[[x, y, z], [x, y, z]]`, least and greatest) and, if the dependency needs it, `hull` (see
     `geometry.support_points`). Both are in metres and in the mesh's frame. If its colours are needed (see
-    `lookup.PARTS`), a mesh of several colours becomes a file for each, in its format if that stays.
+    `lookup.PARTS`), a mesh of several colours becomes one file per colour: OBJ if an OBJ stays as it is, else STL.
 
     Raises SourceError with one diagnostic, `unreadable-mesh`, if the file can't be read as a mesh.
     """
@@ -50,7 +50,7 @@ def convert(dependency: Dependency, file: Path, content: bytes, others: Mapping[
 def triangles(path: str, content: bytes, key: str, most: int) -> Triangles | str:
     """Return about `most` triangles of a mesh, or why there are none.
 
-    The mesh is an imported file at `path`, or that of the dependency `key`, if it is too large to be imported.
+    The mesh is the imported file at `path`. A mesh that is too large to be imported has the `key` of its dependency.
     """
     mesh = lookup.mesh(key) if key else Mesh(path)
     try:

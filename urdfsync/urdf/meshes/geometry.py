@@ -18,15 +18,15 @@ Array: TypeAlias = npt.NDArray[np.float64]
 Indices: TypeAlias = npt.NDArray[np.int64]
 
 MAX_TRIANGLES = 1_000_000
-"""The most triangles of one mesh, counted at each place in the scene; so many take 50 MB as binary STL."""
+"""The most triangles of one mesh, added up over its places in the scene; as binary STL, they take 50 MB."""
 
 _FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 _HEADER = b"binary STL, written by urdfsync".ljust(80)
 _LARGEST = np.finfo(np.float32).max  # STL has single precision
 _STEPS = 36  # directions on each great circle
-_TIE = 1e-9  # of the size: equal lengths differ by rounding
-_NEAR = 1e-8  # of the size: a possible tie, far above the error of a matrix product
-_CHUNK = 1 << 14  # points whose products with all directions stay in the cache
+_TIE = 1e-9  # relative to the mesh's size: rounding makes equal lengths differ
+_NEAR = 1e-8  # likewise, for a possible tie: far above the error of a matrix product
+_CHUNK = 1 << 14  # number of points whose products with all directions stay in the cache
 _DIGITS = 6
 
 
@@ -36,11 +36,11 @@ class Triangles(NamedTuple):
     points: Array
     """n × 3."""
     faces: Indices
-    """m × 3, of `points`."""
+    """m × 3, indices of `points`."""
 
 
 def placed(mesh: Triangles, pose: Array) -> Triangles:
-    """Move triangles by an affine transformation (4 × 4); a mirroring one keeps their outer sides."""
+    """Move triangles by an affine transformation (4 × 4); mirrored triangles keep their outer sides."""
     if np.array_equal(pose, np.identity(4)):
         return mesh
     points = np.empty(mesh.points.shape)
@@ -63,7 +63,7 @@ def joined(parts: Sequence[Triangles], most: float = MAX_TRIANGLES) -> Triangles
             raise MeshError("one of its faces has an index that no vertex has")
     if len(parts) == 1:  # no copy: a large mesh takes a quarter of the memory
         return parts[0]
-    from trimesh.util import append_faces  # 0.7 s that a page with meshes saves
+    from trimesh.util import append_faces  # takes 0.7 s, which a page with meshes saves
 
     return Triangles(*append_faces([part.points for part in parts], [part.faces for part in parts]))
 
@@ -102,7 +102,7 @@ def binary_stl(mesh: Triangles) -> bytes:
 
 
 def stl_triangles(content: bytes) -> Triangles:
-    """Return the triangles of a binary STL file; those that are no numbers are left out. Raises MeshError for none."""
+    """Return the triangles of a binary STL file, without any that has a NaN or infinity. Raises MeshError for none."""
     corners = np.frombuffer(content, dtype=_FACET, offset=len(_HEADER) + 4)["corners"].astype(np.float64)
     points = corners[np.isfinite(corners).all(axis=(1, 2))].reshape(-1, 3)
     return joined([Triangles(points, np.arange(len(points)).reshape(-1, 3))], math.inf)
@@ -157,7 +157,7 @@ _CROSSING = np.linalg.norm(_NORMALS, axis=2) > 1e-6  # the pairs that are not pa
 
 
 def _nearly_extreme(points: Array, directions: Array, size: float) -> Array:
-    """Return the points that may be extreme along one of the directions; of millions, some hundreds in most meshes."""
+    """Return the points that may be extreme along one of the directions: mostly some hundreds, even of millions."""
     highest = np.full(len(directions), -np.inf)
     candidates = []
     for start in range(0, len(points), _CHUNK):
@@ -169,7 +169,7 @@ def _nearly_extreme(points: Array, directions: Array, size: float) -> Array:
 
 
 def _corners(tied: Array, number: int, size: float) -> Array:
-    """Return the extreme points along the other directions, of points in a plane normal to one; two for a tie."""
+    """Return the points, of those tied along direction `number`, that are extreme along another; of a tie, the ends."""
     others, along = _DIRECTIONS[_CROSSING[number]], _NORMALS[number][_CROSSING[number]]
     tied = np.unique(_nearly_extreme(tied, others, size), axis=0)
     heights, positions = _products(tied, others), _products(tied, along)

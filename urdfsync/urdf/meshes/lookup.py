@@ -24,17 +24,17 @@ from urdfsync.urdf.plausibility import find_length
 from urdfsync.urdf.robot import Collision, Link, Mesh, Robot, Vector, Visual
 
 _TOO_LARGE, _LARGEST = 20, 2.0
-"""Size of a mesh in relation to the robot's length, and in m: a larger one hardly belongs to it."""
+"""Greatest size of a mesh, in lengths of the robot and in m; a mesh that exceeds both is probably in another unit."""
 _SCALES = (0.001, 0.01, 0.0254)
 """Millimetres, which most programs export, centimetres and inches, in m."""
 UNIT_SCALE: Vector = (1.0, 1.0, 1.0)
 BOUNDS, HULL = "bounds", "hull"
-"""Names of facts: all models need the first one, ground contacts the other as well."""
+"""Names of facts: all models need the first one, and ground contacts also the second."""
 PARTS, COLORS, TEXTURED, COLORLESS = "parts", "colors", "textured", "colorless"
 """Names of facts of meshes with their own colours.
 
-`parts` has the colours of the files of a mesh. `colors` has those of the files beside the whole mesh, if another shape
-needs the whole. `color` is the single colour of the whole. `textured` tells whether textures were found, `colorless`
+`parts` lists the colours of a mesh that becomes one file per colour. `colors` lists them instead if another shape needs
+the whole mesh: then these files stand beside the whole one. `textured` tells whether textures were found, `colorless`
 which colours are missing, in words.
 """
 COLORED = (".dae", ".obj")
@@ -53,7 +53,7 @@ _MENTIONS = {
     ".dae": re.compile(rb"<surface\b[^<>]*>\s*<init_from>[^<>]+</init_from>|<init_from>([^<>]+)</init_from>"),
     GLTF: re.compile(rb'"uri"\s*:\s*"([^":]+\.bin)"'),
 }
-"""Names of libraries of materials, of textures and of buffers, in files of each suffix."""
+"""Patterns for the names of other files in a file, by its suffix: libraries of materials, textures and buffers."""
 _LIBRARY = re.compile(rb"(?i)\S.*?\.mtl(?=\s|$)|\S.*")
 """One of the libraries that a line names; names may have blanks in them."""
 _TEXTURE_OPTION = re.compile(r"-[a-zA-Z]+|[-+.\deE]+|on|off")
@@ -87,20 +87,20 @@ def as_is(mesh: Mesh) -> bool:
 
 
 def _has_colors(mesh: Mesh, visual: Visual) -> bool:
-    """Return whether a visual has the colours of its mesh: the URDF gives it none."""
+    """Return whether a visual is drawn in the colours of its mesh: the URDF gives it none."""
     return suffix(mesh.filename) in COLORED and (visual.material is None or visual.material.rgba is None)
 
 
 def mentioned(dependency: Dependency, file: str, content: bytes) -> Sequence[str]:
-    """Return the buffers of a glTF file, and materials and textures of a mesh whose own colours are drawn."""
+    """Return the other files that a mesh needs: buffers of glTF; materials and textures if its colours are drawn."""
     is_needed = TEXTURED in dependency.facts or suffix(dependency.uri) == GLTF
     return mentioned_files(file, content) if is_needed else ()
 
 
 def findings(imports: Mapping[str, Import], robot: Robot) -> Iterator[tuple[str, Diagnostic]]:
-    """Yield a warning for each mesh without some of its colours, or in another unit than the robot.
+    """Yield a warning for each mesh that lacks some of its colours, or seems to be in another unit than the robot.
 
-    A note says if textures become colours.
+    If meshes have textures, a note says that these become colours.
     """
     sizes = {key: math.dist(*file.facts[BOUNDS]) for key, file in imports.items() if file.facts.get(BOUNDS)}
     length = find_length(KinematicTree.of(robot)) if max(sizes.values(), default=0) > _LARGEST else 0.0
@@ -122,9 +122,9 @@ def findings(imports: Mapping[str, Import], robot: Robot) -> Iterator[tuple[str,
 
 
 def mentioned_files(file: str, content: bytes) -> list[str]:
-    """Return the buffers of a mesh and the files with its colours, by their paths from its folder.
+    """Return the paths of a mesh's buffers and of the files with its colours, relative to its folder.
 
-    `file` is the path of the mesh, or of its library of materials, which names files from its own folder.
+    `file` is the path of the mesh or of its library of materials; the names in it count from its own folder.
     """
     path = PurePosixPath(file)
     suffix = path.suffix.lower()
@@ -189,7 +189,7 @@ def dependencies(
 
 
 def _facts(shapes: Sequence[tuple[str, int, bool]], touches: bool) -> tuple[str, ...]:
-    """Return the needed facts of a mesh. Its shapes are kinds, lines, and whether they have its colours."""
+    """Return the facts that a mesh needs. `shapes` has kinds, lines, and whether the shapes have the mesh's colours."""
     hull = (HULL,) if touches and any(kind == "collision" for kind, _, _ in shapes) else ()
     colored = [is_colored for _, _, is_colored in shapes]
     colors = (PARTS if all(colored) else COLORS, TEXTURED, COLORLESS) if any(colored) else ()
@@ -228,7 +228,7 @@ def _places(text: str, lookup: Lookup) -> Iterator[Path]:
 
 
 def _at_path(text: str, lookup: Lookup) -> Iterator[Path]:
-    """Yield the places of a path without a scheme: absolute, or below a folder above the source or a search path."""
+    """Yield the places of a path without a scheme: absolute, or below a search path or a folder above the source."""
     if drive := re.fullmatch(_DRIVE, text):
         yield Path(drive[1])
     elif text.startswith("/"):
@@ -238,7 +238,7 @@ def _at_path(text: str, lookup: Lookup) -> Iterator[Path]:
 
 
 def _in_package(package: str, text: str, lookup: Lookup) -> Iterator[Path]:
-    """Yield the places in a package: a child of a search path or of a folder above the source, or one of these.
+    """Yield the places in a package: it is a search path, a folder above the source, or a child of one.
 
     Exporters may leave out the package's name (`package:///a.stl`), name a folder beside the source, or write a slash
     too many. A copy of a package may have another name.

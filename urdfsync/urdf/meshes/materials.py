@@ -1,4 +1,4 @@
-"""Reads the colours of shapes in OBJ and COLLADA files: of materials, and mean ones of textures.
+"""Reads the colours of shapes in OBJ and COLLADA files: the colours of materials, and the mean colours of textures.
 
 A damaged or missing material has no colour; the shape remains.
 """
@@ -41,7 +41,7 @@ def library_colors(obj: bytes, files: Mapping[str, bytes]) -> dict[bytes, Color]
 
 
 def number_materials(obj: bytes) -> tuple[bytes, list[bytes]]:
-    """Return an OBJ file with materials `m0`, `m1`, …, and their former names."""
+    """Rename the materials of an OBJ file to `m0`, `m1`, …; return the file, and the former names."""
     used = list(dict.fromkeys(name.strip() for name in _USED_MATERIAL.findall(obj)))
     numbers = {name: b"usemtl m%d" % number for number, name in enumerate(used)}
     return _USED_MATERIAL.sub(lambda match: numbers[match[1].strip()], obj), used
@@ -50,7 +50,7 @@ def number_materials(obj: bytes) -> tuple[bytes, list[bytes]]:
 def effect_color(
     effect: etree._Element, images: Mapping[str, etree._Element], files: Mapping[str, bytes]
 ) -> Color | None:
-    """Return the diffuse colour of an effect of COLLADA, or the mean one of its texture; None if it has none."""
+    """Return the diffuse colour of a COLLADA effect, or the mean colour of its texture; None if it has neither."""
     texture = effect.find(".//{*}diffuse/{*}texture")
     if texture is None:
         return _color(_text(effect, ".//{*}diffuse/{*}color").split())
@@ -85,7 +85,7 @@ def _mean(image: bytes) -> Color | None:
 
 
 def _color(numbers: Sequence[str] | Sequence[bytes]) -> Color | None:
-    """Return a colour with parts from 0 to 1; None for other words."""
+    """Return the colour that three numbers from 0 to 1 give; None for other words."""
     with contextlib.suppress(ValueError, OverflowError):
         red, green, blue = (round(255 * min(max(float(number), 0.0), 1.0)) for number in numbers[:3])
         return red, green, blue

@@ -1,4 +1,4 @@
-"""The process that reads meshes of strangers: limits contain a file that exploits a library."""
+"""The process that reads untrusted meshes: its limits contain a file that exploits a fault of a library."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ from urdfsync.processes import importable, python_module
 from urdfsync.urdf.robot import Vector
 
 FOR_PICTURE = 4
-"""Factor of the limits below for a picture, since any mesh is simplified."""
+"""Factor of the limits below for a picture, which simplifies meshes of any size."""
 CPU_SECONDS = 4.0
 """CPU time for one mesh, on Linux and macOS. A command with one such mesh stays below 5 s."""
 MEMORY = 450_000_000
 """The most bytes that the process allocates, on Linux, besides 50 MB for its libraries."""
 WALL_SECONDS = 60.0
-"""Time for one mesh, everywhere. A busy machine may need so long for the CPU time."""
+"""Wall time for one mesh, on all systems. A busy machine may need so long for the CPU time above."""
 _LIMITS = f"reading it takes more than {CPU_SECONDS:g} s or {MEMORY // 1_000_000} MB, or ends the process that does it"
 _LONGEST = 300
 """The most characters of a library's error."""
@@ -39,7 +39,7 @@ _STL_FACET = 50
 
 
 class MeshError(Exception):
-    """An unusable mesh; the text ends `the mesh … can't be read: it …`."""
+    """An unusable mesh; its text completes the message `the mesh … can't be read: it …`."""
 
 
 class Request(msgspec.Struct, frozen=True):
@@ -53,7 +53,7 @@ class Request(msgspec.Struct, frozen=True):
     as_obj: bool = False
     """Whether the parts of a mesh are OBJ, and not STL."""
     most: int = 0
-    """The most triangles for a picture; more are simplified; 0 for a file of the package."""
+    """The most triangles of a picture, to which a larger mesh is simplified; 0 for a file of the package."""
     size: int = 0
     """Size of the mesh in bytes; `MeshProcess` fills in this field and those below."""
     others: Mapping[str, int] = {}
@@ -70,7 +70,7 @@ class Answer(msgspec.Struct, frozen=True):
     problem: str = ""
     """Why the file can't be used; empty if it can."""
     is_last: bool = False
-    """Whether the process has grown: the next mesh would not have its full memory."""
+    """Whether the process has grown so much that the next mesh would not have its full memory."""
 
 
 def is_binary_stl(content: bytes) -> bool:
@@ -79,14 +79,14 @@ def is_binary_stl(content: bytes) -> bool:
 
 
 class MeshProcess:
-    """The process, started for the first mesh; after a mesh that reached a limit, the next one starts another.
+    """The process, which starts for the first mesh. After a mesh that reached a limit, the next mesh starts a new one.
 
-    Signals are handled while it reads. It always ends with this process, since its stdin is closed.
+    Signals are handled while it reads. It always ends with this process, which closes its stdin by ending.
     """
 
     def __init__(self) -> None:
         self._process: subprocess.Popen[bytes] | None = None
-        self._lock = threading.Lock()  # a cluster's workers are threads
+        self._lock = threading.Lock()  # the workers of a Dask cluster are threads
 
     def read(
         self, request: Request, content: bytes, others: Mapping[str, bytes] | None = None
@@ -138,12 +138,12 @@ class MeshProcess:
             stderr=subprocess.DEVNULL,
             # each thread needs its own memory; libraries use deprecated parts of numpy
             env={**os.environ, **importable(), "OPENBLAS_NUM_THREADS": "1", "PYTHONWARNINGS": "ignore"},
-            process_group=0,  # an interruption from the keyboard is for whoever waits, who ends the process
+            process_group=0,  # Ctrl-C reaches only the process that waits, which then ends this one
         )
 
 
 def _ask(process: subprocess.Popen[bytes], request: Request, contents: Sequence[bytes]) -> tuple[Answer, list[bytes]]:
-    """Have a mesh read. Raises OSError or ValueError for a missing or wrong answer."""
+    """Send a mesh to the process, and return its answer. Raises OSError or ValueError for a missing or wrong one."""
     stdin, stdout = cast(IO[bytes], process.stdin), cast(IO[bytes], process.stdout)
     stdin.write(msgspec.json.encode(request) + b"\n")
     for content in contents:

@@ -1,4 +1,4 @@
-"""Reads the triangles of a mesh file by trimesh, strictly: a part of a mesh is an error."""
+"""Reads the triangles of a mesh file by trimesh, strictly: an incomplete mesh is an error."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ _MOST_COLORS = 20
 _LONGEST, _NAMES = 60, 3
 """Most characters of the name of a missing file in a warning, and most names."""
 _FROM_Y_UP = np.array([[1, 0, 0, 0], [0, 0, -1, 0], [0, 1, 0, 0], [0, 0, 0, 1]], dtype=np.float64)
-"""In glTF y is up, by its specification. Drake, Blender and RViz, since 2025, turn it, so that z is: ros2/rviz#1229."""
+"""By the specification of glTF, y is up. Drake, Blender and RViz (since 2025: ros2/rviz#1229) turn z up."""
 _SOLID_LINE = re.compile(rb"^[ \t]*(?:end)?solid\b.*$", re.MULTILINE | re.IGNORECASE)
 
 
@@ -62,7 +62,7 @@ def read_parts(
 ) -> tuple[dict[Color | None, Triangles], list[str]]:
     """Read the triangles of an OBJ or COLLADA file by their colours, as `read_mesh` does; None for no colour.
 
-    `others` has the other files that it names. Return also the missing colours, in words. Raises MeshError.
+    `others` has the other files that the mesh names. Also return the missing colours, in words. Raises MeshError.
     """
     by_color: dict[Color | None, list[Triangles]] = {}
     with _damage_is_an_error():
@@ -82,15 +82,15 @@ def read_parts(
     gc.collect()
     missing = [f"`{cut(name, _LONGEST)}` not found" for name, other in others.items() if not other][:_NAMES]
     if suffix == ".dae" and None not in parts:
-        missing = []  # missing pictures that give no colour, such as bumps
+        missing = []  # the missing pictures give no colour, such as bump maps
     return parts, missing or ["a part of it has none"] * (None in parts and len(parts) > 1)
 
 
 @contextlib.contextmanager
 def _damage_is_an_error() -> Iterator[None]:
-    """Turn any exception of a library into a MeshError: libraries expect sound files.
+    """Turn any exception of a library into a MeshError: libraries may raise anything on a damaged file.
 
-    Numbers that numpy can't read completely are an error in all its versions. The caller reports a lack of memory.
+    Numbers that numpy can't read completely are an error in all its versions. A MemoryError is left to the caller.
     """
     try:
         with warnings.catch_warnings(), np.errstate(all="ignore"):
@@ -110,7 +110,7 @@ def _parts(
     colors: Mapping[bytes, Color] | None = None,
     buffers: Mapping[str, bytes] | None = None,
 ) -> Iterator[tuple[Color | None, Triangles]]:
-    """Yield the triangles of a file; of an OBJ file by its materials, if their `colors` are wanted."""
+    """Yield the triangles of a file; those of an OBJ file by their materials, if these have `colors`."""
     files = {name: buffer for name, buffer in (buffers or {}).items() if buffer}
     by_name = dict[str, Color | None]()
     if suffix == ".stl":
@@ -122,7 +122,7 @@ def _parts(
             files["m"] = b"".join(b"newmtl m%d\n" % number for number in range(len(used)))
         content = _plain_obj(content, with_materials=bool(colors))
     if suffix == ".gltf":
-        json.loads(content)  # raises here: trimesh would look for another file
+        json.loads(content)  # invalid JSON raises here; trimesh would look for another file
     is_gltf = suffix in (".gltf", ".glb")
     if is_gltf:
         for compression in _COMPRESSIONS:
@@ -148,7 +148,7 @@ def _parts(
 
 
 def _announced(suffix: str, content: bytes) -> int:
-    """Return the least number of triangles that a file states."""
+    """Return the number of triangles that a file announces; it may have more."""
     if suffix == ".stl":
         return content.count(b"endfacet") + content.count(b"ENDFACET")
     match = _FACES[suffix].search(content) if suffix in _FACES else None
@@ -156,7 +156,7 @@ def _announced(suffix: str, content: bytes) -> int:
 
 
 def _one_solid(content: bytes) -> bytes:
-    """Return a binary STL file as it is, and a text with all facets in one solid.
+    """Return a binary STL file as it is, and an STL text with all its facets in one solid.
 
     Names of solids are removed, since they may be any words, even `vertex`.
     """
@@ -170,10 +170,10 @@ def _one_solid(content: bytes) -> bytes:
 def _plain_obj(content: bytes, *, with_materials: bool) -> bytes:
     """Return vertices and faces alone, without references to textures and normals. All indices count from 1.
 
-    If materials are wanted, faces have theirs, from a library `m`.
+    If materials are wanted, faces keep theirs, from a library `m`.
 
-    trimesh reads index 0 as 1, and counts back from the end of the file. It skips indented lines, and faces with less
-    than three corners. It fails if only some corners have references.
+    trimesh reads index 0 as 1, and counts negative indices from the end of the file. It skips indented lines, and faces
+    with less than three corners. It fails if only some corners have references.
     """
     text = content.replace(b"\r\n", b"\n").replace(b"\\\n", b" ").replace(b"\t", b" ")
     statements = rb"^ *((?:[vf]|usemtl) .*)" if with_materials else rb"^ *([vf] .*)"
@@ -189,7 +189,7 @@ def _plain_obj(content: bytes, *, with_materials: bool) -> bytes:
 
 
 def _count_from_the_first(text: bytes) -> bytes:
-    """Replace indices of an OBJ file that count back from their own line."""
+    """Replace negative indices of an OBJ file, which count back from their own line, by positive ones."""
     vertices = 0
 
     def replaced(line: re.Match[bytes]) -> bytes:

@@ -1,4 +1,4 @@
-"""Simplifies meshes for a page: near corners become one, as coarsely as the number of triangles requires."""
+"""Simplifies meshes for a page: corners near each other become one, until there are few enough triangles."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def packed(mesh: Triangles, most: int) -> tuple[bytes, Facts]:
 
 
 def _clustered(mesh: Triangles, cells: int) -> Triangles:
-    """Return triangles with the mean of all corners in one cell of a grid; triangles without area are removed."""
+    """Replace all corners in a cell of a grid by one point, and remove triangles without area."""
     points = mesh.points
     least = points.min(axis=0)
     edge = float(np.ptp(points, axis=0).max()) or 1.0

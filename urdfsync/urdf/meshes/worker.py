@@ -20,7 +20,7 @@ if sys.platform != "win32":
 _UNUSED = ("PIL", "httpx", "networkx", "rtree", "scipy", "shapely")
 """Optional imports of trimesh that no mesh needs: half a second, and 60 MB."""
 _GROWN = 200_000_000
-"""A process with more bytes counts as grown by a large mesh; its libraries take 70 MB."""
+"""A process that has allocated more bytes reads no further mesh; its libraries take 70 MB."""
 
 
 def main() -> None:
@@ -39,7 +39,7 @@ def main() -> None:
 
 
 def _answer(request: Request, content: bytes, others: Mapping[str, bytes]) -> tuple[Answer, list[bytes]]:
-    # these import numpy and trimesh: after `main` has blocked unused packages, and before the limits are set
+    # numpy and trimesh are imported after `main` has blocked unused packages, and before the limits are set
     from urdfsync.urdf.meshes import geometry, simplify
 
     is_plain = bool(request.most) and request.suffix == ".stl" and is_binary_stl(content)
@@ -78,7 +78,7 @@ def _answer(request: Request, content: bytes, others: Mapping[str, bytes]) -> tu
 
 
 def _allocated() -> int:
-    """Return the bytes that the memory limit counts, perhaps with freed ones; 0 without a limit."""
+    """Return the bytes that count against the memory limit, perhaps including freed ones; 0 without a limit."""
     if sys.platform != "linux":
         return 0
     return int(Path("/proc/self/statm").read_text().split()[5]) * resource.getpagesize()

@@ -1,4 +1,4 @@
-"""Template data of a joint: of its model, which depends on no number of the URDF, and of its record."""
+"""Template data of a joint's model, which depends on no number of the URDF, and of its record."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ def joint_title(joint: Joint) -> str:
 
 
 def joint_model(joint: Joint, options: Options, is_driven: bool) -> dict[str, Any]:
-    """Return the parts of a joint's model; its rotor is a part of its own if the motor has a flange.
+    """Return which parts a joint's model has; the rotor is a separate part if the motor has a flange.
 
-    The spring of an elastic drive keeps the limits of effort and velocity, unless Run does.
+    The spring of an elastic drive keeps the limits of effort and velocity. If Run commands an effort, Run keeps them.
     """
-    # the robot has the gear and the rotor of a motor that moves another joint, too
+    # if a motor also moves another joint, its gear and its rotor are in the robot model
     armature, sharing = joint.dynamics and joint.dynamics.armature, sharing_joint(joint, options.drives)
     with_motor = has_motor(joint, options) and not sharing
     inertia = armature if with_motor or sharing else reflected_inertia(joint)

@@ -2,9 +2,9 @@
 
 Links that fixed joints connect move as one *body*: body 1 is that of the root link, and moving joint `i` moves body `i
 + 1`. A *moving joint* is revolute, continuous or prismatic; moving joints are counted in canonical order, so the body
-that carries a joint has a smaller number than the moved body. The tables assign links to bodies; Modelica adds up the
-numbers, so none is written twice. Everything is counted from 1. The template writes the tables that refer to the
-numbers of links and joints.
+that carries a joint has a smaller number than the moved body. The tables assign links to bodies. Modelica adds up the
+masses of a body's links, so no number is written twice. Everything is counted from 1. The template writes the other
+tables, whose entries refer to the data of each link and joint.
 """
 
 from __future__ import annotations
@@ -33,9 +33,9 @@ def record_data(
     package: str,
     options: Options,
 ) -> dict[str, Any]:
-    """Return the data of the record of a whole robot; `name` is the robot's in the URDF.
+    """Return the data of the record of a whole robot; `name` is the robot's name in the URDF.
 
-    All is counted from 1. A record outside of a package names the libraries that it uses.
+    Everything is counted from 1. A record outside of a package names the libraries that it uses.
     """
     is_generic, taken = not obstacles(tree.joints), taken_names(tree)
     links, joints, drawn = [], [], []
@@ -47,7 +47,7 @@ def record_data(
         data = {"number": number, "component": identifier.component, "name": link.name}
         links.append({**data, "inertial": link.inertial, "visuals": shapes})
         for shape in shapes:
-            # Modelica has no shape of a capsule: it is drawn as a cylinder and two spheres
+            # Modelica has no capsule shape: a capsule is drawn as a cylinder and two spheres
             kinds = ("Capsule", "LowerEnd", "UpperEnd") if shape["type"] == "Capsule" else (shape["type"],)
             length_axis = 1 if shape["type"] in ("Box", "Mesh") else 3  # of the shape frame: 1 is x, 3 is z
             drawn += [
@@ -70,7 +70,7 @@ def record_data(
             for joint in referred_joints
         ]
 
-    axes = [  # driven joints, those that turn first, with the constant that has the number of their flanges
+    axes = [  # drivable joints, rotational ones first, each with the constant for the number of its flange
         {"constant": names.drives[joint.name].axis, "name": joint.name, "vector": f"{motion}Axis", "number": number}
         for motion in MOTIONS
         for number, joint in enumerate(tree.axes(motion), 1)
@@ -120,7 +120,7 @@ class Tables(msgspec.Struct, frozen=True):
 
 
 def obstacles(joints: Iterable[Joint]) -> list[Joint]:
-    """Return the planar, floating and ball joints: the generic robot lacks these, and with one there are no tables."""
+    """Return the planar, floating and ball joints: the generic robot has none, so a record with one has no tables."""
     return [joint for joint in joints if joint.type not in MOTION_KINDS and joint.type != "fixed"]
 
 

@@ -1,6 +1,6 @@
 """Template data of `<Robot>.mo`, `<Robot>Run.mo` and `<Robot>Test.mo`: their parts, connections, and places.
 
-They depend on the structure of the robot alone, on no number of the URDF.
+The data depend only on the robot's structure, on no number of the URDF.
 """
 
 from __future__ import annotations
@@ -25,14 +25,14 @@ from urdfsync.urdf.robot import MOTION_KINDS
 
 _ROW = 20  # height of a row of connectors on the icon: an axis, and its support 10 below
 _PICTURE = 100  # where the picture on the icon ends, and the rows begin
-_FRAME_Y = -50  # where the benches of the library have the frame that the robot is connected to
+_FRAME_Y = -50  # y of the frame in the library's benches to which the robot is connected
 
 
 @lru_cache(maxsize=1)
 def robot_data(tree: KinematicTree, names: Connectors, dependent: frozenset[str]) -> Mapping[str, Any]:
-    """Return the data of the robot model; `tree` has no numbers, `dependent` joints follow from others through loops.
+    """Return the data of the robot model. `tree` has no numbers; loops determine the positions of `dependent` joints.
 
-    The last data are kept: a build compares its data with the last build's, mostly of the same tree. Serves the rows
+    The last result is kept: a build compares its data with the last build's, mostly of the same tree. Serves the rows
     "one mass changed in the daemon" of docs/speed.md: 8 % with 1,000 links.
     """
     motions = {joint.name: MOTION_KINDS.get(joint.type) for joint in tree.joints}
@@ -42,7 +42,7 @@ def robot_data(tree: KinematicTree, names: Connectors, dependent: frozenset[str]
             "follower": tree.joint(joint.name).component,
             "follower_motion": motions[joint.name],
             "name": joint.name,
-            # a fixed leader holds its follower, which then has no leader in the model
+            # the follower of a fixed joint is held: in the model it has no leader
             "leader": tree.joint(mimic.joint).component if motions[mimic.joint] else None,
             "leader_motion": motions[mimic.joint],
             "leader_name": mimic.joint,
@@ -52,7 +52,7 @@ def robot_data(tree: KinematicTree, names: Connectors, dependent: frozenset[str]
     followers = defaultdict[str | None, list[str]](list)
     for coupling in couplings.values():
         followers[coupling["leader"]].append(coupling["component"])
-    gears = defaultdict[str | None, list[dict[str, Any]]](list)  # those in the robot, by the joints that they move
+    gears = defaultdict[str | None, list[dict[str, Any]]](list)  # gears in the robot, by the joints that they move
     for name, drive in names.drives.items():
         if drive.gear:
             gear = {"component": tree.joint(name).component, "motor": drive.motor}
@@ -114,8 +114,8 @@ def robot_data(tree: KinematicTree, names: Connectors, dependent: frozenset[str]
 def bench_data(closed: Assembly, names: Connectors, options: Options) -> dict[str, Any]:
     """Return the data of Run and Test.
 
-    In the diagram, the robot's icon is one and a half times as large. So its rows are 30 apart, and a drive of 20 fits
-    beside each.
+    The diagram of a bench shows the robot's icon one and a half times as large. So the icon's rows are 30 apart, and a
+    drive of height 20 fits beside each.
     """
     tree, reaches = closed.tree, loop_reaches(closed)
     top, rows = _icon_top(names), _drives(tree, names)
@@ -161,7 +161,7 @@ def _drives(tree: KinematicTree, names: Connectors) -> list[dict[str, Any]]:
 def _rows(connectors: tuple[str, ...]) -> Mapping[str, int]:
     """Return the rows of the connectors at one side of the icon; a new connector displaces few others.
 
-    Each file of the whole robot asks for them.
+    The rows are cached, since each file of the whole robot needs them.
     """
     return find_rows(dict.fromkeys(connectors, (0, range(1))), set())
 

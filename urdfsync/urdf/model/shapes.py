@@ -1,4 +1,4 @@
-"""Template data of a link's visuals and collisions, and the height of a robot on its collisions."""
+"""Template data of a link's visuals and collisions, and the height of a robot that stands on its collisions."""
 
 from __future__ import annotations
 
@@ -25,10 +25,10 @@ _IN_MODEL = ("component", "type", "label", "is_collision", "y")
 def link_shapes(
     link: Link, imports: Mapping[str, Import], package: str, options: Options
 ) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
-    """Return a link's visuals and collisions, each with all data of models and records.
+    """Return a link's visuals and collisions, each with all its data for models and records.
 
-    A shape without an imported mesh is left out. Shapes are numbered as in the URDF: if a mesh is found later, the
-    others keep their names. All collisions of a robot with a floating base touch the ground, except meshes without
+    A shape whose mesh is not imported is left out. Shapes are numbered as in the URDF: if a mesh is found later, the
+    others keep their names. If the base is floating, each collision can touch the ground, except a mesh without
     outermost points.
     """
     visuals: list[dict[str, Any]] = []
@@ -53,10 +53,10 @@ def link_model(
     options: Options,
     contact: Contact | None = None,
 ) -> dict[str, Any]:
-    """Return the structure of a link, for its model: no number and no name of the URDF.
+    """Return the structure of a link for its model. It has no number and no name of the URDF.
 
-    Each collision that touches the ground has a contact; see `link_shapes`. Only the names of the numbers in `contact`
-    matter.
+    Each collision that can touch the ground has a contact; see `link_shapes`. Of `contact`, only the names of the given
+    numbers are used.
     """
     contacts = [
         {
@@ -80,13 +80,13 @@ def link_model(
 
 
 def hull(geometry: Geometry, imports: Mapping[str, Import]) -> Sequence[Sequence[float]]:
-    """Return the outermost points of an imported mesh, in metres; nothing for all other shapes."""
+    """Return the outermost points of an imported mesh, in metres; empty for any other shape."""
     file = imports.get(lookup.key(geometry)) if isinstance(geometry, Mesh) else None
     return file.facts["hull"] if file else ()
 
 
 def touching(link: Link, imports: Mapping[str, Import]) -> Iterator[tuple[Origin, _Body]]:
-    """Yield the collisions of a link that can touch the ground, with their poses; a mesh has its outermost points."""
+    """Yield the collisions of a link that can touch the ground, with their poses; for a mesh, its outermost points."""
     for shape in link.collisions:
         if not isinstance(shape.geometry, Mesh):
             yield shape.origin, shape.geometry
@@ -123,7 +123,7 @@ def standing_height(tree: KinematicTree, imports: Mapping[str, Import]) -> float
 
 
 def _visual(number: int, visual: Visual, imports: Mapping[str, Import], package: str) -> Iterator[dict[str, Any]]:
-    """Yield a visual with its colour; a mesh with its own colours as one part for each."""
+    """Yield a visual with its colour. A mesh with several colours of its own is yielded as one part per colour."""
     shape = _shape("visual", number, visual, imports, package)
     if shape is None:
         return

@@ -109,7 +109,7 @@ def _bounded(elements: Iterator[tuple[str, int]]) -> list[tuple[str, int]]:
 
 
 def _items(parts: Mapping[str, Any], key: str) -> Sequence[Any]:
-    """Return the items of a list, none without it."""
+    """Return the items of a list; empty if the key is missing."""
     node = parts.get(key)
     if node is None or node.value in ("", "null", "~"):
         return ()
@@ -131,7 +131,7 @@ def _elements(document: Any) -> Iterator[tuple[str, int]]:
     from xml.sax.saxutils import quoteattr  # 9 ms, with urllib, http and email; few robots need it
 
     if document.id != "mapping":
-        return  # a YAML of another kind, which has the word in it
+        return  # a YAML of another kind, which contains the word `closed_loop`
     parts = dict[str, Any]()
     for key, value in document.value:
         if key.id != "scalar":
@@ -168,10 +168,10 @@ def _elements(document: Any) -> Iterator[tuple[str, int]]:
 
 
 def split_joints(document: xml.Document, balls: Collection[str] = ()) -> xml.Document:
-    """Return the document with a chain for each joint of several axes, and a fixed joint for each of none.
+    """Return the document with a chain for each joint with several axes, and a fixed joint for each with none.
 
-    The source only measures the joints of a chain. Elements with an unknown joint or axes stay. Joints of Drake become
-    plain ones or chains, and the named `balls` chains: each joint of these has the damping.
+    The joints of a chain count as only measured. Elements with an unknown joint or axes stay. Joints of Drake become
+    plain ones or chains, and the named `balls` become chains: each joint of such a chain has the damping.
     """
     root, places = document.root, document.lines
     own = {

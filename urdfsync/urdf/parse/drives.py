@@ -1,7 +1,8 @@
 """Reads the drives of joints: `<ros2_control>`, `<transmission>`, plugins of Gazebo for wheels and couplings.
 
-If several drive one joint, the configuration counts first, then `<ros2_control>`, a transmission, a plugin. A
-contradiction is a warning, except with the configuration. The `<mimic>` of a joint counts before all other couplings.
+If a joint's drive is stated several times, the configuration counts first, then `<ros2_control>`, a transmission, a
+plugin. A contradiction is a warning, except with the configuration. The `<mimic>` of a joint counts before all other
+couplings.
 """
 
 from __future__ import annotations
@@ -42,9 +43,9 @@ _COUPLINGS: Mapping[str, _Law] = {
     "FourBarLinkageTransmission": lambda first, second: ((first, 0.0), (1.0, second)),
     "WristTransmission": lambda first, second: ((first, -second), (-first, -second)),
 }
-"""Turns of two motors before their own gears, a row each, per turn of two joints, from the reductions of the joints.
+"""From the reductions of two joints: a row for each motor, with its turns before its own gear per turn of each joint.
 
-These are the positions that `transmission_interface` of ros_control and `pr2_mechanism_model` document.
+`transmission_interface` of ros_control and `pr2_mechanism_model` document these laws.
 """
 _COMMANDS: tuple[Command, ...] = get_args(Command)
 """Interfaces of a joint in order: the first existing one counts."""
@@ -145,7 +146,7 @@ def _read_gears(
 def _read_coupled_gears(
     reader: Reader, path: str, law: _Law, joints: Sequence[Element], actuators: Sequence[Element]
 ) -> Sequence[Transmission | None] | None:
-    """Return the gears of two joints in their order; None if their elements or numbers are not those of the law."""
+    """Return the gears of two joints in their order; None if their elements or numbers do not fit the law."""
     parts = dict[str, Element]()
     for kind, elements in (("joint", joints), ("actuator", actuators)):
         for number, part in enumerate(elements, 1):
@@ -231,7 +232,7 @@ def _read_mimic(reader: Reader, parts: Mapping[str, Element], leader: str, path:
 
 
 def _read_interfaces(reader: Reader, element: Element, joint: Element, path: str) -> set[Command | None]:
-    """Return the commands of a joint of a transmission, None among them for the interface that measures.
+    """Return the commands of a transmission's joint. An interface that only measures gives None.
 
     The actuator's interfaces count if the joint names none, and there is only one joint.
     """
@@ -308,7 +309,7 @@ def with_drives(reader: Reader, joints: Iterable[Joint], drives: Iterable[Drive]
             path = next(drive.path for drive in by_joint[joint.name] if drive.transmission == gear)
             name, pair = path.partition(" / ")[0], f"{joint.name} and {gear.joint}"
             message = f"{name} couples {pair}, which do not both turn by themselves: they have no gears"
-            if gear.joint in starts:  # a joint that does not exist is told elsewhere
+            if gear.joint in starts:  # a joint that does not exist is reported elsewhere
                 loose.setdefault(name, Finding("coupled-transmission", path, message))
     reader.extend(loose.values())
     for joint in driven:
@@ -330,7 +331,7 @@ def _with_drives(reader: Reader, joint: Joint, drives: list[Drive]) -> Joint:
     reader.used.update(drive.element for drive in drives if drive.element is not None and not drive.is_coupled)
 
     def first(field: str) -> Drive | None:
-        """Return the first drive with a value of a field; report contradictory ones."""
+        """Return the first drive that states a field; report others that contradict it."""
         stated = [drive for drive in drives if getattr(drive, field) is not None]
         for other in stated[1:] if stated and stated[0].path else ():
             if getattr(other, field) != getattr(stated[0], field):

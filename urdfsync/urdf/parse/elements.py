@@ -1,4 +1,4 @@
-"""Reads links, joints and materials. For a faulty value there is a diagnostic, and a default replaces it."""
+"""Reads links, joints and materials. A faulty value gives a diagnostic, and a default replaces it."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ from urdfsync.urdf.validate import Finding, perhaps
 _SHAPES: Mapping[str, type[Geometry]] = {str(kind.__struct_config__.tag): kind for kind in get_args(Geometry)}
 
 _TWINS = {"iyx": "ixy", "izx": "ixz", "izy": "iyz"}
-"""The other half of a symmetrical tensor; some exporters write both."""
+"""Attributes of the other half of a symmetrical tensor; some exporters write both halves."""
 
 
 def read_link(reader: Reader, element: Element, path: str, contact: Contact | None) -> Link:
@@ -88,7 +88,7 @@ def _read_shapes(reader: Reader, link: Element, path: str, tag: str, owner: str)
 
 
 def read_material(reader: Reader, element: Element, path: str, owner: str = "") -> Material:
-    """Read a material as written; a missing colour is None, and so is, after a warning, a faulty one."""
+    """Read a material as written. A missing colour is None; a faulty one, too, with a warning."""
     reader.expect(element, path, ("name",), moves=False)
     color = reader.children(element, path, ("color",), owner).get("color")
     rgba = None

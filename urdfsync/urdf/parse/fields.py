@@ -1,6 +1,6 @@
 """Reads elements into the structs of `urdf.robot`.
 
-A field of numbers or text is the attribute of its name. A field that is a struct is the child element of its name. A
+A field of numbers or text is read from the attribute with its name, a struct from the child element with its name. A
 field without a default is required. Unknown parts are kept as text (see `Extension`) and reported: with a warning where
 they may change the motion, otherwise in one note that counts them.
 
@@ -44,15 +44,15 @@ Values = TypeVar("Values", bound=msgspec.Struct)
 _DECIMAL = re.compile(r"[+-]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
 _BLANKS = re.compile(r"[ \t\r\n\f\v]+")
 _COUNTS = {str: 0, JointType: 0, float: 1, float | None: 1, Vector: 3}
-"""Count of numbers of an attribute, by the type of its field; 0 for text."""
+"""How many numbers an attribute has, by the type of its field; 0 for text."""
 _ONE_VALUE = {"parent": "link", "child": "link", "axis": "xyz", "mass": "value"}
-"""Child elements of fields of numbers or text, with their only attribute."""
+"""Fields of numbers or text that are child elements, each with the only attribute of its element."""
 _REPEATED = ("visual", "collision")
 _LENGTHS = {"xyz": 3, "rpy": 3, "quat_xyzw": 4}
-"""Counts of numbers of attributes that an unknown one may mean."""
+"""Vectors that may be meant by an unknown attribute, with their counts of numbers."""
 _POSE = 6
 _ELSEWHERE = ("transmission", "start")
-"""Fields whose elements stand outside of the element of their struct."""
+"""Fields that are not read from the element of their struct, but elsewhere."""
 _STILL = frozenset({Link, Visual, Collision, Calibration, SafetyController, *get_args(Geometry)})
 """Structs of elements in which unknown parts do not change the motion."""
 _NEUTRAL = frozenset({"name", "id", "sensor", "dont_collapse"})
@@ -60,7 +60,7 @@ _NEUTRAL = frozenset({"name", "id", "sensor", "dont_collapse"})
 _MASSES = ("inertial", "mass", "inertia")
 _MASS_WORDS = re.compile("mass|inerti", re.IGNORECASE)
 _BY_KIND = frozenset({"unknown-attribute", "unknown-element"})
-"""Codes of warnings whose messages differ only by their path: one line for each name."""
+"""Codes of warnings that become one for each unknown name: their messages differ only by the path."""
 _SHOWN_ALONE = 3
 _LINES_SHOWN = 8
 _TEXT_SHOWN = 60
@@ -126,9 +126,9 @@ class Reader:
     def children(
         self, element: Element, path: str, tags: Collection[str], owner: str, *, moves: bool = False
     ) -> dict[str, Element]:
-        """Return the first child of each tag, visuals and collisions aside; others become extensions of `owner`.
+        """Return the first child of each of `tags`, without visuals and collisions; children of other tags are kept.
 
-        `moves` says whether others would change the motion.
+        Kept children become extensions of `owner`; `moves` says whether they would change the motion.
         """
         by_tag: dict[str, Element] = {}
         for child in element:
@@ -148,7 +148,7 @@ class Reader:
         return by_tag
 
     def keep(self, child: Element, path: str, tags: Collection[str], owner: str, *, moves: bool = False) -> None:
-        """Keep an element with none of `tags`; warn if it would change the motion or looks misspelt."""
+        """Keep an element whose tag is none of `tags`; warn if it would change the motion or looks misspelt."""
         self.extensions.append((owner, child))
         mass = next((part for part in child.iter() if part.tag in _MASSES), None)
         if mass is not None:
@@ -167,7 +167,7 @@ class Reader:
             self.add(child, "unknown-element", message, hint)
 
     def unmodelled(self) -> Iterator[tuple[str, Element]]:
-        """Yield the unread elements with their owners: each as a whole, or the unread ones inside of it."""
+        """Yield unread elements with their owners: whole extensions, and the unread parts of those that are read."""
         waiting = self.extensions[::-1]
         while waiting:
             owner, element = waiting.pop()
@@ -224,9 +224,9 @@ class Reader:
                 self.attributes.append((name, element))
 
     def _take_texts(self, element: Element, path: str, attributes: Iterable[str]) -> None:
-        """Write texts of an element in SDFormat's spelling as its attributes, with a warning.
+        """Turn texts in SDFormat's spelling into attributes of their element, with a warning.
 
-        The text of `<origin>` and `<pose>` has six numbers, that of others the only attribute.
+        The text of `<origin>` and `<pose>` has six numbers; the text of any other element is its only attribute.
         """
         absent = [name for name in attributes if name not in element.attrib]
         texts = {part.tag: part for part in element if not len(part) and not part.attrib and (part.text or "").strip()}
@@ -311,18 +311,19 @@ class Reader:
             return text
         else:
             self.add(element, "empty-attribute", f"{path}: the attribute {name!r} is empty")
-        # a missing required value gets one that passes all later checks, so that the fault is reported once
+        # a missing required value gets a value that passes all later checks, so that the fault is reported once
         return ("", 1.0, None, (1.0, 1.0, 1.0))[count] if is_required else default
 
 
-# 45,000 elements of a robot of 1,000 links have one of 15 kinds.
+# The 45,000 elements of a robot with 1,000 links are of only 15 kinds.
 @functools.cache
 def _schema(
     struct: type[msgspec.Struct],
 ) -> tuple[Mapping[str, tuple[int, Any]], Mapping[str, tuple[Any, Any]], Sequence[str]]:
     """Return attributes and children of a struct's element, and its required children.
 
-    Both have defaults. Attributes have counts of numbers, 0 for text; children have counts or their struct.
+    Each attribute and child comes with its default. An attribute has its count of numbers, 0 for text; a child has this
+    count, or its struct.
     """
     attributes: dict[str, tuple[int, Any]] = {}
     children: dict[str, tuple[Any, Any]] = {}
@@ -347,7 +348,7 @@ def _schema(
 
 @functools.cache
 def _moving_tags() -> frozenset[str]:
-    """Return the tags that change the motion in each place."""
+    """Return the tags that change the motion wherever they stand."""
     return frozenset({*_schema(Joint)[1], *_schema(Inertial)[1], "pose"} - {"safety_controller", "calibration"})
 
 
@@ -373,9 +374,9 @@ def _is_zero(text: str) -> bool:
 # links" of docs/speed.md: 50 of 500 ms.
 @functools.lru_cache(maxsize=1024)
 def parse_numbers(text: str, count: int) -> tuple[float, ...]:
-    """Return exactly `count` decimal numbers between blanks; raise ValueError with the fault.
+    """Return exactly `count` decimal numbers, separated by blanks; raise ValueError with the fault.
 
-    Negative zero becomes zero: then two exports do not differ by it.
+    Negative zero becomes zero, so that two exports do not differ by it.
     """
     words = [word for word in _BLANKS.split(text) if word]
     wrong = next((word for word in words if not _DECIMAL.fullmatch(word)), None)
@@ -405,7 +406,7 @@ def located(findings: Iterable[Finding], file: str, lines: Mapping[str, int]) ->
 def summary(diagnostics: Iterable[Diagnostic], file: str) -> tuple[Diagnostic, ...]:
     """Return the diagnostics of a file by line; more than three warnings of one code become one.
 
-    Those of unknown names become one for each name.
+    Warnings about unknown names become one for each name.
     """
     by_code: dict[tuple[Severity, str, str], list[Diagnostic]] = {}
     for entry in sorted(diagnostics, key=lambda entry: (entry.line, entry.column)):

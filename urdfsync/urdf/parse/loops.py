@@ -6,10 +6,10 @@
 - `<joint>` of SDF within `<gazebo>`: its frame is given in the child; the loop is closed with all joints at zero.
 - Two links `closing_NAME_1` and `closing_NAME_2`, as onshape-to-robot writes them. They have no kind, and count as a
   ball, which closes planar loops as a hinge does.
-- The option `loops`, which replaces a loop of the source with its name or its two frames.
+- The option `loops`, which replaces a loop of the source that has the same name or the same two frames.
 
 Other forms of loops are reported, not read: raisim's pins, MuJoCo's `<equality>` and joints of plugins are documented
-nowhere as parts of a URDF. MuJoCo documents `<compiler>`, `<option>` and `<size>` there (XML reference, URDF).
+nowhere as parts of a URDF. MuJoCo documents `<compiler>`, `<option>` and `<size>` as such (XML reference, URDF).
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ from urdfsync.urdf.robot import Link, Loop, LoopKind, Origin, Robot, Vector
 
 _BALL = "drake:ball_constraint"
 TAGS = ("loop_joint", _BALL)
-"""Elements of a robot that join two links of the tree; gazebo has a <joint> for it."""
+"""Elements of a robot that join two links of the tree; in <gazebo>, a <joint> does so."""
 _PARTS: Mapping[str, Sequence[str]] = {
     "loop_joint": (
         *("link1", "link2", "axis", "parent", "child", "origin", "parent_origin", "child_origin"),
@@ -111,7 +111,7 @@ def _find_pairs(element: Element, links: Collection[str]) -> Iterator[tuple[Elem
 
 
 def read_loops(reader: Reader, root: Element, robot: Robot, options: Options) -> tuple[Loop, ...]:
-    """Return the loops of a robot whose other parts are read; `robot` is a tree. Loops with a fault are left out."""
+    """Return the loops of a robot. `robot` has all other parts, and is a tree. Loops with a fault are left out."""
     loops = list[Loop]()
     elements = list(find_loop_elements(root))
     poses = link_poses(KinematicTree.of(robot), {}) if elements else {}
@@ -136,7 +136,7 @@ def read_loops(reader: Reader, root: Element, robot: Robot, options: Options) ->
                 loop = _read_ball(reader, element, path, name)
         if loop is not None and loop.parent and loop.child:  # a missing name is reported already
             loops.append(loop)
-    # a frame may be that of a joint, which equals that of its child
+    # a frame may have the name of a joint, whose frame is that of its child
     loops = [
         replace(loop, parent=ends.get(loop.parent, loop.parent), child=ends.get(loop.child, loop.child))
         for loop in loops
@@ -144,7 +144,7 @@ def read_loops(reader: Reader, root: Element, robot: Robot, options: Options) ->
     configured = configured_loops(options.loops)
     faulty = {finding.path for finding in validate.check_loops(configured, links)}
     paths = validate.element_paths("loop", (loop.name for loop in configured))
-    # option_names reports the others
+    # option_names reports the faulty ones
     chosen = [loop for path, loop in zip(paths, configured, strict=True) if path not in faulty]
     of_source = list[Loop]()
     for loop in map(_with_axes_of_its_kind, loops):
@@ -160,7 +160,7 @@ def read_loops(reader: Reader, root: Element, robot: Robot, options: Options) ->
 
 
 def configured_loops(loops: Sequence[LoopOption]) -> list[Loop]:
-    """Return the loops of the option `loops`, the axes of their kinds as written."""
+    """Return the loops of the option `loops`; axes are as written if their kind has them."""
     read = (_between(loop.name, loop.kind, loop.frames, loop.axis, loop.child_axis) for loop in loops)
     return list(map(_with_axes_of_its_kind, read))
 
@@ -229,9 +229,9 @@ def _read_loop_joint(reader: Reader, element: Element, path: str, name: str, pos
 def _read_ends(reader: Reader, element: Element, path: str, poses: Mapping[str, Pose]) -> list[LoopFrame]:
     """Return the frames of `<parent>` and `<child>`.
 
-    Each has a place of its own, or an element `<parent_origin>` or `<child_origin>`; without an orientation there, the
-    child's frame is parallel to the parent's where all joints are at zero, where it was exported. An `<origin>` is that
-    of a URDF joint: the child's frame in the parent's.
+    Each states its own place, or has an element `<parent_origin>` or `<child_origin>`. If `<child_origin>` states no
+    orientation, the child's frame is parallel to the parent's with all joints at zero, as at the export. An `<origin>`
+    is that of a URDF joint: the child's frame in the parent's.
     """
     frames = list[LoopFrame]()
     for tag in ("parent", "child"):

@@ -1,7 +1,7 @@
 """Reads the bytes of a URDF into a Robot: strict XML, URDF's defaults, and the model checks.
 
-Defaults are those of ROS's urdfdom. If urdfdom accepts more, this reader gives an error with file and line. If a fault
-leaves one sensible reading, it is a warning.
+Defaults are those of ROS's urdfdom. A fault is an error with file and line, even if urdfdom accepts it. If the fault
+leaves only one sensible reading, it is a warning.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ _XACRO = ("include", "macro", "if", "unless", "property")
 _LONGEST, _KINDS = 60, 12
 """The most characters of a tag, and the most tags, in the note on unmodelled elements; its details have all."""
 _XACRO_LOGIC = ("xacro:macro", "xacro:if", "xacro:unless", "xacro:insert_block")
-# Attributes with free text: a remaining `${…}` in one is a warning, in others an error.
+# Attributes with free text: a remaining `${…}` in one is a warning, in any other an error.
 _TEXTS = ("name", "link", "joint", "filename", "group")
 _VERSION = re.compile(r"\s*([0-9]{1,9})\.([0-9]{1,9})")
 _NEWEST = 1, 2
@@ -59,8 +59,8 @@ class RobotReading(NamedTuple):
 def read_robot(content: bytes, file: str, options: Options = _DEFAULTS, balls: Sequence[str] = ()) -> RobotReading:
     """Read a URDF; `file` is its name in diagnostics.
 
-    Raises nothing for bad input. The options choose the parts that may be left out, and the drives. A chain of three
-    joints stands for each of the `balls`, which are those that loops hold.
+    Raises nothing for bad input. The options choose the parts that may be left out, and the drives. Each of the
+    `balls`, the ball joints in loops, becomes a chain of three joints.
 
     All faults of the model are reported, but only the first fault of the XML.
     """
@@ -74,7 +74,7 @@ def read_robot(content: bytes, file: str, options: Options = _DEFAULTS, balls: S
     if robot is None or reader.failed:
         return RobotReading(None, diagnostics, reader.lines)
     if held := [] if balls else _balls_in_loops(robot):
-        reading = read_robot(content, file, options, held)  # only the loops tell which balls they hold
+        reading = read_robot(content, file, options, held)  # which balls are in loops is known once the loops are read
         told = [entry for entry in diagnostics if entry.code in ("limit-without-effect", "dynamics-without-effect")]
         for name in held:
             message = f"joint {name!r} is a ball in a loop: three continuous joints stand for it"

@@ -39,7 +39,7 @@ _DECLARATION = re.compile(
     (?:\s+standalone\s*=\s*(["'])(?:yes|no)\4)?\s*\?>""",
     re.VERBOSE | re.ASCII,
 )
-# ROS's parser accepts these. Their encoding is ignored, as other parsers do.
+# ROS's parser accepts these faulty declarations. Their encoding is ignored, as in other parsers.
 _FAULTY_DECLARATION = r"(?ia)\s*<\?xml\s[^<>]*\?>"
 _UNCLOSED = expat.errors.XML_ERROR_TAG_MISMATCH, expat.errors.XML_ERROR_NO_ELEMENTS
 _HINTS = {expat.errors.XML_ERROR_MISPLACED_XML_PI: "put <?xml … ?> at the beginning of the file, above all comments"}
