@@ -105,7 +105,9 @@ def _check_inertia(link: Link, inertial: Inertial, length: float) -> Iterator[Fi
     if gyration == 0 and radius and inertial.mass > _LIGHT:
         message = f"{place}: a body of {inertial.mass:g} kg that has a shape has no inertia"
     elif _MARKER < radius < math.inf and gyration > _GYRATION * radius:
-        message = f"{place}: the radius of gyration is {gyration:.3g} m, but the link ends at {radius:.3g} m"
+        message = (
+            f"{place}: the radius of gyration is {gyration:.3g} m, but the link's shapes reach only {radius:.3g} m"
+        )
     elif not _MARKER < radius < math.inf and gyration > _UNKNOWN_GYRATION * max(length, _UNKNOWN_SIZE):
         message = f"{place}: the radius of gyration is {gyration:.3g} m in a robot of {length:.3g} m"
     else:

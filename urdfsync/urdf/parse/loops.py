@@ -91,9 +91,11 @@ def tell_foreign_loops(reader: Reader, root: Element, options: Options) -> None:
         for part, pair in found:
             words = f"<{part.tag}> {part.get('name', '')}".rstrip()
             if not pair:
-                reader.add(part, "force-left-out", f"{words} constrains the robot, but not the model")
+                reader.add(part, "force-left-out", f"{words} constrains the robot, but is left out of the model")
             elif frozenset(pair) not in stated:
-                message = f"{words} joins links {' and '.join(map(repr, sorted(pair)))} in words that are not read"
+                message = (
+                    f"{words} joins links {' and '.join(map(repr, sorted(pair)))} in a form that urdfsync does not read"
+                )
                 hint = 'state it as `loops` in the configuration, or leave it out by `allow = ["loop-joint"]`'
                 reader.add(part, "loop-joint", message, hint)
 

@@ -158,7 +158,7 @@ def _read_origin(reader: Reader, source: _SensorElement, path: str) -> Origin:
     if pose is None or numbers is None:
         return Origin()
     if (other := pose.get("relative_to")) and other != source.at:
-        message = f"{path}: its pose counts from {source.at!r}, and not from {other!r}"
+        message = f"{path}: its pose is read in the frame of {source.at!r}, not of {other!r}"
         reader.add(pose, "bad-sensor", message, f"give its pose in the frame of {source.at!r}")
     turn = math.radians(1) if pose.get("degrees", "").strip().lower() in ("true", "1") else 1.0
     x, y, z, roll, pitch, yaw = numbers
