@@ -99,8 +99,8 @@ def guess_robots(
 ) -> tuple[list[Guess], list[Diagnostic]]:
     """Guess a robot for each of the `named` sources, else for each source below `root`; also return warnings.
 
-    `known` are the robots that are there. A source that is named twice with the same arguments counts once. Raises
-    ConfigError if there is no source or a given name is taken, SourceError if a named source, or each found one, is
+    `known` are the existing robots. A source that is named twice with the same arguments counts once. Raises
+    ConfigError if there is no source or a given name is taken, SourceError if a named source, or every found one, is
     unreadable.
     """
     unique: dict[tuple[str, str], NamedSource] = {}

@@ -49,7 +49,7 @@ _WORDS = {
 }
 
 _fields = functools.cache(msgspec.structs.fields)
-"""The fields of each struct type. Finding them takes the daemon a tenth of a small build."""
+"""The fields of each struct type. In the daemon, finding them takes a tenth of a small build's time."""
 
 
 def find(start: Path) -> Path:
@@ -328,7 +328,7 @@ class _Reader:
         return self._absolute(Path(value))
 
     def _absolute(self, path: Path) -> Path:
-        """Return a path without `..` and `.`, with symbolic links: messages show the user's path."""
+        """Return a path without `..` and `.`. Symbolic links are not followed: messages show the user's path."""
         return Path(os.path.normpath(self._root / path))
 
     def _refuse_unknown(self, table: _Table, allowed: Collection[str]) -> None:

@@ -73,7 +73,7 @@ def find_edits(paths: Sequence[str], config: Config, options: BuildOptions) -> I
     for robot in config.select(paths):
         try:
             files = tuple(find_edited(generate_robot(inspect(config, robot, options))))
-        except Exception as error:  # noqa: BLE001 - of one robot
+        except Exception as error:  # noqa: BLE001 - one robot's error does not stop the others
             yield RobotEdits(robot.name, config.root, diagnostics=findings_of(error), failed=True)
             continue
         places = {text: Path(os.path.normpath(working_folder() / text)) for text in paths}

@@ -343,7 +343,7 @@ def _modified(types: Types, modifiers: Sequence[Scoped]) -> Types:
 
 
 def _nested(modifiers: Iterable[Scoped], name: str) -> tuple[Scoped, ...]:
-    """Return the modifiers of a class's element among the class's modifiers."""
+    """Return the modifiers of one element, from the modifiers of its class."""
     return tuple(
         Scoped(modifier.arguments, scope)
         for arguments, scope in modifiers

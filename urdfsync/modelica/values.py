@@ -29,7 +29,7 @@ class Value(NamedTuple):
     type: str
     """The base class, or the type of the component with its prefixes; `equation`."""
     text: str
-    """The expression; of a connection both ends with a blank, of an equation all of it."""
+    """The expression; for a connection, its two ends with a blank between them."""
     line: int
 
 

@@ -215,7 +215,7 @@ class Console:
 
             stream: Any = sys.stderr
             if isinstance(stream, streams.Stream):
-                stream = stream.without_transcript()  # no saved answer has the bar
+                stream = stream.without_transcript()  # a saved answer must not contain the bar
             screen = rich_console(stream)
             bar = Progress(console=screen, transient=True, redirect_stdout=False, redirect_stderr=False)
             self._bar = bar, bar.add_task(what, total=total)
