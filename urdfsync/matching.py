@@ -2,9 +2,9 @@
 
 All elements are matched at once, by their contents, places and names:
 
-1. Declared matches hold. If a content is unique in both versions, its two elements match, whatever their names are. A
-   content is one aspect of an element, such as its shapes, or all aspects. If aspects disagree, they prove nothing; but
-   if one aspect stays with a name, the elements of this name match. If an element keeps its name and its unchanged
+1. Declared matches hold. A content is one aspect of an element, such as its shapes, or all its aspects. If a content is
+   unique in both versions, its two elements match, whatever their names are. If aspects disagree, they prove nothing;
+   but if one aspect stays with a name, the elements of this name match. If an element keeps its name and its unchanged
    neighbours, a content that moved to it is only a change of numbers.
 2. Neighbours of matched elements match if they are at the same place and have equal contents.
 3. Then names win: elements of the same name match.

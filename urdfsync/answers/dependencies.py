@@ -62,7 +62,7 @@ class Dependencies:
     def __exit__(self, *_: object) -> None:
         if self._token is not None:
             _current.reset(self._token)
-        self._token = None  # a worker sends its list to the process that prints the answer
+        self._token = None  # a worker sends its list, and a token can't be pickled
         if self._is_program:
             self.modules, self.entries = self.modules | self.entries, {}
         include(self)

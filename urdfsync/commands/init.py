@@ -167,8 +167,8 @@ def _free_names(
 ) -> tuple[str, str]:
     """Return names for a robot and its package that no `known` robot has.
 
-    The argument `name` comes first, then the robot's own name, then that with the arguments by which it differs from
-    the `fleet` of its source, then the file's name. Raises ConfigError if the argument `name` is taken.
+    The argument `name` decides. Otherwise these are tried: the robot's own name; this name with the arguments that
+    differ within the `fleet` of its source; the file's name. Raises ConfigError if the argument `name` is taken.
     """
     taken = {name.casefold() for one in known for name in (one.robot, one.package)}
     differing = "_".join(value for key, value in given.items() if any(other.get(key) != value for other in fleet))

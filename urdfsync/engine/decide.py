@@ -137,7 +137,7 @@ def _find_files(generation: Generation) -> dict[str, File]:
 
 
 def _adjust(generation: Generation, action: Action, doubts: Mapping[str, Doubt]) -> Action:
-    """Correct an action, which follows from hashes, by contents and options."""
+    """Correct an action by contents and options; so far it follows from hashes alone."""
     inputs = generation.inputs
     contradictions = inputs.files.left_by_git.get(action.path)
     if contradictions and action.reason is Reason.KEEP:
@@ -212,7 +212,7 @@ def _without_misfits(
 ) -> dict[str, Conflict]:
     """Return the conflicts; leave out merges that would use unknown names.
 
-    Merges are tried first. Contradictions are then tried with each side preferred.
+    Clean merges are tried first. Then contradictions are tried in favour of each side.
     """
     sound, before = dict(conflicts), None
     for side in (None, *sorted(PREFERENCES)):

@@ -69,7 +69,7 @@ def find_edited(generation: Generation, actions: Iterable[Action] | None = None)
 
 
 def find_edits(paths: Sequence[str], config: Config, options: BuildOptions) -> Iterator[RobotEdits]:
-    """Yield the edits in the files that paths mean, or in all. Raises ConfigError if a path means no robot."""
+    """Yield the edits in the files at these paths, or in all files. Raises ConfigError for a path without a robot."""
     for robot in config.select(paths):
         try:
             files = tuple(find_edited(generate_robot(inspect(config, robot, options))))

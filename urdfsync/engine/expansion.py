@@ -1,6 +1,6 @@
 """Makes sources before they are read: by xacro, or by a command of the user's.
 
-The inputs of a source are recorded with hashes (see `state.expansion`). The source is made again if one has changed.
+The inputs of a source are recorded with hashes (see `state.expansion`). The source is made again if an input changed.
 """
 
 from __future__ import annotations
@@ -68,7 +68,7 @@ class Inputs:
         return Path(os.path.relpath(file, self.root) if file.parts[:2] == self.root.parts[:2] else file).as_posix()
 
     def look(self, robot: RobotConfig, names: Expansion) -> Expansion:
-        """Return the present inputs of a source, by the names in an expansion, without the text.
+        """Return the inputs of a source as they are now: those that `names` lists. The text is left empty.
 
         If a package is missing on this machine, its files count as unchanged. A command names its files itself.
         """

@@ -147,7 +147,7 @@ class Package(PackageAfter):
         return misfits
 
     def _passed_statements(self) -> dict[str, frozenset[str]]:
-        """Return the files to check, each with the statements to pass over: they equal generated ones."""
+        """Return the files to check, each with its statements that need no check: they equal generated ones."""
         artifacts, statements = self._generation.package.artifacts, dict[str, frozenset[str]]()
         # first look for missing classes that generated texts mention
         before = self._inputs.last.files

@@ -276,7 +276,7 @@ def _keep_copy(
 ) -> Diagnostic:
     """Use the copy of an earlier build, if there is one.
 
-    `trouble` says why; the result adds the consequence.
+    `trouble` says why the file is not imported now; the result adds the consequence.
     """
     own, files = recorded.get(dependency.key), _find_recorded(dependency, recorded)
     if own is None or any(file.copy is None for _, _, file in files):

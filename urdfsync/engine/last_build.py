@@ -158,7 +158,7 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
         return respelled
 
     def has_generated(self, key: str, sha256: str, role: Role) -> bool:
-        """Return whether a file on disk was generated: by this machine's notes, or by the recorded model.
+        """Return whether a file on disk was generated, judged by this machine's notes or the recorded model.
 
         Its recorded hash proves nothing: a person may have written the file, and a stranger the record.
         """

@@ -101,7 +101,7 @@ def plain_statements(text: str) -> frozenset[str]:
 def is_plain(statement: str) -> bool:
     """Whether a statement, without its semicolon, only declares one component, connects, asserts or annotates.
 
-    It is not plain if other classes see more of it than type and name of a component.
+    It is not plain if other classes see more of it than a component's type and name.
     """
     if ";" in statement or _SEEN_BY_OTHERS.search(statement):
         return False

@@ -92,7 +92,7 @@ class Comparison(msgspec.Struct, frozen=True):
 
 
 def exit_code(comparisons: Sequence[Comparison]) -> Exit:
-    """Return the worst of all: an error, a lock, being out of step; a conflict counts as out of step."""
+    """Return the worst exit code: error, then lock, then out of step. A conflict counts as out of step."""
     code = exit_code_of(comparison.result for comparison in comparisons)
     if code in (Exit.ERROR, Exit.LOCKED):
         return code
