@@ -146,7 +146,7 @@ class Changes(msgspec.Struct, frozen=True):
 
     @property
     def change_class(self) -> ChangeClass:
-        """The class of the change with the farthest reach."""
+        """The class with the farthest reach, of all differences."""
         if self.generator:
             return ChangeClass.GENERATOR
         return max((change.change_class for change in self.changes), key=lambda c: c.rank, default=ChangeClass.NONE)
@@ -240,7 +240,7 @@ def find_differences(
 ) -> Iterator[Difference]:
     """Yield the differences of two versions: of their snapshots as plain data by kind and name, and of their imports.
 
-    Elements that are equal cost one comparison, and may be left out.
+    Equal elements cost one comparison each; callers may leave them out.
     """
     yield from _of_snapshots(old_data, new_data)
     if old.imports is not None and new.imports is not None:

@@ -280,7 +280,7 @@ class _Matcher:
         return False
 
     def _between(self) -> Iterator[tuple[ElementKey, ElementKey]]:
-        """Yield the only elements of a kind between the same matched neighbours."""
+        """Yield pairs of elements: each is the only unmatched one of its kind between the same matched neighbours."""
         ends = defaultdict[Hashable, tuple[list[ElementKey], list[ElementKey]]](lambda: ([], []))
         for key, features in self._old.items():
             around = [self._pairs.get(one) for one in features.neighbours.values()]

@@ -265,7 +265,7 @@ class _Reader:
         if len(self.problems) > before:
             return None
         source, given = Path(table.values["source"]), keys.arguments or {}
-        # as xacro gets them on its command line
+        # as text, since xacro gets text on its command line
         arguments = {key: value if isinstance(value, str) else json.dumps(value) for key, value in given.items()}
         shared: dict[str, Any] = {field.name: getattr(keys, field.name) for field in _fields(SharedKeys)}
         return RobotConfig(

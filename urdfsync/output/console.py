@@ -42,7 +42,7 @@ class StyledLine(msgspec.Struct, frozen=True):
     """One line as pieces of text, each with a style of rich; empty for none.
 
     Pipes and files get the text without rich: its import takes 20 of the 95 ms of a build of one changed mass, which
-    has to stay below 2.5 times the published tool's update (docs/speed.md).
+    has a bar in docs/speed.md.
     """
 
     parts: tuple[tuple[str, str], ...]
