@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 else:
 
     def __getattr__(name: str) -> object:
-        """Load a name of the API: a build takes 200 ms."""
+        """Load a name of the API when it is needed: importing `api` takes 200 ms."""
         if name in __all__:
             import importlib  # the up-to-date check does not need it
 

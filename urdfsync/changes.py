@@ -1,4 +1,4 @@
-"""Compares two versions of a model: classifies changes, and finds their files. Knows no domain."""
+"""Compares two versions of a model: classifies changes, and finds their files. Works for any domain."""
 
 from __future__ import annotations
 
@@ -146,7 +146,7 @@ class Changes(msgspec.Struct, frozen=True):
 
     @property
     def change_class(self) -> ChangeClass:
-        """The class that reaches farthest."""
+        """The class with the farthest reach, of all differences."""
         if self.generator:
             return ChangeClass.GENERATOR
         return max((change.change_class for change in self.changes), key=lambda c: c.rank, default=ChangeClass.NONE)
@@ -192,7 +192,7 @@ def _describe(old: Version, new: Version, renames: Mapping[ElementKey, str], opt
 
 
 def _weight(change: Change) -> tuple[bool, ...]:
-    """Return a sort key for people: first other names, then whole elements, structure, numbers, and rounding."""
+    """Return a sort key for people: renames first, then whole elements, structure, numbers, and rounding."""
     is_structural, is_quiet = (
         change.change_class is ChangeClass.STRUCTURAL,
         change.change_class is ChangeClass.UNMODELLED,
@@ -206,8 +206,8 @@ def moved_files(
     """Return old path → new path of each file that belongs to the same element as before, but is at another place.
 
     Both mappings have the owner and the template of files by their path. A file moves with its element's new name, or
-    with its new identifier. If several files of one element and template have moved, they are not matched. If another
-    element has the element's name now, its files stay.
+    with its new identifier. If several files of one element and template have moved, they are not matched. The files
+    of a removed element whose name another element has now are left out.
     """
     if old == new and not renames:
         return {}
@@ -240,7 +240,7 @@ def find_differences(
 ) -> Iterator[Difference]:
     """Yield the differences of two versions: of their snapshots as plain data by kind and name, and of their imports.
 
-    Elements that are equal cost one comparison, and may be left out.
+    Equal elements cost one comparison each; callers may leave them out.
     """
     yield from _of_snapshots(old_data, new_data)
     if old.imports is not None and new.imports is not None:
@@ -333,6 +333,6 @@ def _of_imports(old: Mapping[str, Import], new: Mapping[str, Import]) -> Iterato
             yield Difference(("imports", key), kind, before and before.target_hash, after and after.target_hash)
         elif (before.target_hash, before.facts) != (after.target_hash, after.facts):
             hashes = before.target_hash, after.target_hash
-            if before.target_hash == after.target_hash:  # imported files have no colours
+            if before.target_hash == after.target_hash:  # only facts differ, such as colours
                 hashes = before.source_hash, after.source_hash
             yield Difference(("imports", key), ChangeKind.CHANGED, *hashes)

@@ -25,7 +25,7 @@ _LONGEST = 1000
 
 
 def cut(text: str, longest: int) -> str:
-    """Return a text with its middle left out, if it is longer."""
+    """Return a text; leave out its middle if it is longer than `longest`."""
     if len(text) <= longest:
         return text
     end = longest // 4

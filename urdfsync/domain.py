@@ -161,7 +161,7 @@ class Reading(msgspec.Struct, frozen=True):
     snapshot: Snapshot
     diagnostics: tuple[Diagnostic, ...]
     lines: Mapping[str, int] = msgspec.field(default_factory=dict)
-    """Line of each element, by the domain's own keys; `Domain.dependencies` gets it again."""
+    """Line of each element, by the domain's own keys; they are passed to `Domain.dependencies`."""
     option_findings: tuple[tuple[str, Diagnostic], ...] = ()
     """Findings about options for this model: each option, with a diagnostic without place.
 

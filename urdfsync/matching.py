@@ -2,12 +2,12 @@
 
 All elements are matched at once, by their contents, places and names:
 
-1. Declared matches hold. If a content is unique in both versions, its two elements match, whatever their names are. A
-   content is one aspect of an element, such as its shapes, or all aspects. If aspects disagree, they prove nothing; but
-   if one aspect stays with a name, the elements of this name match. If an element keeps its name and its unchanged
+1. Declared matches hold. A content is one aspect of an element, such as its shapes, or all its aspects. If a content is
+   unique in both versions, its two elements match, whatever their names are. If aspects disagree, they prove nothing;
+   but if one aspect stays with a name, the elements of this name match. If an element keeps its name and its unchanged
    neighbours, a content that moved to it is only a change of numbers.
-2. Neighbours of the same element at the same place, with equal contents, are the same.
-3. Then names win: elements of one name are the same.
+2. Neighbours of matched elements match if they are at the same place and have equal contents.
+3. Then names win: elements of the same name match.
 4. The remaining elements have other names. Two of them at the same place match if no other element has their content,
    or if another element has the old name now.
 
@@ -53,7 +53,7 @@ class Matching(msgspec.Struct, frozen=True):
     renames: Mapping[ElementKey, str] = {}
     """New names by old elements, in order."""
     doubts: Mapping[ElementKey, Doubt] = {}
-    """By new elements; an old element had the same name."""
+    """Doubts by new elements; each has the name of an old element."""
 
 
 def without_exchanges(matching: Matching, old: Elements) -> Matching:
@@ -96,7 +96,7 @@ class _Matcher:
         self._places = defaultdict[ElementKey, dict[ElementKey, None]](dict)
         """New elements at the places of old ones, next to matched elements."""
         self._removed, self._added = set[Hashable](), set[Hashable]()
-        """Contents of elements that have no match."""
+        """Contents of old and of new elements that have no match."""
         self._take(declared.items())
 
     def run(self) -> Matching:
@@ -118,7 +118,7 @@ class _Matcher:
         return Matching(renames, {key: doubts[key] for key in sorted(doubts)})
 
     def _in_order(self) -> list[ElementKey]:
-        """Return the old elements by kind, as the domain has these, and by name."""
+        """Return the old elements sorted by kind, in the domain's order, and by name."""
         kinds = {kind: number for number, kind in enumerate(dict.fromkeys(kind for kind, _ in self._old))}
         return sorted(self._old, key=lambda key: (kinds[key[0]], key[1]))
 
@@ -131,7 +131,7 @@ class _Matcher:
         return taken
 
     def _votes(self) -> dict[ElementKey, dict[ElementKey, None]]:
-        """Return, for each old element, the new ones that alone share an aspect with it."""
+        """Return, for each old element, the new ones that share an aspect with it which no other element has."""
         votes = defaultdict[ElementKey, dict[ElementKey, None]](dict)
         holders = defaultdict[tuple[str, Any], tuple[list[ElementKey], list[ElementKey]]](lambda: ([], []))
         for side, elements in enumerate((self._before, self._after)):
@@ -252,7 +252,7 @@ class _Matcher:
         is_named = old in self._new and old not in self._taken
         if self._is_equal(old, new):
             return old == new or not is_named or not self._is_equal(old, old) or self._has_another_place(old)
-        # in step 4, the old name is gone or another element has it, and no other element left has these contents
+        # in step 4, the old name is gone or another element has it, and no other unmatched element has these contents
         is_unique = (old[0], self._before[old]) not in self._added and (new[0], self._after[new]) not in self._removed
         return is_late and not is_named and is_unique
 
@@ -280,7 +280,7 @@ class _Matcher:
         return False
 
     def _between(self) -> Iterator[tuple[ElementKey, ElementKey]]:
-        """Yield the only elements of a kind between the same matched neighbours."""
+        """Yield pairs of elements: each is the only unmatched one of its kind between the same matched neighbours."""
         ends = defaultdict[Hashable, tuple[list[ElementKey], list[ElementKey]]](lambda: ([], []))
         for key, features in self._old.items():
             around = [self._pairs.get(one) for one in features.neighbours.values()]
@@ -397,7 +397,7 @@ def _numbers(value: Any) -> Iterator[float]:
 
 
 def _clusters(numbers: Collection[float]) -> dict[float, int]:
-    """Return one cluster for all numbers that differ from the next one by noise."""
+    """Return the cluster of each number: numbers that differ from the next one only by noise share it."""
     clusters, last, cluster = dict[float, int](), 0.0, 0
     for number in sorted(numbers):
         if number - last > NOISE * max(abs(number), abs(last)):

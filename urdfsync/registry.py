@@ -17,7 +17,7 @@ from urdfsync.spelling import nearest
 _OWN = {"urdf": "urdfsync.urdf.domain:DOMAIN"}
 """Our own domain, also an entry point: the search for entry points would cost every build 20 ms of imports."""
 _places: dict[tuple[str, ...], tuple[str, Dependencies]] = {}
-"""Found domains by name and Python's path, with the files that were read: a process goes on with loaded code.
+"""Found domains by name and Python's path, with the files that were read: a process keeps the code that it has loaded.
 
 A build asks three times, and each search takes 5 of its 50 ms.
 """

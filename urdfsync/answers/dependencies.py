@@ -39,7 +39,7 @@ from urdfsync.answers.facts import (
 class Dependencies:
     """All that this thread reads through this module inside a `with` block, and inside nested blocks.
 
-    With `is_program`, the files are part of the program, also for the block around.
+    With `is_program`, the files count as part of the program, in the block around as well.
     """
 
     def __init__(self, *, is_program: bool = False) -> None:
@@ -62,7 +62,7 @@ class Dependencies:
     def __exit__(self, *_: object) -> None:
         if self._token is not None:
             _current.reset(self._token)
-        self._token = None  # a worker sends its list to the process that prints the answer
+        self._token = None  # a worker sends its list, and a token can't be pickled
         if self._is_program:
             self.modules, self.entries = self.modules | self.entries, {}
         include(self)
@@ -166,7 +166,7 @@ def read_variable(name: str) -> str | None:
 
 
 def read_file(path: str | os.PathLike[str]) -> bytes:
-    """Read a regular file of at most `MAX_FILE` bytes. Raises OSError, for anything else as well."""
+    """Read a regular file of at most `MAX_FILE` bytes. Raises OSError, also for any other kind of file."""
     depend_on(path)
     content = read_unrecorded(path)
     note_content(STAT, path, content)

@@ -45,7 +45,7 @@ NOTHING = (0,)
 def is_young(facts: tuple[int, ...], now: int) -> bool:
     """Whether a file changed less than two seconds before `now` (ns), or later.
 
-    The next change may show the same stat values, since no clock of a file system is coarser than that of FAT.
+    The next change may leave its stat values equal. Two seconds suffice: no file system's clock is coarser than FAT's.
     """
     return max(facts[-2:]) > now - YOUNG
 
@@ -109,7 +109,7 @@ def hash_file(path: str) -> str:
 
 def hash_content(content: bytes) -> str:
     """Return the hash of a content."""
-    from hashlib import sha256  # 3 ms that saved answers of old files save
+    from hashlib import sha256  # 3 ms; a saved answer about old files needs no hash
 
     return sha256(content).hexdigest()
 

@@ -189,7 +189,7 @@ def _write(stamp: str, facts_hash: str, read: list[str], answer: list[str]) -> N
             status = os.fstat(descriptor)  # the file is valid only with these values
             os.utime(descriptor, ns=(0, 0))
             if os.name == "nt" or os.fstat(descriptor).st_ctime_ns < status.st_ctime_ns:
-                return  # on Windows, FAT and sshfs, a user can set each time of a file
+                return  # on Windows, FAT and sshfs, a user can set all of a file's times
             # the last section shows that the file is complete
             text = "\0\0".join([_bound(status), facts_hash, "\0".join(read), "\0".join(answer), "end"])
             os.write(descriptor, text.encode("utf-8", "surrogateescape"))

@@ -166,7 +166,7 @@ def call(
 ) -> Value:
     """Warn of settings without effect, then call a function of the API for the chosen robots.
 
-    The options of a `kind` are arguments of the same names, or `given`.
+    The fields of `kind` are set by arguments of the same names, or by `given`.
     """
     loaded = load(args.config)
     robots = select_robots(args, loaded, console)
@@ -180,7 +180,7 @@ def request(args: argparse.Namespace, console: Console, **options: Any) -> Build
 
 
 def chosen(kind: type[msgspec.Struct], args: argparse.Namespace) -> dict[str, Any]:
-    """Return the options of a kind that are arguments of the same names."""
+    """Return the arguments that have the name of a field of `kind`."""
     given = {name: value for name, value in vars(args).items() if name in kind.__struct_fields__}
     return {name: tuple(value) if isinstance(value, list) else value for name, value in given.items()}
 

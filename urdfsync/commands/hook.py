@@ -76,7 +76,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
                     faults += _find_faults(commit, path, arguments.request(args, console), args.mode == "build")
             except git.GitError:
                 raise
-            except Exception as error:  # noqa: BLE001 - of one configuration
+            except Exception as error:  # noqa: BLE001 - one configuration's error does not stop the others
                 if any(file.startswith(path.removesuffix(PurePosixPath(path).name)) for file in commit.touched):
                     errors += findings_of(error)
     except git.GitError as error:
@@ -133,7 +133,7 @@ class RobotFiles:
         self._commit, self._config_file, self.robot, self.planned = commit, config.file, robot, planned
         self._state = f"{config.root / STATE_FOLDER}{os.sep}"
         self.outputs = commit.paths(parents.files(robot))
-        """Files that the commit needs if they exist."""
+        """The files that the commit needs, if they exist."""
         self.known = commit.paths([config.file])
         """The files that the commit needs, the files that a build read, and those that it looked for."""
         self.note(planned)
@@ -151,7 +151,7 @@ class RobotFiles:
         self.known |= self.outputs | self._commit.paths(path for _, path in entries)
 
     def _is_for_git(self, path: str) -> bool:
-        """Return whether a file is to be committed: not all of the state is."""
+        """Return whether a file belongs into a commit: some of the state does not."""
         return not path.startswith(self._state) or path.removeprefix(self._state).startswith(_COMMITTED)
 
     def select(self, paths: Iterable[str]) -> set[str]:
@@ -199,9 +199,9 @@ class RobotFiles:
         ignored = names - index.tracked - index.untracked
         for folder in self.folders if len(names) > _FEW and not ignored else ():
             inside = {path for path in index.unstaged | index.untracked if path.startswith(folder)}
-            if len(inside) > 1 and inside <= names:  # all new files of this folder are to be added
+            if len(inside) > 1 and inside <= names:  # the whole folder can be named
                 names = names - inside | {folder.removesuffix("/")}
-        # `:/` names the top: hooks run there, the user's shell elsewhere; a second colon ends git's signs
+        # hooks run at the top, the user's shell elsewhere: `:/` counts from the top; a second colon ends git's signs
         from_top = [f":/{'' if name[0].isalnum() or name[0] == '.' else ':'}{name}" for name in sorted(names)]
         return f"`{shlex.join(['git', 'add', *(['-f'] if ignored else []), *from_top])}`"
 

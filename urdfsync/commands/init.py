@@ -99,8 +99,8 @@ def guess_robots(
 ) -> tuple[list[Guess], list[Diagnostic]]:
     """Guess a robot for each of the `named` sources, else for each source below `root`; also return warnings.
 
-    `known` are the robots that are there. A source that is named twice with the same arguments counts once. Raises
-    ConfigError if there is no source or a given name is taken, SourceError if a named source, or each found one, is
+    `known` are the existing robots. A source that is named twice with the same arguments counts once. Raises
+    ConfigError if there is no source or a given name is taken, SourceError if a named source, or every found one, is
     unreadable.
     """
     unique: dict[tuple[str, str], NamedSource] = {}
@@ -167,8 +167,8 @@ def _free_names(
 ) -> tuple[str, str]:
     """Return names for a robot and its package that no `known` robot has.
 
-    The argument `name` comes first, then the robot's own name, then that with the arguments by which it differs from
-    the `fleet` of its source, then the file's name. Raises ConfigError if the argument `name` is taken.
+    The argument `name` decides. Otherwise these are tried: the robot's own name; this name with the arguments that
+    differ within the `fleet` of its source; the file's name. Raises ConfigError if the argument `name` is taken.
     """
     taken = {name.casefold() for one in known for name in (one.robot, one.package)}
     differing = "_".join(value for key, value in given.items() if any(other.get(key) != value for other in fleet))

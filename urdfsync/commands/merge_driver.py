@@ -71,7 +71,7 @@ def can_install(folder: Path) -> bool:
 
 
 def _has_settings(folder: Path) -> bool:
-    """Return whether the settings of a clone have the command."""
+    """Return whether git's settings of a clone name the command."""
     try:
         return bool(git.run("-C", str(folder), "config", "--get", "merge.urdfsync.driver"))
     except git.GitError:  # there is no such setting
@@ -79,7 +79,7 @@ def _has_settings(folder: Path) -> bool:
 
 
 def _is_named(folder: Path) -> bool:
-    """Return whether the attributes of models name the driver. Raises GitError."""
+    """Return whether git's attributes of `.mo` files name the driver. Raises GitError."""
     return git.run("-C", str(folder), "check-attr", "-z", "merge", "--", "any.mo").split("\0")[2] == "urdfsync"
 
 

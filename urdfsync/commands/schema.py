@@ -63,7 +63,7 @@ def run(args: argparse.Namespace, _console: Console) -> int:
 
 
 def document_schema(name: str) -> dict[str, Any]:
-    """Return the schema of a command's document; for `watch`, of a line."""
+    """Return the schema of a command's document; for `watch`, that of a line of output."""
     kinds: list[Any] = [Document[document_type(kind)] for kind in _RESULTS[name]]  # type: ignore[misc]
     if name == "watch":
         from urdfsync.watch.events import Event, RobotEvent  # the other commands do without

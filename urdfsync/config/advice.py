@@ -30,7 +30,7 @@ class Advice(Protocol):
         ...
 
     def option_for(self, name: str, snapshot: Snapshot, target: Target, options: Any) -> str:
-        """Return the option that brings a class, connector, input or output, as the configuration has it.
+        """Return the option, as the configuration has it, that brings a class, connector, input or output.
 
         Empty if none does, or if `options` bring it.
         """

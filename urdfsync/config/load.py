@@ -49,7 +49,7 @@ _WORDS = {
 }
 
 _fields = functools.cache(msgspec.structs.fields)
-"""The fields of each struct type. Finding them takes the daemon a tenth of a small build."""
+"""The fields of each struct type. In the daemon, finding them takes a tenth of a small build's time."""
 
 
 def find(start: Path) -> Path:
@@ -265,7 +265,7 @@ class _Reader:
         if len(self.problems) > before:
             return None
         source, given = Path(table.values["source"]), keys.arguments or {}
-        # as xacro gets them on its command line
+        # as text, since xacro gets text on its command line
         arguments = {key: value if isinstance(value, str) else json.dumps(value) for key, value in given.items()}
         shared: dict[str, Any] = {field.name: getattr(keys, field.name) for field in _fields(SharedKeys)}
         return RobotConfig(
@@ -328,7 +328,7 @@ class _Reader:
         return self._absolute(Path(value))
 
     def _absolute(self, path: Path) -> Path:
-        """Return a path without `..` and `.`, with symbolic links: messages show the user's path."""
+        """Return a path without `..` and `.`. Symbolic links are not followed: messages show the user's path."""
         return Path(os.path.normpath(self._root / path))
 
     def _refuse_unknown(self, table: _Table, allowed: Collection[str]) -> None:

@@ -40,7 +40,7 @@ def model_class(package: str, chosen: str) -> str:
 
 
 def is_package(name: str) -> bool:
-    """Whether a package may have a full name: it must not hide names that generated models use."""
+    """Whether a package may have this full name: it must not hide names that generated models use."""
     # the same as `PACKAGE_PATTERN`, which takes 4 ms to compile
     reserved = {word.lower() for word in RESERVED_CLASSES | DEVICES}
     return all(

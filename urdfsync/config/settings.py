@@ -118,7 +118,7 @@ class Config(msgspec.Struct, frozen=True):
         return self.file.parent
 
     def without_ignored(self, diagnostics: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
-        """Leave out the warnings and notes about no robot that all robots ignore."""
+        """Leave out warnings and notes that all robots ignore; these findings belong to no robot."""
         shown_findings = {finding for robot in self.robots for finding in robot.without_ignored(diagnostics)}
         return tuple(finding for finding in diagnostics if finding in shown_findings)
 

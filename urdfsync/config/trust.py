@@ -15,7 +15,7 @@ from urdfsync.files import shown
 
 
 class _Trusted(msgspec.Struct, forbid_unknown_fields=True):
-    """The user's file."""
+    """The user's file of trusted folders."""
 
     folders: list[str] = []
 

@@ -1,1 +1,1 @@
-"""From sources to files: inspect, generate, decide, and carry out. Knows no domain."""
+"""Turns sources into files: inspects, generates, decides, and writes. Works for any domain."""

@@ -34,11 +34,11 @@ class Choice(enum.StrEnum):
 
 
 class UsersChoice(msgspec.Struct, frozen=True):
-    """The user's decision about one file. It holds for the two texts that he saw; a file that he saved since stays."""
+    """The user's decision about one file. It is ignored once one of the two texts changes."""
 
     choice: Choice
     sides: str
-    """`sides_hash` of them."""
+    """`sides_hash` of the two texts that the user saw."""
     text: str | None = None
     """The user's text for `Choice.EDIT`; the new name for `Choice.MOVED`."""
 
@@ -79,7 +79,7 @@ class FileStatus(enum.StrEnum):
 class Reason(enum.StrEnum):
     """The reason of an action. The reason decides the effect on the file, and all words about it."""
 
-    # Word, kind, status (None without a file), and the end of a sentence that begins with the path.
+    # Each reason has a word, kind, status (None without a file), and the end of a sentence that begins with the path.
     # Then the words for n such files in a dry run and, if they differ, after a build. Output keeps this order.
     # fmt: off
     UPDATE = ("update", Kind.WRITE, FileStatus.STALE, "its generated text changed",
@@ -130,7 +130,7 @@ ORPHANS = frozenset(reason for reason in Reason if reason.status is FileStatus.O
 """Actions that keep a file that is no longer generated."""
 CONFLICTS = frozenset(reason for reason in Reason if reason.kind is Kind.CONFLICT)
 DISPUTED = CONFLICTS | {Reason.MOVE}
-"""Actions that the texts, or the user, decide."""
+"""Actions that depend on the texts of both sides, or on the user's choice."""
 USERS = frozenset({Reason.KEEP, Reason.INCLUDED, Reason.MERGE, Reason.UNDO, Reason.ORPHAN}) | DISPUTED
 """Actions after which the file still has the user's text."""
 
@@ -158,7 +158,7 @@ class Action(msgspec.Struct, frozen=True):
     is_waiting: bool = False
     """Whether it waits until the robot's conflicts are resolved."""
     is_left_by_git: bool = False
-    """Whether git left another text in the file, such as one with markers; `mine` has its meaning (see `united`)."""
+    """Whether git left another text in the file, such as markers. `mine` is the hash of its meaning (see `united`)."""
 
     @property
     def kind(self) -> Kind:
@@ -172,7 +172,7 @@ class Action(msgspec.Struct, frozen=True):
 
     @property
     def replaces(self) -> str:
-        """Say, as a clause, that it replaces git's text of two versions; empty if it does not."""
+        """Return the clause that it replaces a text that git made of two versions; empty if it does not."""
         return "in place of git's text" if self.is_left_by_git and self.kind is not Kind.CONFLICT else ""
 
     @property
@@ -231,5 +231,5 @@ class Actions(tuple[Action, ...]):
 
     @property
     def decided(self) -> tuple[Action, ...]:
-        """All actions except those on unchanged files: a few of thousands in most builds."""
+        """All actions except those on unchanged files: in most builds, a few out of thousands."""
         return tuple(action for action in self if action.reason not in (Reason.UNCHANGED, Reason.UNKNOWN))

@@ -67,7 +67,7 @@ def _is_as_written(files: PackageFiles, key: str, aside: Aside) -> bool:
 
 
 def _follow(generation: Generation, former: Former, key: str, names: Mapping[str, str]) -> Former:
-    """Return a text and its base with the new names of the file's new path."""
+    """Return a text and its base for the file's new path: with new names, and with its `within` clause."""
     from urdfsync.merge.renames import rename, without_clashes  # imports the parser
     from urdfsync.modelica.layout import with_within
 
@@ -90,9 +90,9 @@ def _deleted(generation: Generation, decision: Decision) -> Iterator[tuple[str, 
 def _replaced(
     generation: Generation, decision: Decision, contents: Mapping[str, bytes | None], names: Mapping[str, str]
 ) -> Iterator[tuple[str, Former]]:
-    """Yield the key and text of each replaced or deleted file, without texts that this machine generated.
+    """Yield the key and text of each replaced or deleted file; leave out texts that this machine generated.
 
-    Of a `package.order`, builds remove recorded lines; after a union by git also others, so its text is saved, too.
+    A `package.order` is saved only after a union by git: then a build may remove more than its recorded lines.
     """
     files, last, folder = generation.inputs.files, generation.inputs.last, generation.inputs.folder.key("")
     origins = {action.origin for action in decision.actions if action.origin and action.writes}
@@ -113,7 +113,7 @@ def _replaced(
 
 
 def _bases_given_back(generation: Generation, action: Action, text: bytes) -> tuple[FileRecord, Mapping[str, str]]:
-    """Return the bases of a text after `--undo`."""
+    """Return the bases that a text has after `--undo`."""
     inputs = generation.inputs
     record = inputs.last.files.get(
         action.path if action.reason is not Reason.MOVE else action.origin or "", FileRecord()

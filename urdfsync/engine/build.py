@@ -152,7 +152,7 @@ class _Builder:
             self.notes += self._transactions.recover()
             return
         with contextlib.suppress(OutputError), build_lock(self._state_folder, self._options.wait) as lock:
-            lock.acquire(self._wait)  # where no lock can be made, no process writes
+            lock.acquire(self._wait)  # if this folder allows no lock, no process writes
         if is_interrupted(self._state_folder):
             message, hint = "the last build was interrupted", "run `urdfsync build`, which finishes it"
             raise StateError.of("interrupted", message, shown(self._state_folder), hint=hint)

@@ -40,7 +40,7 @@ class Conflict(msgspec.Struct, frozen=True):
     moved_to: str = ""
     """The likely new name of the element that was edited, if the file may belong to another element now."""
     refused: Mapping[Choice, str] = {}
-    """The choices of one side that would bring an unknown name into the file, each with the reason as a clause."""
+    """The choices in favour of a side that bring an unknown name into the file, each with the reason as a clause."""
 
     def merged(self, choice: Choice | None) -> str | None:
         """Return the merged text that a choice asks for; None if there is none."""

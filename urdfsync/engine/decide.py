@@ -137,7 +137,7 @@ def _find_files(generation: Generation) -> dict[str, File]:
 
 
 def _adjust(generation: Generation, action: Action, doubts: Mapping[str, Doubt]) -> Action:
-    """Correct an action, which follows from hashes, by contents and options."""
+    """Correct an action by contents and options; so far it follows from hashes alone."""
     inputs = generation.inputs
     contradictions = inputs.files.left_by_git.get(action.path)
     if contradictions and action.reason is Reason.KEEP:
@@ -156,7 +156,7 @@ def _adjust(generation: Generation, action: Action, doubts: Mapping[str, Doubt])
 
 
 def _with_other_names(generation: Generation, actions: Iterable[Action]) -> Iterator[Action]:
-    """Yield the actions. An edit with a name that is another part's now is merged, even if nothing else is new."""
+    """Yield the actions. An edit that uses an outdated name is merged, even if nothing else is new."""
     inputs, names = generation.inputs, None
     for action in actions:
         is_settled = inputs.files.is_chosen(action.path) or action.mine in inputs.last.record.confirmed
@@ -212,7 +212,7 @@ def _without_misfits(
 ) -> dict[str, Conflict]:
     """Return the conflicts; leave out merges that would use unknown names.
 
-    Merges are tried first. Contradictions are then tried with each side preferred.
+    Clean merges are tried first. Then contradictions are tried in favour of each side.
     """
     sound, before = dict(conflicts), None
     for side in (None, *sorted(PREFERENCES)):
@@ -276,7 +276,7 @@ def _find_misfits(generation: Generation, actions: Sequence[Action], texts: Mapp
 def _renumbered(
     generation: Generation, actions: Iterable[Action], merged: Mapping[str, str], conflicts: Mapping[str, Conflict]
 ) -> frozenset[str]:
-    """Return the records in which only numbers change, also those in conflict."""
+    """Return the records in which only numbers change, including those in conflict."""
     files, keys = generation.inputs.files, set()
     changes = generation.changes.by_element() if generation.changes else {}
     for action in actions:
@@ -300,7 +300,7 @@ def _refuse_markers(files: PackageFiles, actions: Iterable[Action], orders: Iter
     """Refuse files in which version control left its merge markers. Raises OutputError."""
     errors = []
     edited = [a for a in actions if a.mine not in (None, a.base, a.generated) and a.role is not Role.IMPORT]
-    # no error for contradictions of branches, which are conflicts, nor for `--undo`: the user chose that text
+    # contradictions of branches are conflicts, not errors; and with `--undo`, the user chose a text with markers
     told = {action.origin or action.path for action in edited if action.is_conflict} & files.left_by_git.keys()
     told |= files.overlay.keys()
     for key in dict.fromkeys((*(action.origin or action.path for action in edited), *orders)):
@@ -359,7 +359,7 @@ def _dangling_lines(files: PackageFiles, order: str, names: Iterable[str]) -> li
 
 
 def _classes_beside(order: str, keys: Iterable[str]) -> list[str]:
-    """Return the classes of these files, if the file stands beside a `package.order`."""
+    """Return the classes of those files that are in the folder of a `package.order`."""
     folder = order.removesuffix("package.order")
     paths = (key.removeprefix(folder).removesuffix("/package.mo") for key in keys if key.startswith(folder))
     return sorted(filter(is_identifier, (path.removesuffix(".mo") for path in paths)))
@@ -391,7 +391,7 @@ def _decide_orders(
             unwanted = [name for name in written if name not in names]
             removable = _removable_lines(generation, key, text, unwanted, actions)
             owned = [*(name for name in written if name in names), *removable]
-        if inputs.options.adopts and old is None:  # tools hide classes that a new file lacks
+        if inputs.options.adopts and old is None:  # list the user's classes, too: tools hide unlisted ones
             users = _classes_beside(key, files.classes(key.removesuffix("package.order")))
             names = (*names, *(name for name in users if name not in names))
         if recorded.get(key):  # `--undo` brought an orphan back

@@ -37,9 +37,9 @@ if TYPE_CHECKING:
     from urdfsync.git.revisions import Revision
 
 _MOST = 50
-"""The most branches, and the most commits that were checked out, to look at."""
+"""The most branches, and the most recently checked-out commits, that are searched."""
 _BACK = 10
-"""The most commits to look at, back from the last one."""
+"""The most commits that are searched, counted back from HEAD."""
 EDITED = (Reason.KEEP, Reason.CONFLICT)
 """Reasons of files that the user edited and that stay where they are."""
 
@@ -51,16 +51,16 @@ def find_doubts(generation: Generation, actions: Iterable[Action]) -> dict[str, 
     edited = [one for one in edited if not inputs.files.is_chosen(one.path)]
     record = inputs.last.record
     unconfirmed = [one for one in edited if one.mine not in record.confirmed]
-    # an answer of the user about an export holds until the next export
+    # the user's answer about an export holds until the next export
     is_told = inputs.last.seen == generation.now.snapshot
     doubts = dict[str, Doubt | None]()
     for action in unconfirmed if is_told else edited:
         doubts[action.path] = _doubt(generation, action)
     if unconfirmed and notes.model == model_hash(record.snapshot):  # else git may have changed what names mean
         unconfirmed = [one for one in unconfirmed if notes.edited.get(one.path) != one.mine]
-    unconfirmed = [one for one in unconfirmed if one.mine]  # a class made a folder is in no commit as this file
+    unconfirmed = [one for one in unconfirmed if one.mine]  # a class that became a folder: no commit has this file
     if unconfirmed and inputs.last.version is not None and git.find_top(inputs.config.root) is not None:
-        dependencies.mark_incomplete()  # a commit changes the answer, and no file
+        dependencies.mark_incomplete()  # a commit may change the answer without changing a file
         edits = {action: _edit_of(generation, action) for action in unconfirmed}
         for commit in _commits(generation):
             doubts |= _look(generation, commit, edits)
@@ -68,14 +68,14 @@ def find_doubts(generation: Generation, actions: Iterable[Action]) -> dict[str, 
 
 
 def _doubt(generation: Generation, action: Action) -> Doubt | None:
-    """Return why an edit may belong to another element than its file does, as far as the last build tells."""
+    """Return why an edit may belong to another element than its file does, judged by the last build."""
     found, last = generation.matching.doubts, generation.inputs.last
     if not (element := _element(action)):
         lines = _edit_of(generation, action).added if found else ()
         return _named(generation, lines, found, generation.now.snapshot)
     if element in found:
         return found[element]
-    if moved_to := generation.renames.get(element):  # it can't move there
+    if moved_to := generation.renames.get(element):  # its file can't move to the new name
         return Doubt(" ".join(element), "", (), moved_to, is_certain=True)
     # if only numbers changed, no element is new, and most builds need no features
     is_new_element = last.version is not None and generation.is_structural and element not in generation.elements_before
@@ -92,7 +92,7 @@ def model_hash(snapshot: Mapping[str, Any] | None) -> str:
 
 
 def _commits(generation: Generation) -> Iterator[Revision]:
-    """Yield the commits that an edit may come from: merged ones, and this machine's if it builds here."""
+    """Yield the commits that an edit may come from: merged ones, and recent ones if this machine has built here."""
     import pygit2  # 55 ms, which most builds do without
 
     from urdfsync.git.revisions import Revision, open_repository
@@ -100,7 +100,7 @@ def _commits(generation: Generation) -> Iterator[Revision]:
     root = generation.inputs.config.root
     try:
         repository = open_repository(root)
-    except SourceError:  # git itself may not read this repository
+    except SourceError:  # it can't be read: for example, it belongs to another user
         return
     if repository is None or repository.is_empty or repository.head_is_unborn:
         return
@@ -172,12 +172,13 @@ def _look(generation: Generation, commit: Revision, edits: Mapping[Action, _Edit
         if key in matching.renames or key in formers:
             moved_to = matching.renames.get(key, "")
             moved[key] = Doubt(" ".join(key), formers.get(key, ""), (), moved_to, is_certain=True)
-    existing = {key: doubt for key, doubt in moved.items() if key in generation.elements_now}  # others report the rest
+    # names that are gone are reported elsewhere
+    existing = {key: doubt for key, doubt in moved.items() if key in generation.elements_now}
     doubts = dict[str, Doubt]()
     for action, lines in shared.items():
         recorded = record.files.get(action.path)
         if recorded is None or text_hash(texts[action]) in recorded.hashes:
-            continue  # nobody had edited it there
+            continue  # the commit has the file unedited
         if element := _element(action):
             doubt = moved.get(element)
             if doubt and not _has_followed(generation, action, doubt.moved_to, edits[action], lines):

@@ -69,11 +69,11 @@ def find_edited(generation: Generation, actions: Iterable[Action] | None = None)
 
 
 def find_edits(paths: Sequence[str], config: Config, options: BuildOptions) -> Iterator[RobotEdits]:
-    """Yield the edits in the files that paths mean, or in all. Raises ConfigError if a path means no robot."""
+    """Yield the edits in the files at these paths, or in all files. Raises ConfigError for a path without a robot."""
     for robot in config.select(paths):
         try:
             files = tuple(find_edited(generate_robot(inspect(config, robot, options))))
-        except Exception as error:  # noqa: BLE001 - of one robot
+        except Exception as error:  # noqa: BLE001 - one robot's error does not stop the others
             yield RobotEdits(robot.name, config.root, diagnostics=findings_of(error), failed=True)
             continue
         places = {text: Path(os.path.normpath(working_folder() / text)) for text in paths}

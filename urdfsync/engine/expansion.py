@@ -1,6 +1,6 @@
 """Makes sources before they are read: by xacro, or by a command of the user's.
 
-The inputs of a source are recorded with hashes (see `state.expansion`). The source is made again if one has changed.
+The inputs of a source are recorded with hashes (see `state.expansion`). The source is made again if an input changed.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ CPU_SECONDS = 20.0
 MEMORY = 1_000_000_000
 """Bytes that the process of an expansion may allocate, on Linux."""
 WALL_SECONDS = 120.0
-"""Time for one expansion, on every system: on a busy machine, `CPU_SECONDS` may take so long."""
+"""Time for one expansion, on every system: on a busy machine, `CPU_SECONDS` may take that long."""
 COMMAND_SECONDS = 600.0
 """Time for a command, which may ask a server."""
 _PACKAGE = "package://"
@@ -64,11 +64,11 @@ class Inputs:
             for package, folder in packages.items():
                 if file.is_relative_to(folder):
                     return f"{_PACKAGE}{package}/{file.relative_to(folder).as_posix()}"
-        # else no relative path leads to it, as between drives
+        # absolute below another top folder: no relative path leads to another drive
         return Path(os.path.relpath(file, self.root) if file.parts[:2] == self.root.parts[:2] else file).as_posix()
 
     def look(self, robot: RobotConfig, names: Expansion) -> Expansion:
-        """Return the present inputs of a source, by the names in an expansion, without the text.
+        """Return the inputs of a source as they are now: those that `names` lists. The text is left empty.
 
         If a package is missing on this machine, its files count as unchanged. A command names its files itself.
         """
@@ -118,7 +118,7 @@ class Inputs:
 def _is_there(path: Path | None) -> bool:
     try:
         return path is not None and is_file(path)
-    except (OSError, ValueError):  # a name may be a stranger's, and none of a file
+    except (OSError, ValueError):  # a stranger may have written the name: it may be invalid
         return False
 
 
@@ -126,7 +126,7 @@ def file_hash(path: Path) -> str | None:
     """Return the hash of a file, without regard to line ends; None for an unreadable file."""
     try:
         return text_digest(read_file(path))
-    except (OSError, ValueError):  # a name may be a stranger's, and none of a file
+    except (OSError, ValueError):  # a stranger may have written the name: it may be invalid
         return None
 
 
@@ -150,7 +150,7 @@ def expand(inputs: Inputs, arguments: Mapping[str, str]) -> Expansion:
         message = problem.message or f"expanding it takes more than {CPU_SECONDS:g} s or {MEMORY / 1e9:g} GB"
         file = shown(Path(problem.file)) if problem.file else shown(inputs.source)
         place, hint = (file, problem.line), problem.hint or _HINTS.get(problem.code, _HINTS["xacro"])
-        for path in answer.files:  # `find_changes` looks at those of a generated source
+        for path in answer.files:  # record the inputs as dependencies: after a success, `find_changes` does
             file_hash(Path(path))
         for pattern in answer.patterns:
             names_hash(Path(pattern))

@@ -8,7 +8,7 @@ from typing import NamedTuple
 from urdfsync.modelica.markers import find_markers
 
 _BEGINNING = 20_000
-"""The kind of a file with a robot inside shows in so many first bytes."""
+"""The first bytes of a file that show its kind: a file that contains a robot may be long."""
 _TAR = slice(257, 262)
 _PACKED = (
     (b"\x1f\x8b", "packed by gzip", "gunzip < FILE > ROBOT.urdf"),
@@ -28,7 +28,7 @@ _OTHERS = (
         "this is a launch file of ROS, not URDF",
     ),
 )
-"""Codes, how the files begin, messages."""
+"""Each kind of file by its code, a pattern of its beginning, and a message."""
 HINTS = {
     "compressed": "unpack it, and name the file in it",
     "lfs-pointer": "run `git lfs pull`",

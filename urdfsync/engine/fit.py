@@ -2,8 +2,8 @@
 
 These texts are edited files of the package, the user's own classes in it, and the user's models outside. Findings
 depend only on the project: the package, UrdfSync, and the user's files. A name that an unread library may have is no
-fault. Generated texts fit each other. So it reads two kinds of statements: those that differ from the generated ones,
-and those that mention a name which an edit adds, changes or removes.
+fault. Generated texts fit each other. So only two kinds of statements are read: those that differ from the generated
+ones, and those that mention a name which an edit adds, changes or removes.
 """
 
 from __future__ import annotations
@@ -61,7 +61,7 @@ class Misfit(msgspec.Struct, frozen=True):
 
     file: Path
     finding: Diagnostic
-    """It lacks the file; for an unresolved name it also lacks the hint."""
+    """The finding without its file; for an unresolved name, also without its hint."""
     key: str = ""
     """The key of a file in the package; empty for other files."""
     is_broken: bool = False
@@ -147,7 +147,7 @@ class Package(PackageAfter):
         return misfits
 
     def _passed_statements(self) -> dict[str, frozenset[str]]:
-        """Return the files to check, each with the statements to pass over: they equal generated ones."""
+        """Return the files to check, each with its statements that need no check: they equal generated ones."""
         artifacts, statements = self._generation.package.artifacts, dict[str, frozenset[str]]()
         # first look for missing classes that generated texts mention
         before = self._inputs.last.files
@@ -265,7 +265,7 @@ class Package(PackageAfter):
     def _look(
         self, path: str, scopes: Scopes, lost: Callable[[str], bool] | None, paths: Iterable[str]
     ) -> Iterator[Misfit]:
-        """Check a file of the package; in a generated file, only names that other files lack.
+        """Check a file of the package; in a generated file, check only names that the user's files lack.
 
         `paths` are all of these files.
         """

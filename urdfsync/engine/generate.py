@@ -57,7 +57,7 @@ class Package:
         return next((a.path for a in self.artifacts.values() if (a.owner, a.template) == (owner, template)), None)
 
     def skip(self, noted: Mapping[str, tuple[str, str]], stored: Callable[[str], str | None]) -> None:
-        """Use the noted hashes of texts that this program has rendered on this machine, so as not to render them again.
+        """Use the noted hashes of texts that this machine has rendered with this program: these are not rendered again.
 
         `noted` is a result of `notes`. `stored` returns the text with a hash, from any machine; None if there is none.
         """
@@ -68,7 +68,7 @@ class Package:
                 self._hashes[path] = text_hash
 
     def notes(self) -> dict[str, tuple[str, str]]:
-        """Return two hashes for each file whose text is known: of its template with data, and of the text."""
+        """Return two hashes for each file with a known text: that of its template with data, and that of the text."""
         return {path: (self._data_hash(path), sha256) for path, sha256 in self._hashes.items()}
 
     def _data_hash(self, path: str) -> str:
@@ -198,7 +198,7 @@ def _render(renderer: Renderer, artifact: Artifact, package: str) -> bytes:
         message = reason
     elif isinstance(problem, jinja2.TemplateNotFound):
         message = f"there is no template `{problem.name}`"
-    elif isinstance(problem, UnicodeDecodeError):  # the error has only the bytes of the template
+    elif isinstance(problem, UnicodeDecodeError):  # it names no file: find the one with these bytes
         message, content = "the template is not UTF-8", problem.object
         files = (path for folder in renderer.folders for path in sorted(folder.rglob("*")) if path.is_file())
         file = next((str(path) for path in files if path.read_bytes() == content), "")

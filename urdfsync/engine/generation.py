@@ -149,14 +149,14 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
 
     @cached_property
     def respelled(self) -> Mapping[str, tuple[str, str]]:
-        """Recorded classes that this program names otherwise, see `LastBuild.respelled`."""
+        """Recorded classes to which this program gives another name, see `LastBuild.respelled`."""
         last = self.inputs.last
         classes = (last.folder.path(key) for key in last.files if key.endswith(".mo"))
         return {} if all(path in self.package.artifacts for path in classes) else last.respelled
 
     @cached_property
     def moves(self) -> dict[str, str]:
-        """New and old keys of text files with a renamed element or a moved package."""
+        """The old key of each text file that moves with its element or with the package, by its new key."""
         inputs, last = self.inputs, self.inputs.last
         texts = set(map(last.folder.path, last.files))
         if not (self.is_structural or inputs.has_moved):

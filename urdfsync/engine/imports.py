@@ -26,13 +26,13 @@ from urdfsync.files import digest, shown
 _POINTER = b"version https://git-lfs"
 """The beginning of a pointer of Git LFS."""
 _MOST_OTHERS = 100
-"""The most further files of a conversion."""
+"""The most further files that a conversion may read."""
 MOST_PARTS = 100
 """The most files that one dependency may become."""
 _IN_LIBRARY = r"\s*modelica:/*([^/.]+)"
 _HINTS = {
     r"(?:https?|ftp):": "urdfsync does not look on the network: download it, and let the source refer to it",
-    # a place on this machine: search paths do not matter
+    # an absolute path: no search path can help
     r"file:(?!/*\$)|[/\\]|[a-z]:[/\\]": "put it there, or let the source refer to it by a package or a relative path",
     _IN_LIBRARY: "put the folder that holds the library `{}` on MODELICAPATH",
     "[a-z]+://([^/]+)/": "put it into the package `{}`, or add the folder around it to `package_paths`",
@@ -194,7 +194,7 @@ def _import(
 
 
 class Mentions(Protocol):
-    """Further files that a domain's conversions need, and its findings about files; its attribute `imports`."""
+    """Names the further files that a conversion needs, and reports on files; a domain's attribute `imports`."""
 
     def mentioned(self, dependency: Dependency, file: str, content: bytes) -> Sequence[str]:
         """Return further files that the conversion needs: paths from the folder of the dependency's own file.
@@ -219,7 +219,7 @@ def _read_mentioned(domain: Domain, dependency: Dependency, path: Path, content:
         name = waiting.pop(0)
         if name not in contents:
             contents[name] = b""
-            with contextlib.suppress(OSError, ValueError):  # the conversion does not get it
+            with contextlib.suppress(OSError, ValueError):  # the conversion does without it
                 contents[name] = read_file(path.parent / name)
                 waiting += mentions.mentioned(dependency, name, contents[name])
     return contents
@@ -234,7 +234,7 @@ def _needed(dependency: Dependency, recorded: Import) -> Mapping[str, Any] | Non
 
 
 def _named(dependencies: Sequence[Dependency]) -> str:
-    """Return files of one noun in words: the only one, or their number and the first."""
+    """Describe files with the same noun: the only one, or their number and the first one."""
     first, count = dependencies[0], len(dependencies)
     plural = f"{first.noun}es" if first.noun.endswith(("s", "sh", "ch", "x")) else f"{first.noun}s"
     return f"{first.noun} `{first.uri}`" if count == 1 else f"{count} {plural} (such as `{first.uri}`)"
@@ -276,7 +276,7 @@ def _keep_copy(
 ) -> Diagnostic:
     """Use the copy of an earlier build, if there is one.
 
-    `trouble` says why; the result adds the consequence.
+    `trouble` says why the file is not imported now; the result adds the consequence.
     """
     own, files = recorded.get(dependency.key), _find_recorded(dependency, recorded)
     if own is None or any(file.copy is None for _, _, file in files):
@@ -307,8 +307,8 @@ def find_dependencies(
 ) -> Sequence[Dependency]:
     """Return the files that a model refers to.
 
-    ROS packages are searched only for files that are not found elsewhere; the last resort is a guess. Files in Modelica
-    libraries come first, so MODELICAPATH is read before.
+    MODELICAPATH is read first, if a file is in a Modelica library. ROS packages are searched only for files that are
+    not found elsewhere. The last resort is a guess.
     """
     dependencies = domain.dependencies(snapshot, lookup, options, lines)
     if any(re.match(_IN_LIBRARY, dependency.uri, re.IGNORECASE) for dependency in dependencies):

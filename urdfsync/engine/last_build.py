@@ -85,7 +85,7 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
 
     @cached_property
     def options(self) -> Any:
-        """The domain's options; None if this program does not have them."""
+        """The domain's recorded options; None if this program can't read them."""
         if self.record.generator.domain != self._robot.domain:
             return None
         try:
@@ -142,7 +142,7 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
     def respelled(self) -> Mapping[str, tuple[str, str]]:
         """Today's path and the hash of each recorded class, by its recorded path.
 
-        Only classes whose texts differ in their own names alone are listed.
+        A class is listed only if its two texts differ in nothing but its own name.
         """
         recorded = {self.folder.path(key): file for key, file in self.files.items()}
         if not (names := [path for path in recorded if path.endswith(".mo")]) or self.package is None:
@@ -158,7 +158,7 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
         return respelled
 
     def has_generated(self, key: str, sha256: str, role: Role) -> bool:
-        """Return whether a file on disk was generated: by this machine's notes, or by the recorded model.
+        """Return whether a file on disk was generated, judged by this machine's notes or the recorded model.
 
         Its recorded hash proves nothing: a person may have written the file, and a stranger the record.
         """

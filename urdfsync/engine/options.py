@@ -31,7 +31,7 @@ class BuildOptions(msgspec.Struct, frozen=True):
     renews: bool = True
     """Renew the recorded state even if the package is in step; otherwise it waits until a build writes a file."""
     adopts: bool = False
-    """Take files from before the first build for edits of the generated ones."""
+    """Treat files that exist before the first build as edits of the generated ones."""
     removes: bool = False
     """Remove the robots' packages and records, as if their sources were empty."""
     draw: bool = False

@@ -73,7 +73,7 @@ class PackageFiles:
         None means that there is no file.
         """
         self.left_by_git: dict[str, tuple[str, ...]] = {}
-        """The files that are as git left them, by key: the elements about which two branches contradict each other.
+        """For each file that is as git left it, by key: the elements about which two branches contradict each other.
 
         If there are no such elements, the overlay has the file's meaning.
         """

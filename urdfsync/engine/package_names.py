@@ -11,7 +11,7 @@ from urdfsync.modelica.files import class_path
 
 
 def renamed_identifiers(generation: Generation) -> dict[str, str]:
-    """Return the renamed identifiers: new ones by those of the last complete build."""
+    """Return the renamed identifiers: the new ones, by those of the last complete build."""
     inputs = generation.inputs
     if inputs.last.version is None or generation.changes is None:
         return {}
@@ -54,7 +54,7 @@ def renamed_names(generation: Generation) -> dict[str, str]:
 
 
 def names_of(generation: Generation, renamed: Mapping[str, str], before: frozenset[str]) -> dict[str, str]:
-    """Return the new names of those in `before` with a renamed identifier, by the old ones."""
+    """Return the new name of each name in `before` whose identifier was renamed, by the old name."""
     inputs, now = generation.inputs, known_names(generation)
     kinds = inputs.domain.names(generation.now.snapshot, inputs.robot.target).values()
     identifiers = {identifier: identifier for names in kinds for identifier in names.values()} | dict(renamed)
@@ -104,7 +104,7 @@ def elements_by_identifier(domain: Domain, snapshot: Snapshot, target: Target) -
 
 
 def identifier_of(part: str, identifiers: Collection[str]) -> str:
-    """Return the longest identifier at the beginning of a name, in either case; empty for none."""
+    """Return the longest identifier that begins a name; its first letter may be small or capital. Empty for none."""
     for end in range(len(part), 0, -1):
         for first in (part[0], part[0].lower(), part[0].upper()):
             if (start := first + part[1:end]) in identifiers:

@@ -1,4 +1,4 @@
-"""The packages around a generated one, and their order files. They must exist, or the configuration demands them.
+"""The packages around a generated one, and their order files. Missing packages are made only with `create_parents`.
 
 A `package.order` has to name every class of its package, and only a Modelica parser finds the classes inside of a
 `package.mo`. So urdfsync adds its names to an existing `package.order`, and makes one only with its package.

@@ -34,7 +34,7 @@ def _code(file: str) -> Iterator[tuple[str, tuple[int, ...]]]:
     while folders:
         with os.scandir(folders.pop()) as entries:
             for entry in sorted(entries, key=lambda entry: entry.name):
-                # `_data` of an installation has the templates, which have their hash, and other files
+                # an installation has data in `_data`: the templates, which have a hash of their own, and other files
                 if entry.name.startswith(".") or entry.name in ("__pycache__", "_data"):
                     continue
                 if entry.is_dir():

@@ -17,9 +17,9 @@ def find_matching(
 ) -> Matching:
     """Match the elements of two versions; `declared` maps old names to new ones.
 
-    Declared renames of a kind (links, joints) do not count if the old version has the new names already. The sign of
-    this: an element with one of the old names is the same in both versions. If `is_pending`, the contents under its new
-    name must also be others: elements that look alike prove nothing.
+    Declared renames of a kind (links, joints) do not count if the old version has the new names already. It does if an
+    element with one of the old names is equal in both versions. If `is_pending`, its contents must also differ from
+    those of the element with the new name: elements that look alike prove nothing.
     """
     if old == new and not (declared and is_pending):
         return Matching()

@@ -237,7 +237,7 @@ class Renderer:
         from urdfsync.engine import template_lines  # 4 of 250 ms of a build: only faults in users' templates need it
 
         marked = _render(self._environment.overlay(extensions=[template_lines.MarkLines]), template, data)
-        if template_lines.MARK.sub("", marked) != text:  # for example, a filter counts characters
+        if template_lines.MARK.sub("", marked) != text:  # the marks change it: a filter counts characters, say
             return "", 0
         *before, last = marked.split("\n")[: max(line, 1)]
         places = template_lines.MARK.findall("\n".join((*before, *template_lines.BLANK.findall(last))))

@@ -64,7 +64,7 @@ class DisputedFile(msgspec.Struct, frozen=True):
 
     @property
     def relation(self) -> str:
-        """How the changes of both sides go together, as a clause."""
+        """How the changes of both sides fit together, as a clause."""
         texts = self.texts
         if texts is None:
             return "it is not a text, so it can't be merged"
@@ -126,7 +126,7 @@ class Result(msgspec.Struct, frozen=True):
     locked: bool = False
     """It failed because another process is building."""
     unfinished: bool = False
-    """It failed half way, and its changes could not be undone: the next build does that."""
+    """It failed half way; the next build finishes its changes."""
     source_error: SourceError | None = None
     """It failed because the source is no readable model; an exporter may be writing it."""
     dry: bool = False

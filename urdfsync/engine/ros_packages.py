@@ -42,7 +42,7 @@ class Packages:
     def folder(self, name: str) -> Path | None:
         """Return the folder of a package: around the source, beside it, below the folders; None if there is none.
 
-        A folder of this name without `package.xml` counts if there is no other, as for meshes.
+        If there is none, a folder of this name without `package.xml` counts, as for meshes.
         """
         if name not in self._named:
             self._named[name] = None if "\0" in name else self._find(name)  # the name may come from a stranger's file

@@ -51,7 +51,7 @@ class Settled(msgspec.Struct):
     generated: set[str] = msgspec.field(default_factory=set)
     """Hashes of generated texts that `--undo` brings back."""
     before: dict[str, Former] = msgspec.field(default_factory=dict)
-    """Texts before the choice."""
+    """Texts before the choices."""
     names: Mapping[str, str] = {}
     """New names by old ones, before the choices."""
     keys: set[str] = msgspec.field(default_factory=set)

@@ -80,7 +80,7 @@ class Source(msgspec.Struct, frozen=True):
         return bool(self.stale) and not self.content
 
     def locate(self, found: Diagnostic) -> Diagnostic:
-        """Return a diagnostic about the text with the user's files and lines."""
+        """Return a diagnostic about the text, with the files and lines that the user wrote."""
         if not self.places or found.file != self.name or not found.line:
             return found
         file, line = self._place(found.line)
@@ -109,7 +109,7 @@ class Source(msgspec.Struct, frozen=True):
 
     @contextlib.contextmanager
     def locating(self) -> Iterator[None]:
-        """Locate the diagnostics of errors that are raised."""
+        """Locate the diagnostics of errors that the `with` block raises."""
         try:
             yield
         except UrdfsyncError as error:
@@ -185,7 +185,7 @@ class Beside(Protocol):
     """Reads a further file that may stand beside a source; a domain's attribute `beside`."""
 
     SUFFIX: str
-    """Its suffix; the rest of its path is that of the source."""
+    """The suffix of this file; otherwise its path is that of the source."""
 
     def join(self, content: bytes, other: bytes, file: str) -> tuple[bytes, Sequence[tuple[int, int]]]:
         """Return a source with new lines for the content of the other file, and their numbers in both files.

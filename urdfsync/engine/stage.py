@@ -223,7 +223,7 @@ def _brought(generation: Generation) -> Mapping[str, str]:
 
 
 def _confirmed(generation: Generation, decision: Decision) -> frozenset[str]:
-    """Return the user's texts that he has confirmed to be in the right place, now or before."""
+    """Return the hashes of the texts that the user has confirmed to be in the right place, now or before."""
     before, files = generation.inputs.last.record.confirmed, generation.inputs.files
     edited = [action for action in decision.actions if action.reason in EDITED and action.mine]
     return frozenset(str(one.mine) for one in edited if one.mine in before or files.is_chosen(one.path))

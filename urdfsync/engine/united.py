@@ -35,7 +35,7 @@ _UNDER_WAY = "MERGE_HEAD", "CHERRY_PICK_HEAD", "REBASE_HEAD"
 _IN_STEP = frozenset({Reason.UNCHANGED, Reason.KEEP, Reason.INCLUDED})
 """Reasons that keep a file that is still generated."""
 _Changes: TypeAlias = Counter[tuple[tuple[str, ...], tuple[str, ...]]]
-"""Changed lines and their replacements; lines without their order, since an added block can be cut in several ways."""
+"""Changed lines and their replacements. The order of lines does not count: added blocks can be cut in several ways."""
 
 
 class Sides(NamedTuple):
@@ -50,7 +50,7 @@ class Sides(NamedTuple):
 def lay_over(inputs: Inputs, key: str) -> bool:
     """Overlay a file with its meaning if it still is git's merge of two branches.
 
-    If nobody edited the versions, the meaning is our version. Otherwise it is their merge by elements, if they merge.
+    If nobody edited the versions, the meaning is our version. Otherwise it is their merge by elements, if it succeeds.
     """
     found = _find_meaning(inputs, key)
     if isinstance(found, str):
@@ -81,7 +81,7 @@ def _find_meaning(inputs: Inputs, key: str) -> str | tuple[str, ...] | None:
 def _merge_edits(last: LastBuild, key: str, sides: Sides) -> str | tuple[str, ...]:
     """Merge two versions by their elements: as they are; if that fails, as two edits of the same generated text.
 
-    The second way ignores differences that come from different exports: these are no contradiction of people.
+    The second way ignores differences that come from different exports: these are no contradictions between people.
     """
     from urdfsync.merge.texts import merge_file  # imports the parser
 
@@ -95,7 +95,7 @@ def _merge_edits(last: LastBuild, key: str, sides: Sides) -> str | tuple[str, ..
 
 
 def describe(contradictions: Sequence[str]) -> str:
-    """Say, as a clause, about which elements two branches contradict each other."""
+    """Return a clause that names the elements about which two branches contradict each other."""
     elements = [element for element in dict.fromkeys(contradictions) if element]
     return f"git's markers are in it, since both branches changed {' and '.join(elements) or 'the same lines'}"
 
@@ -195,7 +195,7 @@ def _staged(repository: pygit2.Repository, file: Path, text: str) -> Iterator[Si
         if ours and theirs and entries:
             yield Sides(*texts)
         elif entries and text in texts[1:]:
-            # if both branches renamed a file, git puts its merge at both paths: each has one branch's own version
+            # if both branches renamed a file, git writes its merge to both paths; each path is in one branch only
             for name in ("HEAD",) if ours else (*_UNDER_WAY, label[1] if label else ""):
                 if (own := _read(name, file)) is not None:
                     yield Sides(own, own, own)
@@ -231,13 +231,13 @@ def _plain(text: str) -> str:
 def _is_untouched(text: str, sides: Sides) -> bool:
     """Return whether a text is git's merge of two versions, with the driver or by lines.
 
-    In a merge by lines, each side of a conflict has its whole version, and the changes of the other version that touch
-    none of its own. The test is of these changes, since git may compare lines in several ways.
+    In a merge by lines, each side of a conflict has its own version, with those changes of the other version that touch
+    none of its own. The test compares these changes, since git may compare lines in several ways.
     """
     from urdfsync.merge.texts import merge_file
 
     readings = markers.read_sides(text)
-    if not any(map(markers.find_markers, readings)):  # with nested markers, only the driver's way remains
+    if not any(map(markers.find_markers, readings)):  # nested markers come only from the driver
         is_merged = readings[0] == text
         ours, theirs = (_changes(sides.base, side) for side in sides[1:]) if is_merged else _apart(sides)
         if _changes(sides.ours, readings[0]) <= theirs and _changes(sides.theirs, readings[1]) <= ours:

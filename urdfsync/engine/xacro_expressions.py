@@ -75,7 +75,7 @@ def _check_name(name: str) -> None:
 
 
 class _Formatter(string.Formatter):
-    """Formats as `str.format`, but reads no attributes."""
+    """Formats like `str.format`, but reads no attributes."""
 
     def get_field(self, field_name: str, args: Sequence[Any], kwargs: Mapping[str, Any]) -> Any:
         """Return the value of a field. Raises ForbiddenError."""

@@ -79,7 +79,7 @@ NOT_UNICODE = Problem(
 
 
 class TimeLimitError(Exception):
-    """The CPU time is over."""
+    """The CPU time is used up."""
 
 
 class Answer(msgspec.Struct, frozen=True):
@@ -146,7 +146,7 @@ def find_matches(pattern: str) -> list[str]:
     folder, name = os.path.split(pattern)
     try:
         names = list_folder(folder)
-    except (OSError, ValueError):  # the pattern may be a stranger's, and no name of a folder
+    except (OSError, ValueError):  # a stranger may have written the pattern: it may be invalid
         return []
     is_hidden = name.startswith(".")
     matches = [match for match in filter_names(names, name) if match.startswith(".") == is_hidden]
@@ -337,7 +337,7 @@ def _problem(error: BaseException, current: str, packages: Mapping[str, str]) ->
         place = (node.getUserData(_PLACE) if node is not None else None) or place
         frame = frame.tb_next
     cause = error
-    while (inner := getattr(cause, "exc", None)) is not None:  # that of a XacroException
+    while (inner := getattr(cause, "exc", None)) is not None:  # the cause of a XacroException
         cause = inner
     file, line = place or (current, 0)
     match cause:
@@ -358,7 +358,7 @@ def _problem(error: BaseException, current: str, packages: Mapping[str, str]) ->
             message = f"{cause.filename} can't be read: {cause.strerror}"
             missing = Path(cause.filename).parents if isinstance(cause, FileNotFoundError) else ()
             package = next((name for name, folder in packages.items() if Path(folder) in missing), None)
-            # the install rules of a package may give its files other folders, as those of ros2_control's demos do
+            # a package may install its files into other folders, as the demos of ros2_control do
             hint = (
                 f"if package `{package}` has this file once it is installed, name the installed xacro file as source"
                 if package
@@ -379,7 +379,7 @@ def _kind(content: bytes) -> FileKind | None:
 
 
 def _encode(answer: Answer) -> bytes:
-    """Return an answer as JSON; if it can't be JSON or is too large, an answer with this problem."""
+    """Return an answer as JSON; if it can't be JSON or is too large, return an answer that says so."""
     try:
         content = msgspec.json.encode(answer)
     except UnicodeEncodeError:

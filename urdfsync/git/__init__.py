@@ -7,7 +7,7 @@ from collections.abc import Collection
 from functools import cached_property
 
 _SETTINGS = ("-c", "safe.bareRepository=explicit", "-c", "core.fsmonitor=false", "-c", "diff.relative=false")
-"""Settings of a repository may name programs that git runs, such as fsmonitor."""
+"""Override settings of the repository: these may name programs that git runs, such as fsmonitor."""
 _PATHSPECS = {f"GIT_{kind}_PATHSPECS" for kind in ("LITERAL", "GLOB", "NOGLOB", "ICASE")}
 
 

@@ -19,7 +19,7 @@ def is_answered(arguments: list[str]) -> bool:
 def passes(index: git.Index, configuration: str) -> bool:
     """Return whether, by a saved answer, a configuration (named from the top) is in step and completely staged.
 
-    An answer lists the files that have to be staged. It holds until one of the files changes that a build of the robots
+    An answer lists the files that have to be staged. It holds until a file changes that a build of the robots
     reads.
     """
     file, key = answer_place(index, configuration)

@@ -75,7 +75,7 @@ def _edit(path: tuple[str, ...], old: Node | None, new: Node | None) -> Edit:
 def _differences(
     path: tuple[str, ...], old: Node, new: Node
 ) -> Iterator[tuple[tuple[str, ...], Node | None, Node | None]]:
-    """Yield both versions of each innermost thing that differs, with its keys from the outermost thing on."""
+    """Yield both versions of each innermost thing that differs, and the keys that lead to it, the outermost first."""
     if is_same(old, new):
         return
     if not (isinstance(old, SyntaxTree) and isinstance(new, SyntaxTree) and old.kind is new.kind) or (

@@ -58,7 +58,7 @@ _MOVABLE = frozenset({"arguments", "annotation"})
 
 Path: TypeAlias = tuple[str, ...]
 Layout: TypeAlias = frozenset[str] | None
-"""The annotations with the user's layout; None between two people, whose layout and comments all count."""
+"""The annotations with the user's layout. None between two people: then all layout and comments count."""
 
 
 def merge_trees(base: SyntaxTree, mine: SyntaxTree, generated: SyntaxTree, *, is_export: bool) -> list[Piece]:
@@ -95,7 +95,7 @@ def _merge(path: Path, base: Node | None, mine: Node, generated: Node, users_lay
 
 
 def _merge_statement(path: Path, base: Node | None, mine: Node, other: Node, users_layout: Layout) -> list[Piece]:
-    """Merge one part of the class of two people, with its comments: `_merge` would keep only the first side's."""
+    """Merge one part of a class between two people, with its comments: `_merge` would keep only the first side's."""
     merged = _merge_comments(base.text if base else "", mine.text, other.text)
     if merged is None:
         return [_contradiction(path, base, mine, other)]
@@ -106,7 +106,7 @@ def _merge_statement(path: Path, base: Node | None, mine: Node, other: Node, use
 
 
 def _merge_comments(base: str, mine: str, other: str) -> str | None:
-    """Return the text with the merged comments of two people; None if both changed them."""
+    """Return the text with the comments merged between two people; None if both changed them."""
     if base == mine:
         return other
     old, own, new = map(comments, (base, mine, other))
@@ -140,7 +140,7 @@ def _merge_whole(path: Path, base: Node | None, mine: Node, generated: Node) -> 
 
 
 def _has_lines(path: Path, node: Node) -> bool:
-    """Whether a text merges by lines; any other text has one meaning."""
+    """Whether a text that the user changed can be merged line by line; any other text is merged as a whole."""
     if not isinstance(node, Leaf):
         return False
     is_block = path[-1] == "equation" and node.words[0] in _BLOCKS
@@ -153,7 +153,7 @@ def _contradiction(path: Path, base: Node | None, mine: Node | None, generated: 
 
 
 def _contradiction_of_lines(path: Path, texts: Sequence[str]) -> list[Piece]:
-    """Return a contradiction of texts with blanks around them, without their common first lines."""
+    """Return the common first lines of three texts, then a contradiction of the rest."""
     base, mine, other = texts
     start = mine[: min(same_count(mine, base), same_count(mine, other))].rfind("\n") + 1
     return [mine[:start], Contradiction(path, *(text[start:] for text in texts))]
@@ -283,7 +283,7 @@ def _with_blanks(part: Part | None) -> str:
 def _merge_around(
     path: Path, base: Part | None, mine: Part, other: Part, pieces: list[Piece]
 ) -> tuple[Sequence[str], list[Piece]]:
-    """Merge the comments of two people around a part; if both changed them, the whole part is a contradiction."""
+    """Merge the comments around a part between two people; if both changed them, the whole part is a contradiction."""
     before = _merge_comments(base.before if base else "", mine.before, other.before)
     remark = _merge_comments(base.remark if base else "", mine.remark, other.remark)
     if before is None or remark is None:
@@ -336,7 +336,7 @@ def _home(key: str, trees: Sequence[SyntaxTree]) -> str:
 
 
 def _text_of(trees: Sequence[SyntaxTree], items: list[_Item], notes: str, end: list[Piece]) -> list[Piece]:
-    """Return the text of the merged things, with the blanks and separators around them; `end` is its merged closing."""
+    """Return the text of the merged things, with the blanks and separators around them; `end` is the merged closing."""
     base, mine, generated = trees
     empty = _empty_sections([[part.key for part in tree.parts] for tree in (mine, generated)], items)
     items = [item for item in items if item.key not in empty or comments(item.before + item.remark)]

@@ -77,7 +77,7 @@ def merge_whole_lines(base: str, mine: str, generated: str) -> str | None:
 
 
 def merge_sequences(base: Sequence[str], mine: Sequence[str], generated: Sequence[str]) -> list[str] | None:
-    """Merge sequences of different things; None if the sides changed one place, or moved one thing to two places."""
+    """Merge sequences of different things; None if both sides changed one place, or moved a thing differently."""
     merged: list[str] = []
     place = 0
     for region in find_regions(base, mine, generated):

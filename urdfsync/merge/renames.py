@@ -1,4 +1,4 @@
-"""Applies one side's new names of components to the texts with the old names."""
+"""Applies the new names that one side gave to components to texts with the old names."""
 
 from __future__ import annotations
 
@@ -50,9 +50,10 @@ def without_clashes(names: Mapping[str, str], mine: str) -> dict[str, str]:
 
 
 def find_uses_of(text: str, names: Mapping[str, str]) -> Iterator[tuple[str, int]]:
-    """Yield the uses of names that belong to other classes, their components or classes, with their places in the text.
+    """Yield the uses of these names for elements of other classes, with their places in the text.
 
-    If the text extends classes, a name without a dot may be an inherited one, and counts, too.
+    Such a name follows a dot, or is that of a modifier. If the text extends classes, any other name may be inherited,
+    and counts, too.
     """
     uses = list(_uses(text))
     extends = any(token.text == "extends" for _, token in uses)
@@ -88,7 +89,7 @@ def _likeness(part: Part, name: str) -> Hashable:
 
 
 def _uses(text: str) -> Iterator[tuple[str, Token]]:
-    """Yield each token with the name before its dot; without a dot, with an empty text, or with `_MODIFIER`."""
+    """Yield each token with the name before its dot; without a dot, with `_MODIFIER` or an empty text."""
     tokens, _ = lex(text)
     depth = 0
     for number, token in enumerate(tokens):

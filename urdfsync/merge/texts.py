@@ -29,7 +29,7 @@ class Merge(msgspec.Struct, frozen=True):
     proposal: str
     """The merged text for people, with all three versions of a conflict between markers; never in a `.mo` file."""
     contradictions: tuple[str, ...]
-    """The contradictions in words; an empty text for lines."""
+    """The contradictions in words; an empty text for one of lines."""
     flaw: str = ""
     """Why the merged text is wrong Modelica, as the end of a sentence that begins with "the merge"."""
     with_mine: str | None = None
@@ -83,7 +83,7 @@ def _preferring(side: str, pieces: Sequence[Piece], ending: str) -> str:
 def merge_file(base: str, mine: str, other: str, markers: Sequence[tuple[str, str]]) -> tuple[str, tuple[str, ...]]:
     """Merge the versions of two people: return the text with markers in it, and the element of each conflict.
 
-    If the merge by elements has a flaw, it is a merge by lines: then the elements are empty texts.
+    If the merge by elements has a flaw, the texts are merged by lines: then the elements are empty texts.
     """
     ending = _ending(mine)
     merged, elements = "", tuple[str, ...]()

@@ -8,7 +8,7 @@ from urdfsync.spelling import same_count
 _LONGEST = 60
 """The most characters of a text that a sentence quotes."""
 _SILENT = frozenset("body value expression definition import components".split())
-"""Parts that words do not name, since the things in them have names."""
+"""Parts that sentences do not name, since the things in them have names."""
 _ROLES = {
     "annotation": "annotation",
     "arguments": "modifiers",

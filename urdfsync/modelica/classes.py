@@ -12,13 +12,13 @@ from urdfsync.modelica.syntax import Class, Component, Modifier, Name
 
 
 class Node(msgspec.Struct, eq=False, dict=True):
-    """A class at its place. Equal to itself only."""
+    """A class at its place. Equal only to itself."""
 
     definition: Class
     name: tuple[str, ...]
     """Its full name."""
     file: str = ""
-    """The file's name in the source of the class."""
+    """The path of its file, as `StoredClasses` has it; empty for none."""
     parent: Node | None = None
     """The class around it."""
     classes: dict[str, Node | None] = msgspec.field(default_factory=dict)

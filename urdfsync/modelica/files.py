@@ -15,7 +15,7 @@ ClassName: TypeAlias = tuple[str, ...]
 PACKAGE_FILE = "package.mo"
 NOT_CLASSES = "Resources"
 _NO_CODE = re.compile(rb"('(?:[^'\\\n]|\\.)*')|\"(?:[^\"\\]|\\.)*\"|//[^\n]*|/\*.*?\*/", re.DOTALL)
-"""Matches strings and comments; also quoted names, which may look like these, as a group."""
+"""Matches strings and comments. Quoted names may look like these: they match as a group."""
 
 
 def class_path(file: PurePosixPath) -> PurePosixPath:
@@ -35,7 +35,7 @@ class TooManyFoldersError(Exception):
 def modelica_files(
     *folders: Path, others: Collection[str] = (), left_out: Collection[str] = (), most: int | None = None
 ) -> Iterator[str]:
-    """Yield all files of Modelica below folders, each once, but for links, hidden folders and `Resources`.
+    """Yield all Modelica files below folders, each once; links, hidden folders and `Resources` are left out.
 
     A folder below them is also left out if it holds a file with a name in `others`, or if it is in `left_out`. All
     files and folders that are read are recorded as dependencies. Unreadable folders are left out. Raises
@@ -66,9 +66,9 @@ def modelica_files(
 
 
 def files_that_use(files: Mapping[Path, bytes], names: Iterable[str]) -> dict[Path, bytes]:
-    """Return the files that use one of these names, or a class of another file that does, by the name of its file.
+    """Return the files that use one of these names, or the class of another such file.
 
-    Strings and comments do not count: a library of words about robots is no user.
+    A file is named like its class. Strings and comments do not count: a documentation may mention a name.
     """
     users, words, known = dict[Path, bytes](), set(names), set[str]()
     while words:
@@ -106,7 +106,7 @@ def class_of_file(path: Path) -> str:
 
 
 def place_of(path: Path, files: Collection[Path]) -> tuple[Path, ClassName]:
-    """Return the folder of a file's top-level class, and the file's package by its folders."""
+    """Return the folder that holds a file's top-level class, and the full name of the package around it."""
     folder = path.parent.parent if path.name == PACKAGE_FILE else path.parent
     parts: list[str] = []
     while folder / PACKAGE_FILE in files or is_file(folder / PACKAGE_FILE):

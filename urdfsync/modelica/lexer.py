@@ -123,7 +123,7 @@ def words_in(text: str) -> list[str]:
 
 
 def lex(text: str) -> tuple[list[Token], list[Fault]]:
-    """Return the tokens of a text without blanks and comments, and unterminated ones. An empty token ends the list."""
+    """Return the tokens of a text, then an empty one; and its unterminated comments, strings and quoted names."""
     lexer = Lexer(text).read_all()
     return list(map(Token, lexer.words, lexer.starts)), lexer.endless
 

@@ -8,7 +8,7 @@ _MARKER = re.compile(r"^(<{7,}|\|{7,}|={7,}|>{7,})(?=\s|\Z)", re.MULTILINE)
 
 
 def find_markers(text: str, signs: str = "<>") -> list[tuple[str, int]]:
-    """Return the markers of these signs, each with its line, from 1: `=======` alone is also a rule of a comment."""
+    """Return the markers of these signs with their lines, from 1. `=======` may also be an ornament in a comment."""
     found = (marker for marker in _MARKER.finditer(text) if marker[1][0] in signs)
     return [(marker[1], text.count("\n", 0, marker.start()) + 1) for marker in found]
 

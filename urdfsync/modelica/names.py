@@ -50,7 +50,7 @@ _IDENTIFIER = re.compile(r"[A-Za-z_][A-Za-z0-9_]*", re.ASCII)
 
 
 def any_case(words: Collection[str]) -> str:
-    """Return a regular expression, as JSON schemas have them, for any of some words in lower or upper case."""
+    """Return a regular expression for JSON schemas that matches any of these words in lower or upper case."""
     return "|".join("".join(f"[{c}{c.upper()}]" if c.isalpha() else c for c in word) for word in sorted(words))
 
 

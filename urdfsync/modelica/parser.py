@@ -142,7 +142,7 @@ class Parser(Lexer):
         return re.sub(r" ?([.()\[\]]) ?", r"\1", " ".join(self.words[start : self.at]))
 
     def _once(self, seen: set[str], key: str, reason: str) -> None:
-        """Note a fault if the key is in `seen`; else put it there."""
+        """Note a fault if the key is in `seen`; else add it."""
         if key in seen:
             self.faults.append(Fault(reason, self.line_at(self.starts[self.at - 1]), is_repetition=True))
         seen.add(key)

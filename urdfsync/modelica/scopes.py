@@ -2,7 +2,7 @@
 
 It follows chapters 5 and 7 of the language specification 3.6. A name means an element, or is missing. An unavailable
 class is `OPAQUE`: it counts as having every element. A redeclared element has the parts of its old, its constraining
-and its new type. The language allows less, so a name that is reported as missing really is.
+and its new type. The language allows less, so a name that is reported as missing is missing.
 """
 
 from __future__ import annotations
@@ -343,7 +343,7 @@ def _modified(types: Types, modifiers: Sequence[Scoped]) -> Types:
 
 
 def _nested(modifiers: Iterable[Scoped], name: str) -> tuple[Scoped, ...]:
-    """Return the modifiers of a class's element among the class's modifiers."""
+    """Return the modifiers of one element, from the modifiers of its class."""
     return tuple(
         Scoped(modifier.arguments, scope)
         for arguments, scope in modifiers

@@ -77,7 +77,7 @@ class ImportClause(msgspec.Struct, frozen=True, array_like=True, omit_defaults=T
 
 
 class Class(msgspec.Struct, eq=False, array_like=True, omit_defaults=True):
-    """A class definition. Only the parser changes it. Equal to itself only."""
+    """A class definition. Only the parser changes it. Equal only to itself."""
 
     name: Name
     kind: str

@@ -123,7 +123,7 @@ class SyntaxTree:
 
     @cached_property
     def sections(self) -> dict[str, str]:
-        """The section of each part by its key: the key of its first word; empty before the first one, and for a list.
+        """The key of the first word of each part's section, by the part's key; empty before any section, and in a list.
 
         The parts that end a class are in the section `tail`.
         """
@@ -149,7 +149,7 @@ class SyntaxTree:
         return {part.key: part for part in self.parts}
 
     def says(self, *, layout: bool) -> list[tuple[str, str, Node]]:
-        """Return its parts with their keys; without `layout`, in any order, and no layout and no words of sections."""
+        """Return its parts with their keys. Without `layout`, they are sorted, without layout and words of sections."""
         if layout:
             return [(part.key, "", part.node) for part in self.parts]
         parts = [
@@ -195,7 +195,7 @@ class Part(msgspec.Struct, frozen=True, eq=False):
 
 
 def is_same(node: Node, other: Node, *, layout: bool = True) -> bool:
-    """Whether two things have the same meaning; without `layout`, in any order of declarations and modifiers."""
+    """Whether two things have the same meaning; without `layout`, layout and order do not count."""
     if node is other or node.text == other.text:
         return True
     if isinstance(node, Leaf) or isinstance(other, Leaf):

@@ -27,9 +27,9 @@ class Value(NamedTuple):
     path: str
     """`limits.effort` of a base class, `arm.inertial.mass` of a component; `connect` for a connection."""
     type: str
-    """The base class, or the type of the component with its prefixes; `equation`."""
+    """The base class, or the type of the component with its prefixes; `equation` for a connection or an equation."""
     text: str
-    """The expression; of a connection both ends with a blank, of an equation all of it."""
+    """The expression; for a connection, its two ends with a blank between them."""
     line: int
 
 

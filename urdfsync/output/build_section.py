@@ -73,7 +73,7 @@ def show(
     *,
     quiet: bool = False,
 ) -> None:
-    """Show the section `told` about one robot; with --quiet, show it only if the user has to act.
+    """Show `told`, a result about one robot, as a section; with --quiet, show it only if the user has to act.
 
     With `quiet`, only its first line and what to do are shown. Without a `result`, all findings are new.
     """
@@ -130,7 +130,7 @@ def _edited_line(target: DisputedFile) -> int:
 def change_parts(
     changes: Changes | None, most: int = 12, *, verbose: bool = False
 ) -> tuple[list[StyledLine], list[Table]]:
-    """Return changes of a model: of its structure as lines, others as a table that shows `most` rows."""
+    """Return changes of a model: structural ones as lines, others as a table that shows `most` rows."""
     if changes is None:
         return [], []
     structure = tuple(each for each in changes.changes if each.change_class is ChangeClass.STRUCTURAL)

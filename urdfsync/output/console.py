@@ -44,7 +44,7 @@ class StyledLine(msgspec.Struct, frozen=True):
     """One line as pieces of text, each with a style of rich; empty for none.
 
     Pipes and files get the text without rich: its import takes 20 of the 95 ms of a build of one changed mass, which
-    has to stay below 2.5 times the published tool's update (docs/speed.md).
+    has a bar in docs/speed.md.
     """
 
     parts: tuple[tuple[str, str], ...]
@@ -217,7 +217,7 @@ class Console:
 
             stream: Any = sys.stderr
             if isinstance(stream, streams.Stream):
-                stream = stream.without_transcript()  # no saved answer has the bar
+                stream = stream.without_transcript()  # a saved answer must not contain the bar
             screen = rich_console(stream)
             bar = Progress(console=screen, transient=True, redirect_stdout=False, redirect_stderr=False)
             self._bar = bar, bar.add_task(what, total=total)

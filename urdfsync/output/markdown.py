@@ -28,7 +28,7 @@ _CODE = re.compile("`([^`]+)`")
 
 
 def document(sections: Iterable[Section], findings: Sequence[Diagnostic] = (), _code: int = 0) -> str:
-    """Return one comment: robots, those that need attention first, and findings about none."""
+    """Return one comment: robots, those that need attention first, then findings about no robot."""
     environment = html_environment(Path(__file__).parent)
     environment.filters |= {"quoted": _quoted, "findings": findings_table}
     environment.globals |= {"most_open": FOLDED, "most_rows": MOST_ROWS}

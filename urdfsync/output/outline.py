@@ -1,6 +1,7 @@
 """Changes of a model in words: the rows of each element.
 
-One row has the components of a vector, all rounding, or all unmodelled parts. Elements with the same rows share them.
+The components of a vector share a row; so do all rounding, and all unmodelled parts. Elements with the same rows share
+them.
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ from urdfsync.spelling import same_count
 _NAMES = 140
 """The most characters of the names in a title, which has one name at least."""
 _SAME = 1e-9
-"""Up to these, a relative change of a sum is rounding, and a length (m) or an angle (rad) is too small to measure."""
+"""Up to this value, a relative change of a sum is rounding; a length (m) or an angle (rad) is too small to measure."""
 _COMPONENT = r"(.*)\[(\d+)\]"
 _MOVED = 3
 """The most elements of a kind with exchanged names that are named."""

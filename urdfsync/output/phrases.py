@@ -65,7 +65,7 @@ def _cause(action: Action, changes: Changes | None, *, brief: bool) -> str:
 
 
 def generator_change(changes: Changes) -> str:
-    """Return the changes beside the model; if only options changed, their names."""
+    """Say that templates, options or urdfsync changed; if only options changed, name them."""
     if not changes.options:
         return "a template, an option or urdfsync itself changed"
     names = " and ".join(f"`{name}`" for name in changes.options)

@@ -111,7 +111,7 @@ def _safe_path() -> Iterator[None]:
     """Start Python processes that import nothing from the working folder, which may be a stranger's repository.
 
     They do not import the main module either: it may be a script that calls the API, and would call it again. An
-    executor starts some at once, for its locks, and others when work is submitted. The variable is removed afterwards:
+    executor starts some at once, for its locks, and others when work is submitted. The variable is restored afterwards:
     a later command of the user's may need its own folder on the path.
     """
     before, main = os.environ.get("PYTHONSAFEPATH"), sys.modules["__main__"]

@@ -27,7 +27,7 @@ def as_recorded(snapshot: Snapshot) -> dict[str, Any]:
 
 
 def as_read(data: Mapping[str, Any], model: Any) -> Snapshot:
-    """Return the snapshot that `as_recorded` got. Raises ValueError, TypeError or AttributeError for other data."""
+    """Return the snapshot given to `as_recorded`. Raises ValueError, TypeError or AttributeError for other data."""
     parts = {part: data.get(part, {}) for part in _named(model)}
     lists = {part: [{"name": name, **one[name]} for name in sorted(one)] for part, one in parts.items()}
     return msgspec.convert({**data, **lists}, model)

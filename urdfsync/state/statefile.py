@@ -152,7 +152,7 @@ def _parse(content: str) -> tuple[str, Any]:
 
 
 def _record(values: Mapping[str, list[Any]], *, is_whole: bool) -> Record:
-    """Return the record from facts; if a heading is repeated, the last one counts."""
+    """Return the record from facts; if one of `_HEADINGS` is there twice, the last one counts."""
     package, class_, folder, domain, _, templates = (values[word][-1] for word in _HEADINGS)
     is_placed = all(len(values[word]) == 1 for word in _PLACE)
     hashes: dict[str, list[str]] = {}

@@ -1,6 +1,6 @@
 """Writes a set of files. A crash, a full disk or a save at any moment loses nothing.
 
-1. The planned hashes are put aside under a temporary name.
+1. The planned hashes are written under a temporary name.
 2. All new files are written beside their targets under temporary names, and written through to the disk.
 3. The planned hashes get their final name. Until then nothing has changed, and an error leaves no trace.
 4. Each target is exchanged with its new file, bases first, deletions last. The old file then has the temporary name.
@@ -168,7 +168,7 @@ class Transactions:
     def _prepare(
         self, build: PlannedBuild, made: Sequence[Path], targets: Sequence[_Target], contents: Sequence[bytes | None]
     ) -> None:
-        """Put the planned hashes aside, and write all new files. Raises OutputError."""
+        """Write the planned hashes under a temporary name, and all new files. Raises OutputError."""
         written, place = [], self._state_folder
         try:
             file_operations.make_folder(self._state_folder)

@@ -1,7 +1,7 @@
 """Compares sources with the last build, or with another version. Writes nothing, and takes no lock.
 
-Against the last build the answer is a dry run: its changes, its plan. Another version is read like the source, with its
-files in that version.
+A comparison with the last build is a dry run: its changes, its plan. Another version is read like the source, with the
+files of that version.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ class Comparison(msgspec.Struct, frozen=True):
     source: str
     """The source's name for people."""
     against: str | None = None
-    """The user's name of the other version; None for the last build."""
+    """The other version, as the user named it; None for the last build."""
     missing: str = ""
     """Why there is no older version; empty if there is one."""
     effects: tuple[Effect, ...] = ()
@@ -92,7 +92,7 @@ class Comparison(msgspec.Struct, frozen=True):
 
 
 def exit_code(comparisons: Sequence[Comparison]) -> Exit:
-    """Return the worst of all: an error, a lock, being out of step; a conflict counts as out of step."""
+    """Return the worst exit code: error, then lock, then out of step. A conflict counts as out of step."""
     code = exit_code_of(comparison.result for comparison in comparisons)
     if code in (Exit.ERROR, Exit.LOCKED):
         return code
@@ -128,7 +128,7 @@ def select_sources(
 
 
 def robot_of_file(path: Path) -> RobotConfig:
-    """Return a robot for a source outside of the configuration, with default settings; it allows left-out parts."""
+    """Return a robot for a source outside of the configuration, with default settings and permissive options."""
     name = class_name(path.name.partition(".")[0])
     options = registry.domain(_DOMAIN).permissive_options
     return RobotConfig(
@@ -156,7 +156,7 @@ def compare_sources(
                 yield _with_version(robot, against, config, options, folder)
             elif config is not None:
                 yield _with_last_build(robot, config, options)
-        except Exception as error:  # noqa: BLE001 - of one robot
+        except Exception as error:  # noqa: BLE001 - one robot's error does not stop the others
             failed = msgspec.structs.replace(_result(robot, config), failed=True, diagnostics=findings_of(error))
             yield Comparison(failed, shown(robot.source), against)
 
@@ -262,7 +262,7 @@ def _with_version(
 
 
 def _in_revision(revision: Revision, robot: RobotConfig, config: Config | None) -> Source:
-    """Return a source in a revision; xacro with its expansion at that time. Raises SourceError."""
+    """Return a source in a revision; for xacro, its expansion of that time. Raises SourceError."""
     label = revision.label(robot.source)
     # the source may have been renamed; its expansion has the robot's name
     if config is None or not (robot.arguments is not None or source_files.is_xacro(robot.source, b"")):

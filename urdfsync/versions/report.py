@@ -26,7 +26,7 @@ _SILENT = frozenset({Reason.KEEP, Reason.FORGET})
 
 
 def to_section(compared: Comparison, *, verbose: bool | None = None) -> Section:
-    """Return a comparison; only one with the last build judges the package."""
+    """Return a comparison as a section. Only one with the last build judges the package."""
     result, section = compared.result, build_section(compared.result)
     points, tables = change_parts(result.changes, _CHANGES, verbose=bool(verbose))
     effects = [tuple(row) for row in effect_rows(compared.effects)]
