@@ -150,7 +150,7 @@ def test_a_file_that_is_staged_in_part_is_refused_by_name(repo: Repository, caps
     with unchanged(repo.folder):
         (line,) = said(capsys, "build")
         assert line.endswith(
-            f"robot `ladder`: staged in part only: {path}; `{add(path)}`, or put the rest aside with "
+            f"robot `ladder`: partly staged: {path}; `{add(path)}`, or put the rest aside with "
             "`git stash push --keep-index` [partly-staged]"
         )
     run("git stash push --keep-index")
@@ -161,7 +161,7 @@ def test_a_file_that_git_was_told_not_to_look_at_is_refused_by_name(repo: Reposi
     repo.git("update-index", "--assume-unchanged", RECORD)
     repo.git("update-index", "--skip-worktree", "ladder.json")
     (line,) = said(capsys, "check")
-    assert f"git is told not to look at ladder.json, {RECORD}; " in line
+    assert f"git ignores changes of ladder.json, {RECORD}; " in line
     repo.git("update-index", "--no-assume-unchanged", RECORD)
     repo.git("update-index", "--no-skip-worktree", "ladder.json")
     assert said(capsys, "check", code=0) == []

@@ -170,11 +170,11 @@ class RobotFiles:
         """Return why the commit fails before a build; None if it does not."""
         index = self._commit.index
         if hidden := self.select(index.hidden):
-            message = f"git is told not to look at {', '.join(sorted(hidden))}"
+            message = f"git ignores changes of {', '.join(sorted(hidden))}"
             return self.fault("hidden", message, "`git help update-index` says how to undo it")
         if partly := self.select(self._commit.files & index.unstaged):
             hint = f"{self.adding(partly)}, or put the rest aside with `git stash push --keep-index`"
-            return self.fault("partly-staged", f"staged in part only: {', '.join(sorted(partly))}", hint)
+            return self.fault("partly-staged", f"partly staged: {', '.join(sorted(partly))}", hint)
         if not self.planned.in_step:
             return self.fault_of_build(self.planned, "`urdfsync hook build`")
         if unstaged := self.find_unstaged():

@@ -95,7 +95,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
         shutil.rmtree(folder)
     elif folder:
         hint = "copy from it into your file, or edit again"
-        message = "not all of your edited text was used"
+        message = "some files were not replaced by your edited text"
         problems.append(Diagnostic(Severity.NOTE, "edit-left", message, shown(folder), hint=hint))
     return console.end(code, problems)
 

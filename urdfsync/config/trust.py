@@ -44,7 +44,7 @@ def find_untrusted_compiler(config: Config, compiler: str, title: str) -> Diagno
 
     Raises ConfigError. Models and libraries have external functions, by which a compiler may run other programs.
     """
-    key, reason = "tool", "models can start programs by it"
+    key, reason = "tool", "models can start programs through it"
     if program := config.check.program(compiler):
         key, reason = compiler, program
     message = f"`{key}` in the table `[check]`: {title} was not run: {reason}"

@@ -94,7 +94,7 @@ class Reason(enum.StrEnum):
             "{n} to give back as you had {them}", "{n} given back as you had {them}")
     MOVE = ("move", Kind.WRITE, FileStatus.STALE, "its path is new; your edits move here",
             "{n} to move with your edits", "{n} moved with your edits")
-    INCLUDED = ("included", Kind.LEAVE, FileStatus.EDITED, "you edited it, and it already has all changes",
+    INCLUDED = ("included", Kind.LEAVE, FileStatus.EDITED, "you edited it, and your text already has all changes",
                 "{n} that you edited already {have} all changes")
     KEEP = ("keep", Kind.LEAVE, FileStatus.EDITED, "you edited it; its generated text did not change",
             "{n} kept because you edited {them}")
@@ -105,9 +105,9 @@ class Reason(enum.StrEnum):
     CONFLICT = ("conflict", Kind.CONFLICT, FileStatus.CONFLICT, "you edited it, and its generated text changed too",
                 "{n} conflict{s}")
     MARKERS = "markers", Kind.CONFLICT, FileStatus.CONFLICT, "git could not merge the edits of two branches"
-    UNOWNED = "unowned", Kind.CONFLICT, FileStatus.CONFLICT, "urdfsync did not write the file that is there"
+    UNOWNED = "unowned", Kind.CONFLICT, FileStatus.CONFLICT, "this file exists, and urdfsync did not write it"
     ASKED = "asked", Kind.CONFLICT, FileStatus.CONFLICT, "you edited it, and it may belong to another part now"
-    UNKNOWN = "unknown", Kind.LEAVE, FileStatus.UNKNOWN, "nothing generates it, and nothing is recorded of it"
+    UNKNOWN = "unknown", Kind.LEAVE, FileStatus.UNKNOWN, "urdfsync neither generates this file nor has a record of it"
     UNCHANGED = "unchanged", Kind.LEAVE, FileStatus.IN_STEP, "nothing to do"
     MOVED_AWAY = "moved-away", Kind.DELETE, FileStatus.STALE, "its path is new; your edits move there"
     FORGET = "forget", Kind.LEAVE, None, "no longer generated, and already gone"
@@ -173,7 +173,7 @@ class Action(msgspec.Struct, frozen=True):
     @property
     def replaces(self) -> str:
         """Return the clause that it replaces a text that git made of two versions; empty if it does not."""
-        return "in place of git's text" if self.is_left_by_git and self.kind is not Kind.CONFLICT else ""
+        return "replaces git's merge of two branches" if self.is_left_by_git and self.kind is not Kind.CONFLICT else ""
 
     @property
     def text(self) -> str:

@@ -143,7 +143,7 @@ class Compiler(Protocol):
     HAS_STANDARD_LIBRARY: bool
     """Whether the compiler finds the Modelica Standard Library itself."""
     STARTS_PROGRAMS: bool
-    """Whether models can start programs by it. Then the user has to trust the configuration that chooses it."""
+    """Whether models can start programs through it. Then the user has to trust the configuration that chooses it."""
 
     def program(self, named: str) -> str | None:
         """Return the path of the program to start, empty if it needs none; None if it is missing.
