@@ -1,8 +1,8 @@
-"""Writes libraries as texts for the compiler: one text each, with the classes that are named, without looks.
+"""Writes each library as one text for the compiler: only named classes, without graphics and documentation.
 
 rumoca 0.10.2 goes through all of every library for each model, so a model that names a tenth of the Modelica Standard
 Library compiles in a third of the time. A class is kept if its name, and that of each class around it, is a word of
-the texts that are compiled, or of a class that is kept: all else can't be reached. Comments lead lines back to files.
+the compiled texts or of a kept class: nothing else can be reached. Comments tell from which file and line a text is.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ _QUOTED = r"'(?:\\.|[^'\\])*'"
 _NAME = rf"(?:{_QUOTED}|[A-Za-z_]\w*)"
 _KINDS = "package|model|block|function|record|type|connector|class"
 _FRONT = re.compile(rf"\ufeff?(?:\s+|{_REMARK})*(?:within\b[^;]*;)?", re.DOTALL)
-"""What stands before a class in a file."""
+"""The text before the class in a file."""
 _LOOKS = "|".join((*sorted(LAYOUT), "Documentation"))
 _TOKEN = re.compile(rf"{_STRING}|{_QUOTED}|{_REMARK}|\bannotation\b|(?P<looks>\b(?:{_LOOKS})\s*\()|[()]", re.DOTALL)
 _MARK = "// urdfsync: "
@@ -42,7 +42,7 @@ _WORD = re.compile(rf"{_STRING}|{_REMARK}|({_NAME})", re.DOTALL)
 
 
 class Piece(msgspec.Struct, frozen=True, array_like=True):
-    """A text of a class: without the classes inside, if it is a package."""
+    """A text of a class; the text of a package lacks the classes inside."""
 
     owner: str
     """The full name of the class."""
@@ -87,7 +87,7 @@ def packed(libraries: Mapping[str, Library], named: Iterable[str]) -> dict[str, 
 
 
 def _kept(library: Library, found: Container[str]) -> Iterator[str]:
-    """Yield the pieces of classes; for others empty lines, so that the lines of a file keep their numbers."""
+    """Yield the pieces of the classes `found`, and empty lines for others: the lines of a file keep their numbers."""
     has_begun = False
     for piece in library:
         is_found = piece.owner in found
@@ -99,7 +99,7 @@ def _kept(library: Library, found: Container[str]) -> Iterator[str]:
 
 
 def original_place(text: str, line: int) -> tuple[str, int]:
-    """Return file (from the library's folder) and line of a line (from 1) of a packed text."""
+    """Return the file (below the library's folder) and the line there of a line (from 1) of a packed text."""
     lines = text.split("\n")[:line]
     number = max((number for number, each in enumerate(lines) if each.startswith(_MARK)), default=None)
     if number is None:
@@ -109,16 +109,16 @@ def original_place(text: str, line: int) -> tuple[str, int]:
 
 
 def _stem(path: str) -> str:
-    """Return the path of a file as if each class had its own."""
+    """Return the path of a file's class: without `.mo`, and for a package without `/package.mo`."""
     return path.removesuffix(".mo").removesuffix("/package")
 
 
 def _texts(
     owner: str, path: str, texts: Mapping[str, bytes], inside: Mapping[str, Sequence[str]]
 ) -> Iterator[tuple[str, str]]:
-    """Yield the texts of a class and of those inside, with the name of the class that each is part of.
+    """Yield the texts of a class and of the classes inside, each with the name of the class that it is part of.
 
-    `inside` has the files of classes by the folder around them. They stand behind the name and comment of its class.
+    `inside` has the files of classes by their folder. Their texts follow the name and comment of the folder's package.
     """
     text = _plain(texts[path].decode("utf-8", "surrogateescape"))
     text = _FRONT.sub(lambda front: "\n" * front[0].count("\n"), text, 1)
@@ -137,7 +137,7 @@ def _texts(
 
 
 def _members(owner: str, text: str, at: int, end: int) -> Iterator[tuple[str, str]]:
-    """Yield the texts of a package's body: of each class in it, and what stands around them."""
+    """Yield the texts of a package's body: each class in it, and the texts around them."""
     since = at
     while at < end:
         if blank := _BLANK.match(text, at, end):
@@ -172,7 +172,7 @@ def _end_of(text: str, found: re.Match[str], end: int) -> int:
 
 
 def _semicolon(text: str, at: int, end: int) -> int:
-    """Return where a statement ends: behind its semicolon, or at the end."""
+    """Return where a statement ends: behind its semicolon, or at `end` if it has none."""
     depth = 0
     for match in _SIGN.finditer(text, at, end):
         sign = match["sign"] or ""

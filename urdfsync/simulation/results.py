@@ -13,7 +13,7 @@ from urdfsync.checks.results import RunOptions
 from urdfsync.diagnostics import Diagnostic
 
 STOP = 1.0
-"""End of a simulation whose model has no `experiment` annotation with one, in s."""
+"""End of a simulation in s, unless the model's annotation `experiment` or the user gives one."""
 STEPS = 500
 """Number of intervals of results, unless the annotation or the user gives their length."""
 TOLERANCE = 1e-6
@@ -45,7 +45,7 @@ class Range(msgspec.Struct, frozen=True):
     """The range of a joint's quantity over a simulation."""
 
     variable: str
-    """Its full name."""
+    """The variable's full name."""
     unit: str
     least: float
     greatest: float

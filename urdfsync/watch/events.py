@@ -22,7 +22,7 @@ class Event(msgspec.Struct, frozen=True, tag=str.lower):
 
 
 class RobotEvent(Event, frozen=True):
-    """One event of the robot that is named first."""
+    """One event of one robot."""
 
     robot: str
 
@@ -88,7 +88,7 @@ class Failed(Event, frozen=True):
 
 
 class Checking(RobotEvent, frozen=True):
-    """The check of the robot's package begins; one that was begun before is cancelled."""
+    """The check of the robot's package begins; an unfinished earlier one is cancelled."""
 
 
 class CheckDone(RobotEvent, frozen=True, tag="checked"):
@@ -102,7 +102,7 @@ class CheckDone(RobotEvent, frozen=True, tag="checked"):
 
 
 class Noted(Event, frozen=True):
-    """Findings about no robot; reported once, until they end and come again."""
+    """Findings that concern no robot. Each is reported once, and again if it ends and comes back."""
 
     diagnostics: tuple[Diagnostic, ...]
 

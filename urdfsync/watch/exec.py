@@ -71,7 +71,7 @@ class CommandRunner:
             text = str(robot.folder)
         names = {"URDFSYNC_ROBOT": robot.name, "URDFSYNC_PACKAGE": robot.target.package, "URDFSYNC_FILES": text}
         try:
-            code = subprocess.run(  # noqa: S602 - a shell command is what the user gives
+            code = subprocess.run(  # noqa: S602 - the user gives a shell command
                 self._command,
                 shell=True,
                 cwd=self._folder,
