@@ -33,7 +33,7 @@ class RunOptions(msgspec.Struct, frozen=True, kw_only=True):
     """Limits of compilers for one robot."""
 
     timeout: float = 600.0
-    """Seconds."""
+    """Limit of processor time, in s."""
     memory: float | None = None
     """Gigabytes for all processes together; None for the free memory."""
     wait: float = 60.0
@@ -83,7 +83,7 @@ class CompiledModel(msgspec.Struct, frozen=True):
     unknowns: int
     """Number of scalar unknowns, and of equations; 0 for a part of another model, or if the compiler tells none."""
     is_users: bool = False
-    """Whether it is the user's; then `model` is its full name."""
+    """Whether the model is the user's; then `model` is its full name."""
 
 
 class EditEffect(msgspec.Struct, frozen=True):
@@ -132,7 +132,7 @@ class ToolResult(msgspec.Struct):
     """The effects of the user's edits, each apart if possible."""
     seconds: float = 0.0
     megabytes: float = 0.0
-    """The most memory that its processes took together, looked at four times a second."""
+    """The most memory that its processes took together, measured four times a second."""
     times: tuple[TrialTime, ...] = ()
     """Times of the comparison, if the compiler tells them."""
     curves: tuple[Curve, ...] = ()
@@ -178,7 +178,7 @@ class CheckResult(msgspec.Struct):
     seconds: float = 0.0
     """Time from beginning to end."""
     megabytes: float = 0.0
-    """The most memory that its processes took together, looked at four times a second."""
+    """The most memory that its processes took together, measured four times a second."""
     folder: str = ""
     """The package's folder for messages; empty if the check broke off."""
     reference: str = ""

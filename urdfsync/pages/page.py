@@ -58,7 +58,7 @@ def page(
 ) -> bytes:
     """Return the page, with a simulation that plays, and a check. Raises UrdfsyncError if three.js can't be had.
 
-    With the number of a `build` it follows the daemon that serves it.
+    With the number of a `build`, the page follows the daemon that serves it.
     """
     library = threejs.load()
     names = SCRIPTS if build is None else (*SCRIPTS, FOLLOWER)

@@ -36,7 +36,7 @@ class Body(msgspec.Struct, frozen=True):
     """A rigid body."""
 
     element: str
-    """In the domain's words: `link hand`."""
+    """The element in the domain's words: `link hand`."""
     component: str
     """Its name in the diagram."""
     facts: Facts

@@ -24,7 +24,7 @@ class Axis(msgspec.Struct, frozen=True):
     """Quantities of one moving joint in a simulation."""
 
     element: str
-    """In the domain's words: `joint elbow`."""
+    """The element in the domain's words: `joint elbow`."""
     position: Signal
     velocity: Signal
     effort: Signal | None = None
@@ -39,7 +39,7 @@ class LoopSignals(msgspec.Struct, frozen=True):
     """Variables of a joint that closes a loop in a simulation, below the main model."""
 
     element: str
-    """In the domain's words: `loop rocker_pin`."""
+    """The element in the domain's words: `loop rocker_pin`."""
     gap: str
     """Distance of the two frames, in m."""
     force: tuple[str, ...]

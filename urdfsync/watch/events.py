@@ -1,7 +1,8 @@
 """The events of `urdfsync watch` as values; `--format json` writes them with the tag as the event's name.
 
 Events of one robot come in this order: `Settling` when one of its files changed, `Building` when it has settled,
-`Waiting` if its source is invalid, and `Built` or `Failed`; or `Unchanged` if its files have their former content.
+`Waiting` if its source is invalid, then `Built` or `Failed`. If its files have their former content, only `Unchanged`
+follows `Settling`.
 Checks have their own events: `Checking`, and `CheckDone` for the last one of several.
 """
 
@@ -37,7 +38,7 @@ class Started(Event, frozen=True):
 
 
 class Viewing(Event, frozen=True):
-    """Pages of the robots are at this address, until the daemon ends; the first event."""
+    """Pages of the robots are at this address, until the daemon ends. This is the first event."""
 
     address: str
 
@@ -129,7 +130,7 @@ class Ran(RobotEvent, frozen=True):
 
 
 class Stopping(Event, frozen=True):
-    """The daemon was told to end; the last event."""
+    """The daemon was told to end. This is the last event."""
 
     signal: str
     """Name of the signal, for example `SIGINT`."""

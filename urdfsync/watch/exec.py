@@ -42,7 +42,7 @@ class CommandRunner:
     def run(self, robot: RobotConfig, files: Sequence[Path]) -> Iterator[events.Event]:
         """Run the command for a robot with these changed files, after a running one has ended.
 
-        Several changes in the meantime make one more run. `CommandEnded` is put into the queue at the end.
+        Several changes in the meantime cause only one more run. `CommandEnded` is put into the queue at the end.
         """
         if not self._command:
             return

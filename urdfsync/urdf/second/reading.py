@@ -84,9 +84,9 @@ class Element(msgspec.Struct):
     command: str = ""
     """The quantity that is the input of Run; empty for a joint that Run does not drive."""
     is_named: bool = False
-    """Whether the source or the configuration names it as driven."""
+    """Whether the source or the configuration names the joint as driven."""
     is_measured: bool = False
-    """Whether the source only measures it."""
+    """Whether the source only measures the joint."""
     in_loop: bool = False
     has_limit: bool = False
     shares: str = ""
