@@ -107,3 +107,20 @@ def test_a_place_in_a_packed_library_is_one_in_its_folder(jobs: Jobs, monkeypatc
     bench = library_folder() / "UrdfSync/Robots/PartialBench.mo"
     line = next(number for number, each in enumerate(bench.read_text().split("\n"), 1) if "model PartialBench" in each)
     assert result.problem == f"too few equations [{bench}:{line}:7]"
+
+
+def test_a_place_in_a_library_of_one_file_is_one_in_that_file(
+    jobs: Jobs, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    complex_numbers = tmp_path / "Complex 4.1.0.mo"
+    complex_numbers.write_text("within;\noperator record Complex\nend Complex;\n")
+
+    def complain(_tool: Tool, job: CompileJob, *_: object) -> list[CompileResult]:
+        packed = Path(job.roots[0], "Complex.mo")
+        line = packed.read_text().split("\n").index("operator record Complex") + 1
+        return [CompileResult(f"no operator [{packed}:{line}:1]")]
+
+    monkeypatch.setattr("urdfsync.checks.compilers.run_job", complain)
+    other = msgspec.structs.replace(jobs, tool=Tool("rumoca"), needed=Libraries({"Complex": complex_numbers}, {}))
+    (result,) = other.run("it", TEXTS, [TASK])
+    assert result.problem == f"no operator [{complex_numbers}:2:1]"

@@ -130,3 +130,54 @@ def test_classes_are_kept_that_are_reached_by_names(named: str, kept: str) -> No
         for number, line in enumerate(text.split("\n"), 1)
         if line in lines and line.strip()
     )
+
+
+HEADS = {
+    "a comment below `within`": "within ;\n// This package is free\npackage Lib\n",
+    "a comment over two lines": "within ;\n/* This package is\nfree */ package Lib\n",
+    "a comment before the string": 'package Lib // c\n "doc" + "more"\n',
+    "a comment before the name": "package /* c */ Lib\n",
+    "a comment in `within`": "within /* a; b */ ;\npackage Lib\n",
+}
+
+
+@pytest.mark.parametrize("head", HEADS.values(), ids=HEADS)
+def test_files_of_a_package_are_in_it_whatever_stands_around_its_name(head: str) -> None:
+    texts = {"package.mo": f"{head}constant Real x = 1; end Lib;".encode(), "A.mo": b"within Lib; model A end A;"}
+    stored = parse(packed({"Lib": pieces("Lib", texts)}, ["A"])["Lib"])
+    assert not stored.faults
+    assert {".".join(each.path) for each in declared(stored.classes)} == {"Lib", "Lib.A", "Lib.x"}
+
+
+@pytest.mark.parametrize("text", [
+    "package Lib replaceable record R Real x; function equalityConstraint end equalityConstraint; end R; end Lib;",
+    "package Lib replaceable operator record R operator function '+' end '+'; end R; end Lib;",
+    "package Lib operator record R /* c */ Real x; operator function '+' end '+'; end R // c\n; end Lib;",
+    "package Lib model extends R Real x; end R; end Lib;",
+])  # fmt: skip
+def test_functions_that_are_called_without_their_names_are_kept(text: str) -> None:
+    kept = packed({"Lib": pieces("Lib", {"Lib.mo": text.encode()})}, ["R"])["Lib"]
+    assert kept.replace("// urdfsync: Lib.mo:1", "").split() == text.split()
+
+
+def test_a_comment_that_ends_with_a_bracket_opens_none() -> None:
+    text = "package Lib model P Real x annotation(X=1, // (\n Y=2); end P; P Line(k=2); end Lib;"
+    assert "Line(k=2)" in packed({"Lib": pieces("Lib", {"Lib.mo": text.encode()})}, ["P"])["Lib"]
+
+
+def test_lines_behind_a_class_that_is_left_out_keep_their_file() -> None:
+    texts = {
+        "package.mo": b"package Lib\n  model X\n  end X;\n  constant Real y = 1;\nend Lib;",
+        "A.mo": b"model A end A;",
+    }
+    lines = packed({"Lib": pieces("Lib", texts)}, ["A"])["Lib"].split("\n")
+    (line,) = [number for number, each in enumerate(lines, 1) if "Real y" in each]
+    assert original_place("\n".join(lines), line) == ("package.mo", 4)
+
+
+@pytest.mark.parametrize(
+    "text", [b"", b"// nothing", b"within ;", b"package Foo end Foo;", b'package Lib "caf\xe9" end Lib;']
+)
+def test_a_damaged_library_is_left_to_the_compiler(text: bytes) -> None:
+    assert isinstance(packed({"Lib": pieces("Lib", {"Lib.mo": text})}, ["Foo"])["Lib"].encode(), bytes)
+    assert packed({"Lib": pieces("Lib", {})}, [])["Lib"] == ""

@@ -121,7 +121,7 @@ def test_lines_are_as_on_the_page(capsys: Capture, monkeypatch: pytest.MonkeyPat
     rest = example[0].partition("right")[2]
     assert lines[len(example) :] == [
         f"new: not built{rest}",
-        "  there is no package yet, so what `urdfsync build` would write was checked",
+        "  there is no package yet; the files that `urdfsync build` would write were checked",
         f"hoist: out of step{rest}",
         "  the package is out of step; run `urdfsync build`",
         f"lift: out of step{rest}",
@@ -150,7 +150,7 @@ def test_differing_numbers_come_first_and_those_of_one_file_are_counted(capsys: 
         "source",
         f"{place}:13: {fault}",
         f"{place}:14: {fault} (and 1 more there)",
-        "  Arm.mo (edited): what it does is not compared",
+        "  Arm.mo (edited): its effect is not compared",
     ]
 
 

@@ -152,7 +152,7 @@ def test_an_edited_number_and_exchanged_inputs_are_told_without_a_compiler(
         "shoulder_phi in line 50",
         "ArmRun.mo (edited) changes shoulderDrive.phi_ref of joint shoulder: shoulder_phi in arm.urdf:6, "
         "elbow_phi in line 44",
-        "Joints/Elbow.mo (edited): what it does is not compared",
+        "Joints/Elbow.mo (edited): its effect is not compared",
     ]
     assert (status(result, strict=False), status(result, strict=True)) == (CheckStatus.RIGHT, CheckStatus.DIFFERS)
 

@@ -1,7 +1,7 @@
 """The check after a build: syntax, layout, compiling and balance of the package on disk.
 
 A right package is not checked again until an input of the check changes: a check takes 10 s for an arm. A wrong package
-is checked again after each build: a second build must not look right.
+is checked again after each build: a second build must not make it look right.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ class BuildChecker:
         return fingerprint(self._config, robot, self._options)
 
     def find_earlier(self, key: str | None) -> BuildCheck | None:
-        """Return an earlier check with this key, with its findings about the machine only; None without one."""
+        """Return an earlier check with this key, with only its findings about the machine; None if there is none."""
         result = None if self._options.fresh or key is None else UserCache.default().load(key, CheckResult)
         if result is None:
             return None
@@ -54,7 +54,7 @@ class BuildChecker:
         return BuildCheck(check.checked, tuple(filter(is_general, check.diagnostics)))
 
     def check(self, robots: Sequence[RobotConfig], tell: Progress) -> Iterator[BuildCheck]:
-        """Check packages, in their order, unless an earlier check is known.
+        """Check packages, in the order of `robots`, unless an earlier check is known.
 
         Faults of a package, or of its check, come back as diagnostics.
         """
@@ -73,7 +73,7 @@ class BuildChecker:
 def with_checks(config: Config, request: BuildOptions, results: Iterable[Result]) -> Iterator[Result]:
     """Yield the results of builds, in their order, each with the check of its package.
 
-    All builds come first: they hold the lock, and others wait for it.
+    All builds end before the first check: they hold the lock, and other processes wait for it.
     """
     robots = {robot.name: robot for robot in config.robots}
     told: set[Diagnostic] = set()

@@ -30,7 +30,7 @@ _FULL, _AFTER = 0.75, 0.5  # parts of the limit: a cache fuller than the first i
 _IN_USE = 3600.0
 """A check may still use a copy of a library that was used within so many seconds."""
 
-_ACCESS = ".rumoca-access"  # suffix of the file in which the compiler notes the last use of another
+_ACCESS = ".rumoca-access"  # suffix of the file in which the compiler notes the last use of another file
 
 
 class CacheError(UrdfsyncError):
@@ -43,7 +43,7 @@ def digest(*facts: object) -> str:
 
 
 class UserCache:
-    """The cache in a folder, which need not exist; `UserCache.default` is the one of this user."""
+    """The cache in a folder, which need not exist; `UserCache.default` is this user's."""
 
     def __init__(self, folder: Path) -> None:
         self.folder, self.libraries = folder, folder / "libraries"
@@ -60,7 +60,7 @@ class UserCache:
             self.folder.mkdir(mode=0o700, parents=True, exist_ok=True)
 
     def load(self, key: str, kind: type[T]) -> T | None:
-        """Return the value that was saved with this key; None without one that can be read."""
+        """Return the value that was saved with this key; None if there is none or it can't be read."""
         file = self.results / key
         try:
             os.utime(file)  # note its last use
@@ -69,7 +69,7 @@ class UserCache:
             return None
 
     def save(self, key: str, value: Any) -> None:
-        """Save a value, or delete the last one for None. If the cache can't be written, it is not used."""
+        """Save a value; None deletes the saved one. If the cache can't be written, it is not used."""
         with contextlib.suppress(OSError):
             if value is None:
                 (self.results / key).unlink(missing_ok=True)
@@ -102,7 +102,7 @@ class UserCache:
     def _entries(self) -> Iterator[tuple[float, str, int]]:
         """Yield each entry that is deleted as a whole: the time of its last use, its path, its bytes on disk.
 
-        Entries are the files and folders in our folders, and each file of the compiler but for its locks.
+        Entries are the files and folders in our folders, and each file of the compiler except its locks.
         """
         for folder in (self.libraries, self.results, self.compiler):
             if folder.is_symlink():
@@ -125,7 +125,7 @@ class UserCache:
 
 @contextlib.contextmanager
 def cache_errors(folder: Path) -> Iterator[None]:
-    """Turn errors of the system inside into a CacheError about `folder`."""
+    """Turn an OSError inside the `with` block into a CacheError about `folder`."""
     try:
         yield
     except OSError as error:

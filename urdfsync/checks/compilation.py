@@ -48,7 +48,7 @@ from urdfsync.processes.workers import tell
 from urdfsync.spelling import counted
 
 _USERS = "users"
-"""The job that compiles models of the user's."""
+"""The job that compiles the user's models."""
 _MOST_DIAGNOSTICS = 5
 _LONGEST_MESSAGE = 300
 _SAME_TIME = 1e-7  # s
@@ -72,13 +72,13 @@ class Compilation:
         folder: Path,
         processes: int = 1,
     ) -> None:
-        """So many `processes` may compile at a time; copies of the package go below `folder`.
+        """At most `processes` compile at the same time; copies of the package go below `folder`.
 
         The user's models, `users`, may need more libraries than the package.
         """
         self._package, self._users, self._processes = package, users, processes
         self._jobs = Jobs(package.robot, tool, needed, package.around, limits, folder)
-        # own jobs: an unreadable file of the user's would keep the package from being compiled
+        # separate jobs: an unreadable file of the user's would keep the package from being compiled
         self._users_jobs = msgspec.structs.replace(self._jobs, needed=needed_by_users)
         self._compiler = compilers.COMPILERS[tool.name]
         self.result = ToolResult(self._compiler.TITLE)
@@ -87,16 +87,16 @@ class Compilation:
         self.generated: Mapping[str, Series] = {}
         """The simulations of the generated package by the names of trials, completed for the comparison."""
         self.edited: Mapping[str, Series] = {}
-        """Those of the package on disk, if it is edited."""
+        """The simulations of the package on disk, if it is edited."""
 
     def run(self, experiment: Experiment | None) -> None:
-        """Compile the package, and compare it by an experiment: 20 s for a six-axis arm, minutes for a humanoid."""
+        """Compile the package, and compare it in an experiment: 20 s for a six-axis arm, minutes for a humanoid."""
         # with an experiment, other versions of the package are compiled at the same time: no need to divide its models
         models = self._model_jobs(1 if experiment else max(1, min(self._processes, len(self._package.models))))
         done = self._run_all({**models, **(self._versions(experiment) if experiment else {})})
         failing = {task.title for label, job in models.items() for task in _failing(job, done[label])}
         alone = [part for part, whole in self._parts.items() if whole in failing]
-        if alone:  # the fault may be theirs
+        if alone:  # the fault may lie in the part
             models["parts"] = self._package.files.texts, self._tasks(alone)
             done |= self._run_all({"parts": models["parts"]})
         self._note_models(models, done)
@@ -147,7 +147,7 @@ class Compilation:
         alone = {file: self._motions(done[file], trials)[0] for file in package.edits if file in done}
         single = {file: compare_all(trials[:1], motions, without_edits) for file, motions in alone.items() if motions}
         whole = compare_all(trials[:1], self.edited, without_edits)
-        # other changes follow from these, except in files that change nothing here
+        # changes in the other trials follow from these, unless a file has no effect in the first trial
         others = compare_all(trials[1:], self.edited, without_edits)
         changes = tuple(deviation for deviation in others if not deviation.agrees)
         self.result.effects = tuple(
@@ -156,7 +156,7 @@ class Compilation:
         )
 
     def _laws(self, experiment: Experiment, done: Mapping[str, Sequence[CompileResult]]) -> Sequence[Deviation]:
-        """Return the differences of laws that no other trial moves. What can't be simulated is a gap."""
+        """Return the differences of laws that no other trial moves. A failed simulation is a gap."""
         if not experiment.laws:
             return ()
         motions, faults = self._motions(done["laws"], [experiment.laws])
@@ -181,9 +181,9 @@ class Compilation:
 
     @cached_property
     def _parts(self) -> Mapping[str, str]:
-        """Models of the package that compile as a component of another one, which is as generated: both by name.
+        """For each model that compiles as a component of another one: the other model, which is unedited. Both by name.
 
-        A six-axis arm alone takes as long to compile as Test has to.
+        A six-axis arm alone takes as long to compile as Test, which contains it.
         """
         package, parts = self._package, dict[str, str]()
         for model in package.models:
@@ -221,7 +221,7 @@ class Compilation:
         self.result.compiled = tuple(sorted(compiled, key=lambda model: order.index(model.model)))
         parts = {part for model in compiled if model.is_users for part in users.uses.get(users.files[model.model], ())}
         for model, faults in failing.items():
-            if users.files[model] not in parts:  # it is made to compile there
+            if users.files[model] not in parts:  # else it has compiled as a part of another model
                 self.diagnostics += map(_as_part, faults)
                 self.result.failing += (model,)
 
@@ -258,7 +258,7 @@ class Compilation:
     def _motions(
         self, results: Sequence[CompileResult], trials: Sequence[Trial]
     ) -> tuple[dict[str, Series], list[Diagnostic]]:
-        """Return the simulation of each trial of a job by its name, and the problem of the first one.
+        """Return the simulation of each trial of a job by its name, and the problem of the first trial.
 
         A problem of another trial is a gap.
         """
@@ -309,7 +309,7 @@ def compare_all(
 
 
 def compare(compared: Iterable[Compared], series: Series, expected: Series) -> tuple[Deviation, ...]:
-    """Return the differences from the expected values, at the instants; one without a number is infinite."""
+    """Return the differences from the expected values, at the instants; infinite if a number is missing."""
     deviations: list[Deviation] = []
     for quantity in compared:
         places = [(name, instant) for name in quantity.values for instant in quantity.instants]
@@ -356,9 +356,9 @@ def edit_effects(
     whole: Sequence[Deviation],
     single: Mapping[str, Sequence[Deviation]],
 ) -> Iterator[EditEffect]:
-    """Yield the effects of edits in `files`, each apart if possible; the rest is the effect of the others together.
+    """Yield the effect of each edited file by itself, if possible; the other files share the remaining effect.
 
-    Deviations are from the generated package: `whole` of the one on disk, `single` of those with one edit each.
+    Deviations are from the generated package: `whole` of the package on disk, `single` of packages with one edit each.
     """
 
     def effect(files: Sequence[str], deviations: Sequence[Deviation]) -> EditEffect:
@@ -398,7 +398,7 @@ def explain(problem: str, compiler: Compiler, package: PackageTexts, file: Path 
 
 
 def explain_warnings(text: str, compiler: Compiler, package: PackageTexts) -> list[Diagnostic]:
-    """Return warnings for a compiler's text about a model that compiles, those about files of the package."""
+    """Return warnings for a compiler's text about a model that compiles; only those about files of the package."""
     complaints = dict.fromkeys(compiler.complaints(text))
     own = [complaint for complaint in complaints if Path(complaint.file).is_relative_to(package.folder)]
     findings = [_diagnostic(complaint, package, complaint.code) for complaint in own]

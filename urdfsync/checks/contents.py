@@ -66,7 +66,7 @@ def _refuse_bad_link(top: str, link: str) -> None:
 def copy_library(
     root: Path, target: Path, leave_out: Callable[[str, list[str]], Iterable[str]] = lambda *_: ()
 ) -> None:
-    """Copy a library, which is a folder or a file. `leave_out` is as the `ignore` of `shutil.copytree`.
+    """Copy a library, which is a folder or a file. `leave_out` works like the `ignore` of `shutil.copytree`.
 
     Raises UrdfsyncError for a symbolic link to a folder or out of the library, and for a library that is too large.
     """
@@ -98,10 +98,10 @@ def _refusal(path: Path, message: str, hint: str) -> UrdfsyncError:
 
 
 def package_texts(folder: Path, top: Path | None = None, without: Collection[Path] = ()) -> dict[str, bytes]:
-    """Read the Modelica files of a package and of those in it, by their path below `top`; None for `folder`.
+    """Read the Modelica files of a package and its subpackages, by their path below `top`, or below `folder` for None.
 
-    Folders in `without` are left out. Only regular files count, and links to such: a pipe must not be opened, links to
-    folders may go in circles. Raises OutputError for a file or a folder that can't be read.
+    Folders in `without` are left out. Only regular files and links to them count: a pipe must not be opened, and links
+    to folders may go in circles. Raises OutputError for a file or a folder that can't be read.
     """
     texts: dict[str, bytes] = {}
     try:

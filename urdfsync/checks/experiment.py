@@ -1,4 +1,4 @@
-"""Comparisons of a package with an independent reference, in values, and what `check` asks of a domain."""
+"""Comparisons of a package with an independent reference, as values, and the questions of `check` to a domain."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from urdfsync.domain import Import, Snapshot, Target
 
 
 class Part(enum.StrEnum):
-    """Part of a model that a verdict speaks of."""
+    """Part of a model that has a verdict of its own."""
 
     BODIES = "rigid bodies"
     LOSSES = "friction and gears"
@@ -40,20 +40,20 @@ class Quantity(enum.StrEnum):
     CENTRE = "centre of mass"
     ACCELERATION = "acceleration"
     READING = "reading"
-    """Of a sensor."""
+    """Output of a sensor."""
     WARNING = "warning"
     """Whether a limit is passed: 1 if so, else 0."""
     GROUND = "ground force"
     CLOSURE = "gap"
-    """From one frame of a loop to the other."""
+    """Vector from one frame of a loop to the other."""
     GRAVITY = "gravity"
-    """Of the world of Run and Test."""
+    """Gravity in Run and Test."""
     START = "start"
-    """Where a joint begins that follows from a loop."""
+    """Start position of a joint, if a loop determines it."""
     SWEEP = "way in Test"
-    """Where a drive of Test begins, turns and ends."""
+    """Positions at which a drive of Test begins, turns back and ends."""
     ENERGY = "energy"
-    """Part of the exchanged energy that a friction or a spring gives away, though it never got it."""
+    """Fraction of the exchanged energy that a friction or a spring gives away, though it never got it."""
 
 
 TOLERANCE = 1e-10
@@ -84,18 +84,18 @@ class Deviation(msgspec.Struct, frozen=True):
     unit: str
     part: Part = Part.BODIES
     detail: str = ""
-    """Which one of several: `below its lower position limit`."""
+    """Tells several deviations of one element apart: `below its lower position limit`."""
     least_tolerance: float = 0.0
     """See `Compared.least_tolerance`."""
 
     @property
     def key(self) -> tuple[str, ...]:
-        """All that says which quantity of which element this is."""
+        """The fields that identify the quantity of the element."""
         return self.part, self.quantity, self.element, self.unit, self.detail
 
     @property
     def relative(self) -> float:
-        """Difference in relation to the greatest value of its kind, or to 1; infinite if that is no number."""
+        """Difference relative to `size`, or to 1 if `size` is smaller; infinite instead of NaN."""
         relative = self.difference / max(1.0, self.size)
         return math.inf if math.isnan(relative) else relative
 
@@ -117,11 +117,11 @@ class Difference(msgspec.Struct, frozen=True):
     quantity: str
     """Its path in the record, such as `limits.effort`."""
     expected: str
-    """As the source has it."""
+    """The source's value."""
     given: str
-    """As the package has it."""
+    """The package's value."""
     file: str
-    """Below the package's folder."""
+    """Path below the package's folder."""
     line: int
     source: str
     """The source's file."""
@@ -135,9 +135,9 @@ class Numbers(msgspec.Struct, frozen=True):
     total: int = 0
     differences: tuple[Difference, ...] = ()
     edits: tuple[Difference, ...] = ()
-    """Differences that the user has made."""
+    """Differences that come from the user's edits."""
     uncompared: tuple[str, ...] = ()
-    """What nothing compares: one sentence each, without a full stop."""
+    """Parts that nothing compares: one sentence each, without a full stop."""
 
     @property
     def summary(self) -> str:
@@ -153,7 +153,7 @@ class Probe(msgspec.Struct, frozen=True):
     source: str
     """One package; it names the libraries that it needs in imports."""
     model: str
-    """Full name of the model in it."""
+    """Full name of the model in `source`."""
     stop: float
     """End of the simulation that begins at 0, in s."""
     step: float
@@ -162,11 +162,11 @@ class Probe(msgspec.Struct, frozen=True):
     optional: tuple[str, ...] = ()
     """Variables that are handed back as well, if the package has them."""
     tolerance: float | None = None
-    """Of the integration; None for the compiler's own."""
+    """Tolerance of the integration; None for the compiler's own."""
 
 
 class Compared(msgspec.Struct, frozen=True):
-    """One quantity of one element that is compared: which values of the probe it is made of, and when."""
+    """One compared quantity of one element: its variables in the probe, and the times of the comparison."""
 
     quantity: Quantity
     element: str
@@ -188,13 +188,13 @@ class Trial(msgspec.Struct, frozen=True):
     """In words, for messages: `free motion`."""
     probe: Probe
     compared: tuple[Compared, ...]
-    """From the root outwards."""
+    """The compared quantities, from the root outwards."""
     expected: Mapping[str, tuple[float, ...]]
     """Expected numbers of each value at the times in `time`; NaN is possible."""
     over_time: tuple[Compared, ...] = ()
-    """What is drawn at all times, and no part of the verdict."""
+    """Quantities to draw over time; they are no part of the verdict."""
     expected_over_time: Mapping[str, tuple[float, ...]] = {}
-    """The same as `expected` for it."""
+    """Expected numbers of `over_time`, as in `expected`."""
 
 
 class Experiment(msgspec.Struct, frozen=True):
@@ -203,24 +203,24 @@ class Experiment(msgspec.Struct, frozen=True):
     reference: str
     """Name and version."""
     content: bytes
-    """The source to generate the package from: the one given, or a copy that has what a comparison needs."""
+    """The source to generate the package from: the given one, or a copy that is completed for the comparison."""
     options: Any
-    """The options to generate it with, likewise."""
+    """The options to generate it with: the given ones, or simpler ones."""
     trials: tuple[Trial, ...]
-    """They move a package that follows from `content`, and as well one that follows from the source.
+    """Simulations of a package that is generated from `content`; they work as well for one from the given source.
 
-    The first one tells what single edits do; it has to come to its end.
+    The first one measures the effects of single edits; without its result there is no comparison.
     """
     laws: Trial | None = None
-    """Moves parts that `options` leave out, of the package that follows from the source."""
+    """The simulation of parts that `options` leave out, in the package that is generated from the given source."""
     notes: tuple[str, ...] = ()
     """Differences of `content` from the given source, with reasons: one sentence each, without a full stop."""
     unchecked: tuple[str, ...] = ()
-    """Parts that are not compared, with reasons, likewise."""
+    """Parts that are not compared, with reasons, in the same form."""
 
 
 class Sample(msgspec.Struct, frozen=True):
-    """A source, and what its package is generated with."""
+    """A source, and all else that its package is generated from."""
 
     content: bytes
     file: str
@@ -231,12 +231,12 @@ class Sample(msgspec.Struct, frozen=True):
 
 
 class Checks(Protocol):
-    """What `check` asks of a domain; its attribute `checks`."""
+    """The questions of `check` to a domain; a domain's attribute `checks`."""
 
     def numbers(self, sample: Sample, *packages: Mapping[str, bytes]) -> Sequence[Numbers]:
-        """Return the numbers of packages, by the texts of each, compared with another reading of the source.
+        """Compare the numbers in the texts of each package with another reading of the source.
 
-        It may take a second. Raises SourceError if the other reader fails.
+        This may take a second. Raises SourceError if the other reader fails.
         """
         ...
 
@@ -251,8 +251,8 @@ class Checks(Protocol):
     def experiment(self, sample: Sample, step: float | None = None) -> Experiment | str:
         """Return a comparison of the generated package with an independent reference, or why there is none.
 
-        What the source lacks for a telling comparison (inertias, say) is made up. With a `step`, in s, there is
-        something to draw: `Trial.over_time`. It runs in a process of its own. Raises SourceError if the reference can't
-        be had or can't read it.
+        Data that the comparison needs and the source lacks, such as inertias, are made up. With a `step`, in s,
+        `Trial.over_time` has curves to draw. This function runs in a process of its own. Raises SourceError if the
+        reference is not installed or can't read the source.
         """
         ...

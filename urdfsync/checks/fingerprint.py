@@ -26,14 +26,14 @@ from urdfsync.modelica.names import LIBRARY
 from urdfsync.state.store import Store
 
 PHYSICS = "-physics"
-"""Ends the key of a check with physics."""
+"""The ending of the key of a check with physics."""
 
 
 def result_key(robot: RobotConfig, tools: Sequence[Tool], needed: libraries.Libraries, *facts: object) -> str | None:
     """Return the key of a result: a hash of `facts` and of all other inputs.
 
-    These are urdfsync with its library, the domain's code, Python with its packages, the compilers and the Modelica
-    libraries.
+    The other inputs are urdfsync with its library, the domain's code, Python with its packages, the compilers and the
+    Modelica libraries.
 
     None if one of them can't be read: then the result must not be remembered.
     """

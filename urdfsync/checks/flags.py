@@ -1,4 +1,4 @@
-"""Turns warnings of packages into variables, so that one simulation tells the time of each, and leaves out shapes.
+"""Turns warnings of packages into variables, so that one simulation tells the time of each, and removes shapes.
 
 A compiler may print no warnings, or check them only at the beginning. Shapes change no motion, but they are a quarter
 of the equations of an arm with meshes: rumoca takes a sixth less time without them.
@@ -23,7 +23,7 @@ _OTHERS = re.compile(r"^(algorithm|initial equation|initial algorithm)$", re.MUL
 
 
 def with_flags(texts: Mapping[str, bytes]) -> dict[str, bytes]:
-    """Return the files of a package with a variable in the place of each assertion that only warns, without shapes."""
+    """Return the files of a package without shapes, and with a variable in place of each assertion that only warns."""
     return {
         path: flagged(content.decode("utf-8", "surrogateescape")).encode("utf-8", "surrogateescape")
         if path.endswith(".mo")
@@ -33,10 +33,10 @@ def with_flags(texts: Mapping[str, bytes]) -> dict[str, bytes]:
 
 
 def flagged(text: str) -> str:
-    """Return the text of a class with variables in the place of warnings: 1 where the warning comes, else 0.
+    """Return the text of a class with variables in place of warnings: 1 while the warning applies, else 0.
 
-    Its name is `warning_` and the words of its message. A class with algorithms keeps its warnings. Shapes get a
-    condition that is false.
+    A variable's name is `warning_` and the words of the message. A class with algorithms keeps its warnings. Shapes get
+    a condition that is false.
     """
     text = _SHAPE.sub(r"\g<0> if false", text)
     names = dict[str, None]()

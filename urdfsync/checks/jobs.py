@@ -44,8 +44,8 @@ class Jobs(msgspec.Struct, frozen=True):
     ) -> list[CompileResult]:
         """Run tasks on a version of the package in a process. Problems name the user's files.
 
-        `label` names the copy; `changed` has the files with another content in it, by absolute path. Raises
-        CompilerError, LimitError and CacheError, and as `copy_library`.
+        `label` names the copy; `changed` has other contents for some of its files, by absolute path. Raises
+        CompilerError, LimitError, CacheError, and the errors of `copy_library`.
         """
         cache, folder, changed = UserCache.default(), self.folder / label.replace("/", "-"), changed or {}
         texts = {path: changed.get(self.robot.folder / path, content) for path, content in texts.items()}
@@ -90,7 +90,7 @@ def _with_originals(result: CompileResult, originals: Mapping[str, Path]) -> Com
 
     def named(text: str) -> str:
         for copy, original in originals.items():
-            if copy in text and copy.endswith(".mo") and original.is_dir():
+            if copy in text and copy.endswith(".mo") and Path(copy).is_file():
                 library = Path(copy).read_text("utf-8", "surrogateescape")
                 place = re.compile(rf"{re.escape(copy)}(?::(\d+))?")
                 text = place.sub(partial(_in_original, library, original), text)
@@ -102,15 +102,15 @@ def _with_originals(result: CompileResult, originals: Mapping[str, Path]) -> Com
 
 
 def _in_original(library: str, original: Path, place: re.Match[str]) -> str:
-    """Name the file and line in a library's folder for a place in the text that it was packed to."""
+    """Return the file and line in a library for a place in its packed text."""
     if not place[1]:
         return str(original)
     file, line = original_place(library, int(place[1]))
-    return f"{original / file}:{line}"
+    return f"{original / file if original.is_dir() else original}:{line}"
 
 
 def _readable(path: Path, folder: Path, changed: Mapping[Path, bytes]) -> str:
-    """Return the readable path of a library for the compiler: a copy if it is not UTF-8, or if a file has changed."""
+    """Return a library's path for the compiler: a copy's if the path is not UTF-8, or if a file has changed."""
     inside = {file: content for file, content in changed.items() if file == path or path in file.parents}
     try:
         str(path).encode()

@@ -1,4 +1,4 @@
-"""Finds the Modelica libraries that a package needs, and copies the classes of them that it names."""
+"""Finds the Modelica libraries that a package needs, and copies those of their classes that it names."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ Version: TypeAlias = tuple[int, ...]
 OLDEST: Version = (4, 1)  # the oldest that the embedded compiler accepts
 NEXT: Version = (5,)  # newer versions are untested, and used only if there is no other
 
-_COPY_REVISION = 5  # to be raised when libraries are taken apart in another way
+_COPY_REVISION = 6  # to be raised when libraries are taken apart in another way
 
 _ANNOTATED_VERSION = re.compile(r'(?:^|,|\bannotation\s*\()\s*version\s*=\s*"(\d+(?:\.\d+)*)', re.MULTILINE)
 _NOISE = re.compile(rb'"(?:\\.|[^"\\])*"|//[^\n]*|/\*.*?\*/', re.DOTALL)
@@ -80,7 +80,7 @@ def library_folders() -> list[Path]:
 
 
 def standard_libraries() -> list[Path]:
-    """Return all versions of the Modelica Standard Library's libraries: a compiler with one of its own takes any."""
+    """Return all versions of the three standard libraries: a compiler that finds them itself may take any."""
     return [path for place in library_folders() for name in STANDARD_LIBRARIES for _, path in _versions(place, name)]
 
 
@@ -92,7 +92,7 @@ def find_library(name: str, places: Iterable[Path]) -> Path | None:
 def class_finder(package: str, standard: Mapping[str, Path], places: Sequence[Path]) -> Callable[[str], Path | None]:
     """Return a function that finds the folder or file of a top-level class outside of a robot's package.
 
-    In the Modelica Standard Library it finds only the parts in `standard`.
+    Of the Modelica Standard Library it finds only the parts in `standard`.
     """
 
     def find(name: str) -> Path | None:
@@ -104,7 +104,7 @@ def class_finder(package: str, standard: Mapping[str, Path], places: Sequence[Pa
 
 
 class Libraries(msgspec.Struct, frozen=True):
-    """The libraries that a package needs, but for UrdfSync."""
+    """The libraries that a package needs, except UrdfSync."""
 
     standard: Mapping[str, Path]
     """The Modelica Standard Library; empty without a suitable one."""
@@ -124,7 +124,7 @@ def find_libraries(config: Config, robot: RobotConfig, texts: Iterable[bytes], w
 
 
 def search_path(robot: RobotConfig) -> list[Path]:
-    """Return the folders in which the libraries of a robot's package are looked for, that of the package first."""
+    """Return the folders in which to look for the libraries of a robot's package: first its own output folder."""
     return [robot.output, *library_folders()]
 
 
@@ -133,7 +133,7 @@ def needed_libraries(
 ) -> dict[str, Path]:
     """Find the libraries in `places` that texts of the top-level package `top` need.
 
-    These are named ones, `wanted` ones, and the libraries that they name.
+    These are the libraries that the texts name, the `wanted` ones, and those that these libraries name in turn.
 
     A text names a library in an import, or by a name that begins with the library's name and a dot. The Modelica
     Standard Library and UrdfSync are left out. Raises OutputError for an unreadable library.
@@ -158,9 +158,10 @@ def library_texts(path: Path) -> Mapping[str, bytes]:
 
 
 def copy_named(parts: Mapping[str, Path], texts: Iterable[bytes], cache: UserCache) -> Path:
-    """Return a folder with the classes of libraries that `texts` name, and those that these need: a file for each.
+    """Return a folder with a file for each library: the classes that `texts` name, and those that these need.
 
-    The compiler goes through all libraries for each model. A library is taken apart once for each of its states.
+    Small copies save time, since the compiler goes through all libraries for each model. An unchanged library is taken
+    apart only once.
     Raises CacheError, OutputError for a library that can't be read, and UrdfsyncError for one with bad links.
     """
     named = frozenset[str]().union(*(names_in(text.decode("utf-8", "surrogateescape")) for text in texts))
@@ -174,7 +175,7 @@ def copy_named(parts: Mapping[str, Path], texts: Iterable[bytes], cache: UserCac
                 made = Path(folder) / "libraries"
                 made.mkdir()
                 for name, text in copies.items():
-                    (made / f"{name}.mo").write_text(text, "utf-8", "surrogateescape")
+                    (made / f"{name}.mo").write_text(text, "utf-8", newline="\n")
                 try:
                     made.rename(target)
                 except OSError:

@@ -28,9 +28,9 @@ class NameCheck(NamedTuple):
 
     package: list[Diagnostic]
     users: list[Diagnostic]
-    """In files of the user outside of the package."""
+    """Findings in the user's files outside of the package."""
     users_files: Mapping[Path, bytes]
-    """The files of the user that use the package: by names that mean a class of it, or of another such file."""
+    """The user's files that use the package: they name a class of the package, or of another such file."""
     uses: Mapping[Path, Set[Path]]
     """For each file of the user, the files whose classes it names."""
 
@@ -60,7 +60,7 @@ def check_names(package: RobotPackage, standard: Mapping[str, Path]) -> NameChec
             if any(other[: len(top)] == top and len(other) > len(top) for other in sources.seen):
                 using.add(path)
             seen = {Path(file) for file in sources.seen.values() if file}
-            # add the packages around each file
+            # a file does not use the packages around it
             around_it = {folder / "package.mo" for folder in path.parents}
             uses.setdefault(path, set()).update(seen - around_it)
     while more := {path for path, seen in uses.items() if path not in using and seen & using}:
@@ -74,7 +74,7 @@ def check_names(package: RobotPackage, standard: Mapping[str, Path]) -> NameChec
 
 
 def _check_place(path: Path, files: Mapping[Path, bytes]) -> Iterator[Diagnostic]:
-    """Yield why the names in a user's file can't be checked."""
+    """Yield warnings that tell why the names in a user's file can't be checked."""
     name = ".".join((*place_of(path, files)[1], class_of_file(path)))
     for finding in check_class_file(text_of(files[path]), PurePosixPath(path.name), name)[1]:
         if finding.severity is Severity.ERROR:

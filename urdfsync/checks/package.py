@@ -77,7 +77,7 @@ class RobotPackage(msgspec.Struct):
     generated: Mapping[str, bytes]
     """The generated files of the package, by their path below it."""
     own_files: Mapping[Path, bytes]
-    """The user's own files of Modelica in it."""
+    """The user's own Modelica files in the package."""
     files: PackageTexts
     """The checked texts: the package on disk, or the generated one if there is none."""
     around: Mapping[str, bytes]
@@ -89,7 +89,7 @@ class RobotPackage(msgspec.Struct):
     changed: tuple[str, ...]
     """The edited files, without those that differ in comments and blanks only."""
     edits: tuple[str, ...]
-    """Those that belong to the main model."""
+    """Those of `changed` that belong to the main model."""
 
 
 def read_package(config: Config, robot: RobotConfig, options: BuildOptions) -> RobotPackage:
@@ -111,7 +111,7 @@ def read_package(config: Config, robot: RobotConfig, options: BuildOptions) -> R
     shared = [path for path in sorted(generated.keys() & on_disk.keys()) if path.endswith(".mo")]
     edited = [path for path in shared if normalised(on_disk[path]) != generated[path]] if in_step else []
     changed = tuple(path for path in edited if _words(generated[path]) != _words(on_disk[path]))
-    # files of elements whose new names wait are on disk under the old names
+    # while the new name of an element waits, its files are on disk under the old name
     known = [action for action in built.actions if action.reason is not Reason.UNKNOWN]
     keys = (key for action in known for key in (action.path, action.origin) if key)
     written = {Path(os.path.normpath(config.root / key)) for key in keys}
@@ -176,9 +176,9 @@ class UsersModels(msgspec.Struct, frozen=True):
     """The user's models that can be compiled, in the package and outside of it."""
 
     files: Mapping[str, Path]
-    """The file of each model, by its full name: of each model or block that is not partial."""
+    """The file of each model or block that is not partial, by the model's full name."""
     libraries: Mapping[str, Path]
-    """Their top-level classes without the one around the package: folders or files."""
+    """Folder or file of each top-level class that holds such models, except the one around the package."""
     left_out: tuple[Path, ...]
     """Files that no compiler would find, or that are no Modelica."""
     uses: Mapping[Path, Collection[Path]]

@@ -1,8 +1,8 @@
-"""Writes libraries as texts for the compiler: one text each, with the classes that are named, without looks.
+"""Writes each library as one text for the compiler: only named classes, without graphics and documentation.
 
 rumoca 0.10.2 goes through all of every library for each model, so a model that names a tenth of the Modelica Standard
 Library compiles in a third of the time. A class is kept if its name, and that of each class around it, is a word of
-the texts that are compiled, or of a class that is kept: all else can't be reached. Comments lead lines back to files.
+the compiled texts or of a kept class: nothing else can be reached. Comments tell from which file and line a text is.
 """
 
 from __future__ import annotations
@@ -19,30 +19,35 @@ from urdfsync.modelica.tree import LAYOUT
 _STRING = r'"(?:\\.|[^"\\])*"'
 _REMARK = r"//[^\n]*|/\*.*?\*/"
 _QUOTED = r"'(?:\\.|[^'\\])*'"
-_NAME = rf"(?:{_QUOTED}|[A-Za-z_]\w*)"
+_NAME = rf"(?:{_QUOTED}|[A-Za-z_]\w*+)"
 _KINDS = "package|model|block|function|record|type|connector|class"
-_FRONT = re.compile(rf"\ufeff?(?:\s+|{_REMARK})*(?:within\b[^;]*;)?", re.DOTALL)
-"""What stands before a class in a file."""
+_GAP = r"(?:\s++|//[^\n]*+|/\*.*?\*/)*+"
+_FRONT = re.compile(rf"\ufeff?{_GAP}(?:within\b(?:{_REMARK}|{_QUOTED}|[^;/'])*+;{_GAP})?", re.DOTALL)
+"""The text before the class in a file."""
 _LOOKS = "|".join((*sorted(LAYOUT), "Documentation"))
 _TOKEN = re.compile(rf"{_STRING}|{_QUOTED}|{_REMARK}|\bannotation\b|(?P<looks>\b(?:{_LOOKS})\s*\()|[()]", re.DOTALL)
 _MARK = "// urdfsync: "
+_PLACE = re.compile(rf"{_MARK}(.+):(\d+)$")
 _BLANK = re.compile(rf"(?:\s+|{_REMARK}|\b(?:public|protected)\b)*", re.DOTALL)
 _CLASS = re.compile(
-    rf"(?:(?:encapsulated|partial|pure|impure|expandable|operator)\s+)*(?P<kind>{_KINDS})\s+(?P<name>{_NAME})"
-    rf"(?P<comment>(?:\s*\+?\s*{_STRING})*)\s*(?P<short>=)?",
+    rf"(?:(?:encapsulated|partial|pure|impure|expandable|operator)\b{_GAP})*+(?P<kind>{_KINDS})\b{_GAP}"
+    rf"(?:extends\b{_GAP})?+(?P<name>{_NAME})(?:{_GAP}{_STRING}(?:{_GAP}\+{_GAP}{_STRING})*+)?+(?:{_GAP}(?P<short>=))?",
     re.DOTALL,
 )
 _SIGN = re.compile(rf"{_STRING}|{_QUOTED}|{_REMARK}|(?P<sign>[;(){{}}\[\]])", re.DOTALL)
 _BEGIN_OR_END = re.compile(
     rf"{_STRING}|{_QUOTED}|{_REMARK}"
-    rf"|\b(?:{_KINDS})\s+(?P<begin>{_NAME})\b(?!\s*=)|\bend\s+(?P<end>{_NAME})\s*;",
+    rf"|\b(?:{_KINDS})\b{_GAP}(?:extends\b{_GAP})?+(?P<begin>{_NAME})(?!{_GAP}=)|\bend\b{_GAP}(?P<end>{_NAME})",
     re.DOTALL,
 )
+_OPERATORS = "constructor 0 String + - * / ^ == <> > < >= <= and or not".split()
+_UNNAMED = {"constructor", "destructor", "equalityConstraint", *(f"'{operator}'" for operator in _OPERATORS)}
+"""Functions that the language calls without their names."""
 _WORD = re.compile(rf"{_STRING}|{_REMARK}|({_NAME})", re.DOTALL)
 
 
 class Piece(msgspec.Struct, frozen=True, array_like=True):
-    """A text of a class: without the classes inside, if it is a package."""
+    """A text of a class; the text of a package lacks the classes inside."""
 
     owner: str
     """The full name of the class."""
@@ -60,8 +65,8 @@ def pieces(name: str, texts: Mapping[str, bytes]) -> list[Piece]:
     inside = dict[str, list[str]]()
     for path in sorted(path for path in texts if path.endswith(".mo")):
         inside.setdefault(_stem(path).rpartition("/")[0], []).append(path)
-    top = "package.mo" if "package.mo" in texts else next(iter(texts))
-    found = _texts(name, top, texts, inside)
+    top = "package.mo" if "package.mo" in texts else next(iter(texts), "")
+    found = _texts(name, top, texts, inside) if top else ()
     return [Piece(owner, text, "\n".join(names_in(text))) for owner, text in found]
 
 
@@ -76,18 +81,18 @@ def packed(libraries: Mapping[str, Library], named: Iterable[str]) -> dict[str, 
     for piece in itertools.chain.from_iterable(libraries.values()):
         names.setdefault(piece.owner, []).append(piece.names)
         inside.setdefault(piece.owner.rpartition(".")[0], set()).add(piece.owner)
-    reached, found, waiting = {*libraries, *named}, set[str](), {*libraries}
+    reached, found, waiting = {*libraries, *named, *_UNNAMED}, set[str](), {*libraries}
     while new := [owner for owner in waiting if owner.rpartition(".")[2] in reached]:
         found.update(new)
         waiting.difference_update(new)
         for owner in new:
-            reached.update("\n".join(names[owner]).split("\n"))
+            reached.update("\n".join(names.get(owner, ())).split("\n"))  # an empty library has no text
             waiting |= inside.get(owner, set())
     return {name: "".join(_kept(pieces, found)) for name, pieces in libraries.items()}
 
 
 def _kept(library: Library, found: Container[str]) -> Iterator[str]:
-    """Yield the pieces of classes; for others empty lines, so that the lines of a file keep their numbers."""
+    """Yield the pieces of the classes `found`, and empty lines for others: the lines of a file keep their numbers."""
     has_begun = False
     for piece in library:
         is_found = piece.owner in found
@@ -99,9 +104,9 @@ def _kept(library: Library, found: Container[str]) -> Iterator[str]:
 
 
 def original_place(text: str, line: int) -> tuple[str, int]:
-    """Return file (from the library's folder) and line of a line (from 1) of a packed text."""
+    """Return the file (below the library's folder) and the line there of a line (from 1) of a packed text."""
     lines = text.split("\n")[:line]
-    number = max((number for number, each in enumerate(lines) if each.startswith(_MARK)), default=None)
+    number = max((number for number, each in enumerate(lines) if _PLACE.match(each)), default=None)
     if number is None:
         return "", line
     file, _, first = lines[number].removeprefix(_MARK).rpartition(":")
@@ -109,35 +114,39 @@ def original_place(text: str, line: int) -> tuple[str, int]:
 
 
 def _stem(path: str) -> str:
-    """Return the path of a file as if each class had its own."""
+    """Return the path of a file's class: without `.mo`, and for a package without `/package.mo`."""
     return path.removesuffix(".mo").removesuffix("/package")
 
 
 def _texts(
     owner: str, path: str, texts: Mapping[str, bytes], inside: Mapping[str, Sequence[str]]
 ) -> Iterator[tuple[str, str]]:
-    """Yield the texts of a class and of those inside, with the name of the class that each is part of.
+    """Yield the texts of a class and of the classes inside, each with the name of the class that it is part of.
 
-    `inside` has the files of classes by the folder around them. They stand behind the name and comment of its class.
+    `inside` has the files of classes by their folder. Their texts follow the name and comment of the folder's package.
     """
-    text = _plain(texts[path].decode("utf-8", "surrogateescape"))
+    text = _plain(texts[path].decode("utf-8", "replace"))
     text = _FRONT.sub(lambda front: "\n" * front[0].count("\n"), text, 1)
-    above, start = owner.rpartition(".")[0], 0
+    above, start, place = owner.rpartition(".")[0], 0, path.encode(errors="replace").decode()
     if path.rpartition("/")[2] == "package.mo":
-        head = _CLASS.search(text)
+        blank = _BLANK.match(text)
+        head = _CLASS.match(text, blank.end() if blank else 0)
         above, start = owner, head.end() if head else 0
-        yield owner, f"\n{_MARK}{path}:1\n{text[:start]}"
+        yield owner, f"\n{_MARK}{place}:1\n{text[:start]}"
         for file in inside.get(path.removesuffix("package.mo").rstrip("/"), ()):
             if file != path:
                 yield from _texts(f"{owner}.{_stem(file).rpartition('/')[2]}", file, texts, inside)
-    mark = f"\n{_MARK}{path}:{1 + text.count(chr(10), 0, start)}\n"
+    mark = f"\n{_MARK}{place}:{1 + text.count(chr(10), 0, start)}\n"
+    if start:
+        yield owner, mark
+        mark = ""
     for name, each in _members(above, text, start, len(text)):
         yield name or owner, f"{mark}{each}"
         mark = ""
 
 
 def _members(owner: str, text: str, at: int, end: int) -> Iterator[tuple[str, str]]:
-    """Yield the texts of a package's body: of each class in it, and what stands around them."""
+    """Yield the texts of a package's body: each class in it, and the texts around them."""
     since = at
     while at < end:
         if blank := _BLANK.match(text, at, end):
@@ -167,12 +176,12 @@ def _end_of(text: str, found: re.Match[str], end: int) -> int:
     for match in _BEGIN_OR_END.finditer(text, found.end(), end):
         depth += (match["begin"] == name) - (match["end"] == name)
         if not depth:
-            return match.end()
+            return _semicolon(text, match.end(), end)
     return 0
 
 
 def _semicolon(text: str, at: int, end: int) -> int:
-    """Return where a statement ends: behind its semicolon, or at the end."""
+    """Return where a statement ends: behind its semicolon, or at `end` if it has none."""
     depth = 0
     for match in _SIGN.finditer(text, at, end):
         sign = match["sign"] or ""
@@ -190,7 +199,7 @@ def _plain(text: str) -> str:
             kept.append(text[start : token.end()])
             depth += 1
             cut, start = depth, token.end()
-        elif token[0][-1] == "(" and (begins or depth):
+        elif (token["looks"] or token[0] == "(") and (begins or depth):
             begins, depth = False, depth + 1
         elif token[0] == ")" and depth:
             if cut == depth:

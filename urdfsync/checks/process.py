@@ -27,11 +27,11 @@ T = TypeVar("T")
 _INTERVAL = 0.25
 """Seconds between two checks of memory and time; a check reads a file of each process of the system."""
 _GRACE = 10.0
-"""Seconds of processor time until a process ends itself that nobody has ended."""
+"""Seconds of processor time beyond the limit, after which a process ends itself if its parent has not."""
 _MOST_IDLE = 60.0
-"""Seconds by the clock after which a process is ended that does nothing."""
+"""Seconds by the clock after which an idle process is ended."""
 _WORK = 0.01
-"""Less processor time is no work: a process that only waits looks at its clock, too."""
+"""Seconds of processor time; less counts as idle, since a waiting process also takes a little."""
 
 
 class Limits(msgspec.Struct):
@@ -40,11 +40,11 @@ class Limits(msgspec.Struct):
     owner: str
     """The name of the check in messages."""
     seconds: float
-    """Of processor time: on a busy machine the clock runs on."""
+    """Seconds of processor time, since on a busy machine a process waits while the clock runs."""
     memory: float
     """Bytes."""
     times: dict[float, float] = {}
-    """Processor time so far of each process, by its begin."""
+    """Processor time so far of each process, by the time at which it began."""
     peak: float = 0.0
     """The peak memory so far, in bytes."""
 
@@ -122,7 +122,7 @@ def _wait(
     started: set[psutil.Process],
     progress: Callable[[], None] | None,
 ) -> None:
-    """Wait for the end of a process; `started` gets what it starts. Raises LimitError."""
+    """Wait for the end of a process; `started` gets the processes that it starts. Raises LimitError."""
     begin = worked = time.monotonic()
     while True:
         if progress:
@@ -138,7 +138,7 @@ def _wait(
                 if is_started:
                     started.add(child)
                 if is_started or child.pid == process.pid:
-                    seconds += sum(child.cpu_times()[:4])  # with those that it has started, and that have ended
+                    seconds += sum(child.cpu_times()[:4])  # includes its ended children
         limits.peak = max(limits.peak, used)
         if seconds > limits.times.get(begin, 0.0) + _WORK:
             limits.times[begin], worked = seconds, time.monotonic()
@@ -158,7 +158,7 @@ def _wait(
 
 def _loaded(answers: Any) -> Iterator[Any]:
     answers.seek(0)
-    with contextlib.suppress(EOFError, pickle.UnpicklingError):  # it ended while it wrote
+    with contextlib.suppress(EOFError, pickle.UnpicklingError):  # the process ended while it wrote
         while True:
             yield pickle.load(answers)  # noqa: S301 - written by a process of ours
 
@@ -170,7 +170,7 @@ def main() -> None:
         # Ends this process if its parent is gone: native code may block all threads of Python.
         if sys.platform != "win32":
             signal.setitimer(signal.ITIMER_PROF, max(seconds, 0.0) + _GRACE)
-        processes.end_with_parent(lambda: os.read(0, 1))  # not by sys.stdin, whose lock would disturb Python at its end
+        processes.end_with_parent(lambda: os.read(0, 1))  # not by sys.stdin: its lock would disturb Python's exit
         last = None
         try:
             for result in function(*arguments):

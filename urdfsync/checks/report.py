@@ -25,14 +25,14 @@ from urdfsync.spelling import counted
 _MARKS = {CheckStatus.RIGHT: Mark.FINE, CheckStatus.DIFFERS: Mark.WRONG, CheckStatus.FAILED: Mark.WRONG}
 _ADVICE = "; your edits are not the cause: check your own `templates`, or report a bug, with the source"
 _MOST = 3
-"""The most differing numbers of one file that are told."""
+"""The most differing numbers of one file that are reported."""
 _STATED = {
     Quantity.WARNING: "the warning “{detail}” is missing, or comes elsewhere",
     Quantity.ENERGY: "{detail} gives energy away",
 }
-"""Differences that are no amounts."""
+"""Sentences for differences that have no amount."""
 _FORCES = {Quantity.EFFORT: "", Quantity.REACTION: "reaction ", Quantity.GROUND: "ground "}
-"""Quantities that are forces or torques, by their unit."""
+"""Quantities whose unit tells whether they are forces or torques, with the word that comes first."""
 
 
 def _sentences(result: CheckResult) -> list[tuple[str, str]]:
@@ -47,10 +47,12 @@ def _sentences(result: CheckResult) -> list[tuple[str, str]]:
     told = {file for effect in result.effects for file in effect.files}
     told |= {each.file for each in result.numbers.edits} if result.numbers else set()
     untold = (file for file in result.edited if file not in told)
-    sentences += [(f"{file} (edited): what it does is not compared", "dim") for file in untold]
+    sentences += [(f"{file} (edited): its effect is not compared", "dim") for file in untold]
     sentences += [(gap, "magenta") for gap in result.gaps]
     if not result.built:
-        sentences.append(("there is no package yet, so what `urdfsync build` would write was checked", "yellow"))
+        sentences.append(
+            ("there is no package yet; the files that `urdfsync build` would write were checked", "yellow")
+        )
     elif result.conflicting:
         sentences.append(("files are in conflict; settle them with `urdfsync resolve`", "yellow"))
     elif not result.in_step:
@@ -72,7 +74,7 @@ def _numbers(result: CheckResult) -> Iterator[tuple[str, str]]:
 
 
 def _by_file(differences: Iterable[Difference]) -> Iterator[tuple[Difference, str]]:
-    """Yield the first differences in each file, with the last of these the count of the others."""
+    """Yield the first differences in each file; the last of them comes with the count of the others."""
     for _, group in itertools.groupby(differences, lambda each: each.file):
         own = list(group)
         more = f" (and {len(own) - _MOST} more there)" if len(own) > _MOST else ""
@@ -124,7 +126,7 @@ def _details(result: CheckResult) -> Iterator[str]:
 
 
 def _two_tools(result: CheckResult) -> Iterator[tuple[str, str]]:
-    """Yield how far two compilers agree, the one that differs from the two others, and their time and memory."""
+    """Yield how far two compilers agree, which of them or the reference stands alone, and their time and memory."""
     first, second = result.tools
     if result.between is not None:
         outliers: dict[str, list[Deviation]] = {}
@@ -157,9 +159,9 @@ def _two_tools(result: CheckResult) -> Iterator[tuple[str, str]]:
 
 
 def _outlier(first: str, second: str, reference: str, *deviations: Deviation) -> str:
-    """Return the one of three that differs from the two others; empty if no two agree.
+    """Return which of two compilers and the reference differs from the other two; empty if no two agree.
 
-    The deviations are those of the first and of the second from the reference, then of the second from the first.
+    The deviations are: the first from the reference, the second from the reference, the second from the first.
     """
     for name, agreeing in ((second, deviations[0]), (first, deviations[1]), (reference, deviations[2])):
         if agreeing.agrees:
@@ -187,7 +189,8 @@ def closing_lines(results: Sequence[CheckResult]) -> Iterator[StyledLine]:
 def to_section(result: CheckResult, *, verbose: bool | None = None) -> Section:
     """Return the sentences about a robot, and how far each part agrees with the reference.
 
-    In a document nothing else says what was not compared; on a terminal, `verbose` adds each number.
+    If `verbose` is None, for a document, the section also lists the parts that were not compared. True, for a terminal,
+    adds each number.
     """
     status, sentences = result.status, _sentences(result)
     rows = [
@@ -243,7 +246,7 @@ def _change(deviation: Deviation, others: str = "") -> str:
 def _amount(deviation: Deviation) -> tuple[str, str]:
     """Return the quantity that differs, and by how much: `torque`, `0.4 N·m`.
 
-    Lengths are in mm; elements of a rotation matrix are told as the angle that they show.
+    Lengths are in mm; a difference of rotation matrices is given as an angle.
     """
     what, unit, value = str(deviation.quantity), deviation.unit, deviation.difference
     if deviation.quantity in _STATED:

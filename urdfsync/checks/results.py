@@ -33,13 +33,13 @@ class RunOptions(msgspec.Struct, frozen=True, kw_only=True):
     """Limits of compilers for one robot."""
 
     timeout: float = 600.0
-    """Seconds."""
+    """Limit of processor time, in s."""
     memory: float | None = None
     """Gigabytes for all processes together; None for the free memory."""
     wait: float = 60.0
     """Seconds to wait for a build that is writing."""
     package_paths: tuple[Path, ...] = msgspec.field(default_factory=ros_package_path)
-    """Where to look for packages after the configured folders: where ROS looks."""
+    """Folders to search for packages after the configured ones: those that ROS searches."""
 
 
 class CheckOptions(RunOptions, frozen=True):
@@ -81,9 +81,9 @@ class CompiledModel(msgspec.Struct, frozen=True):
     model: str
     """Name below the package."""
     unknowns: int
-    """Scalar unknowns, and so many equations; 0 for a part of another model, and if the compiler does not say."""
+    """Number of scalar unknowns, and of equations; 0 for a part of another model, or if the compiler tells none."""
     is_users: bool = False
-    """Whether it is the user's; then `model` is its full name."""
+    """Whether the model is the user's; then `model` is its full name."""
 
 
 class EditEffect(msgspec.Struct, frozen=True):
@@ -105,7 +105,7 @@ class Curve(msgspec.Struct, frozen=True):
     unit: str
     times: tuple[float, ...]
     values: tuple[tuple[float, ...], ...]
-    """Of each component, at all times."""
+    """Values of each component at all times."""
     expected: tuple[tuple[float, ...], ...]
 
 
@@ -132,7 +132,7 @@ class ToolResult(msgspec.Struct):
     """The effects of the user's edits, each apart if possible."""
     seconds: float = 0.0
     megabytes: float = 0.0
-    """The most memory that its processes took together, looked at four times a second."""
+    """The most memory that its processes took together, measured four times a second."""
     times: tuple[TrialTime, ...] = ()
     """Times of the comparison, if the compiler tells them."""
     curves: tuple[Curve, ...] = ()
@@ -176,11 +176,11 @@ class CheckResult(msgspec.Struct):
     """Parts that could not be checked, with reasons: one sentence each, without a full stop."""
     diagnostics: tuple[Diagnostic, ...] = ()
     seconds: float = 0.0
-    """From beginning to end."""
+    """Time from beginning to end."""
     megabytes: float = 0.0
-    """The most memory that its processes took together, looked at four times a second."""
+    """The most memory that its processes took together, measured four times a second."""
     folder: str = ""
-    """The package's folder for messages; empty if the check ended before."""
+    """The package's folder for messages; empty if the check broke off."""
     reference: str = ""
     """The reference of `deviations`, for example `Pinocchio 3.4`; empty if nothing was compared."""
     strict: bool = False
@@ -275,7 +275,7 @@ def worst(deviations: Iterable[Deviation]) -> dict[Part, Deviation]:
 
 
 def exit_code(results: Iterable[CheckResult]) -> Exit:
-    """Return 2 if anything failed, 0 if all is right or, unless `strict`, incomplete, else 1."""
+    """Return 2 if anything failed; 0 if all is right, or only incomplete and not `strict`; else 1."""
     wrong = {result.status for result in results if result.strict or result.status is not CheckStatus.INCOMPLETE}
     wrong.discard(CheckStatus.RIGHT)
     if CheckStatus.FAILED in wrong:

@@ -37,7 +37,7 @@ def known_check(config: Config, robot: RobotConfig) -> CheckResult | None:
     """
     if config.check.tool != "rumoca":  # for its key, OpenModelica would have to be started
         return None
-    if key := fingerprint(config, robot, CheckOptions()):  # one key for both checks, since it reads the libraries
+    if key := fingerprint(config, robot, CheckOptions()):  # computed once for both checks, since it reads all libraries
         cache = UserCache.default()
         return cache.load(f"{key}{PHYSICS}", CheckResult) or cache.load(key, CheckResult)
     return None
@@ -58,7 +58,7 @@ def check_robot(config: Config, robot: RobotConfig, options: CheckOptions, folde
         package = read_package(config, robot, request)
         earlier = cache.load(key, CheckResult) if key and package.in_step and not options.fresh else None
         if earlier and options.curves and earlier.reference and not any(tool.curves for tool in earlier.tools):
-            earlier = None  # an old result lacks the drawing
+            earlier = None  # an old result lacks the curves
         if earlier is None:
             with tempfile.TemporaryDirectory(prefix="urdfsync-", dir=folder, ignore_cleanup_errors=True) as place:
                 _check(config, package, options, result, limits, Path(place))
@@ -119,7 +119,7 @@ def _check(
 
 
 def _compare_numbers(checks: Checks, package: RobotPackage, result: CheckResult) -> None:
-    """Compare the numbers of a package with its source; what differs on disk only is the user's edit."""
+    """Compare the numbers of a package with its source. A difference only of the package on disk is the user's edit."""
     tell(f"{package.robot.name}: reading the source again")
     source, result.edited = package.generation.inputs.source, package.changed
     on_disk = package.on_disk if package.in_step else package.generated
@@ -152,7 +152,7 @@ def _sample(package: RobotPackage) -> Sample:
 
 
 def _find_missing(config: Config, options: CheckOptions, needed: Libraries, result: CheckResult) -> Diagnostic | None:
-    """Return why nothing can be compiled. It is also an error if the user chose a compiler."""
+    """Return why nothing can be compiled. It is an error with `--physics`, or if the user named what is missing."""
     missing = next(filter(None, map(compilers.find_missing, options.tools)), None)
     lacks_library = any(not compilers.COMPILERS[tool.name].HAS_STANDARD_LIBRARY for tool in options.tools)
     problem = missing or (needed.problem if lacks_library else None)
@@ -163,7 +163,7 @@ def _find_missing(config: Config, options: CheckOptions, needed: Libraries, resu
 
 
 def _experiment(package: RobotPackage, options: CheckOptions, result: CheckResult, limits: Limits) -> Experiment | None:
-    """Return the experiment for the package; None if there is none: then the result has the reason."""
+    """Return the experiment for the package; None if there is none, with the reason in the result."""
     robot = package.robot
     if not options.physics:
         result.unchecked += ("poses and efforts were not compared; `--physics` compares them",)

@@ -64,7 +64,7 @@ def check_layout(package: PackageTexts) -> list[Diagnostic]:
 
 
 def _check_folder(package: PackageTexts, folder: PurePosixPath, stored: Collection[str]) -> Iterator[Diagnostic]:
-    """Check that a folder is a package, and that its classes have one spelling each; `stored` are their names."""
+    """Check that a folder is a package, and that its classes differ by more than case; `stored` are their names."""
     if str(folder / PACKAGE_FILE) not in package.texts:
         message, where = f"the folder holds classes, but no {PACKAGE_FILE}", str(folder) if folder.parts else ""
         advice = "add one, or move the files elsewhere"

@@ -61,7 +61,7 @@ def gather(
     folder: Path,
     shown_before: Sequence[Contents] = (),
 ) -> Content:
-    """Return all about one robot; `against` is a git revision, else a file, counted from `folder`.
+    """Return the content of a robot's page; `against` is a git revision, else a file relative to `folder`.
 
     If nothing changed since the last build, the older version is the first different one of `shown_before`. Raises
     UrdfsyncError if the source or the older version can't be read.
@@ -141,7 +141,7 @@ def _statuses(changes: Changes) -> dict[str, str]:
 
 
 def _change_words(changes: Changes) -> dict[str, list[str]]:
-    """Return the changes of each element with its own row."""
+    """Return the changes of each element, a sentence for each row of the outline."""
     words = dict[str, list[str]]()
     for element, of_element in changes.by_element().items():
         rows = outline(msgspec.structs.replace(changes, changes=tuple(of_element)))

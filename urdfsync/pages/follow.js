@@ -1,8 +1,8 @@
 "use strict";
-/* Follows the daemon that serves the page: after a build it is loaded anew, and camera, axes and switches stay. */
+/* Follows the daemon that serves the page: after a build the page is loaded anew, but keeps camera, axes and switches. */
 
 const PLACE = `urdfsync ${location.pathname}`;
-const LIT = 3000; // milliseconds in which what has changed glows
+const LIT = 3000; // milliseconds during which changed elements glow
 const kept = JSON.parse(sessionStorage.getItem(PLACE)) || { build: null };
 
 function loadAnew(build) {
@@ -14,7 +14,7 @@ function loadAnew(build) {
   location.reload();
 }
 
-/* Puts back what was kept, as far as it is still there. */
+/* Restores camera, axes, switches and selection, as far as they still exist. */
 function restore() {
   if (kept.build === null) return;
   setTheme(kept.theme);
@@ -47,7 +47,7 @@ page.ready.then(() => {
     const [build, problem, others] = JSON.parse(event.data);
     tell(problem);
     element("others").replaceChildren(...Object.entries(others).flatMap(([name, href]) => [make("a", { href }, name), " "]));
-    if (build !== data.build && build !== kept.build) loadAnew(build); // once: while the source is broken the page stays
+    if (build !== data.build && build !== kept.build) loadAnew(build); // only once for each build: while the source is broken, the page stays the old one
   });
   source.addEventListener("error", () => tell("urdfsync watch has ended, or can't be reached: this is its last picture."));
 });

@@ -1,10 +1,10 @@
 "use strict";
 /* Loops: the joints that follow others through loops keep these closed, by Newton's method. */
 
-const CLOSED = 1e-9, SHIFT = 1e-6; // gaps in m, and the change of a position that tells derivatives
-const FARTHEST = 0.05; // one step of an axis, in rad or m, so that the robot stays assembled as it is
+const CLOSED = 1e-9, SHIFT = 1e-6; // gap of a closed loop in m, and the step for numerical derivatives
+const FARTHEST = 0.05; // longest step of an axis, in rad or m: a longer one may assemble the robot in another way
 
-/* Returns what the equations of all loops leave. */
+/* Returns the errors of the equations of all loops. */
 function gapsOf(view) {
   view.place();
   const vector = (parts) => new THREE.Vector3().fromArray(parts);
@@ -18,7 +18,7 @@ function gapsOf(view) {
   });
 }
 
-/* Returns x of A·x = b by Gauss's elimination; the rows of A have b behind them. Its parts are not finite if A is singular. */
+/* Returns x of A·x = b by Gauss's elimination; each row is one of A, then its number of b. If A is singular, x is not finite. */
 function solved(rows) {
   rows.forEach((_, k) => {
     const largest = rows.reduce((best, row, at) => at > k && Math.abs(row[k]) > Math.abs(rows[best][k]) ? at : best, k);
@@ -48,7 +48,7 @@ function close(view) {
   return false;
 }
 
-/* Moves an axis as far as all loops stay closed on the way. */
+/* Moves an axis towards a position, as far as all loops stay closed on the way. */
 function moveClosed(view, name, position) {
   const start = view.positions.get(name), count = Math.ceil(Math.abs(position - start) / FARTHEST) || 1;
   for (let step = 1; step <= count; step++) {

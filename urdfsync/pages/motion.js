@@ -1,11 +1,11 @@
 "use strict";
-/* A simulation that plays: positions over time move the robot, and stand in charts beside their limits. */
+/* Plays a simulation: its positions over time move the robot; charts show them with their limits. */
 
 const QUANTITIES = ["position", "speed", "effort"];
 const CHART = { width: 300, height: 80 };
 const NEAR = 0.5; // limits farther away than this share of the range would flatten a curve
 
-/* Returns the index of the last time that is not after `time`, and the share of the way to the next one. */
+/* Returns the indices of the times before and after `time`, and its share of the way between them. */
 function placeInTime(times, time) {
   let low = 0, high = times.length - 1;
   while (low < high - 1) {
@@ -33,13 +33,13 @@ function svg(tag, attributes) {
   return element;
 }
 
-/* Returns the ends of values, those that are no number left out. */
+/* Returns the least and the greatest of some values, without those that are null. */
 function rangeOf(values) {
   return values.reduce(([least, most], value) => value === null ? [least, most] : [Math.min(least, value), Math.max(most, value)], [Infinity, -Infinity]);
 }
 
-/* Returns a chart of curves over time, pairs of their classes and values, with limits as far as they are near, and the
-   line that stands at the present time. Where a value is null a curve has a gap. */
+/* Returns a chart of curves over time, and a function that moves its line to a time. A curve is a pair of its class and
+   its values, with a gap where a value is null. Only limits near the curves are drawn. */
 function chart(times, curves, limits, label) {
   let [low, high] = rangeOf(curves.flatMap(([, values]) => values));
   const reach = NEAR * (high - low) || 1, near = limits.filter((limit) => limit !== null && limit >= low - reach && limit <= high + reach);
@@ -58,7 +58,7 @@ function chart(times, curves, limits, label) {
   return [picture, (time) => { cursor.setAttribute("x1", x(time)); cursor.setAttribute("x2", x(time)); }];
 }
 
-/* Fills the place of charts, a row for each joint. `seek` is called with a time. Returns what moves all cursors. */
+/* Fills the charts, a row for each joint. A click calls `seek` with its time. Returns a function that moves all cursors. */
 function fillCharts(place, motion, seek, select) {
   const cursors = [], times = motion.series.time, begin = times[0], end = times[times.length - 1];
   for (const joint of motion.joints) {
@@ -69,7 +69,7 @@ function fillCharts(place, motion, seek, select) {
       if (!quantity) continue;
       const limits = [quantity.lower, quantity.upper].map((limit) => limit === null ? "–" : rounded(limit)).join(" … ");
       const values = motion.series[quantity.variable], ends = rangeOf(values);
-      const nothing = 1e-4 * (ends[1] - ends[0]); // what the integration leaves of 0
+      const nothing = 1e-4 * (ends[1] - ends[0]); // smaller values are 0 with an error of the integration
       const [least, greatest] = ends.map((value) => Number((Math.abs(value) < nothing ? 0 : value).toPrecision(4)));
       const words = `${name} ${least} … ${greatest} ${quantity.unit}`;
       const [picture, move] = chart(times, [["curve", values]], [quantity.lower, quantity.upper], `${nameOf(joint.element)}: ${words}, limits ${limits}`);
@@ -86,7 +86,7 @@ function fillCharts(place, motion, seek, select) {
   return (time) => { for (const move of cursors) move(time); };
 }
 
-/* Fills the place of curves: of each joint the effort, of each link place and axes, beside the reference, and the error on a log scale. */
+/* Fills the curves of a check: the effort of each joint, and the position and axes of each link, with the reference; then the error on a log scale. */
 function fillCurves(place, curves, select) {
   const LEAST = 1e-17, rows = new Map();
   const error = ({ values, expected }) => values.reduce((worst, own, part) => own.map((value, time) =>

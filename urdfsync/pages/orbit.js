@@ -78,7 +78,7 @@ class Orbit {
     this.update();
   }
 
-  /* Shows all of a box. */
+  /* Moves the camera so that a whole box is in view. */
   fit(box = this.box) {
     this.box = box;
     this.size = box.getSize(new THREE.Vector3()).length() || 1;

@@ -6,12 +6,12 @@ const SWITCHES = { visual: ["Visuals", "v"], collision: ["Collisions", "c"], fra
 const VERSIONS = { now: "Now", both: "Both", before: "Before" };
 
 const looks = (body) => JSON.stringify(body.shapes.map(({ kind, form, mesh }) => [kind, form, mesh]));
-for (const old of data.before?.bodies || []) { // a mesh may have another content
+for (const old of data.before?.bodies || []) { // the content of a mesh may have changed
   const body = data.now.bodies.find((each) => each.element === old.element);
   if (body && looks(body) !== looks(old)) data.statuses[old.element] ??= "changed";
 }
 
-/* The state of the page; tests read it. `ready` is a promise of the picture. */
+/* The state of the page; tests read it. `ready` is a promise that ends when the picture is there. */
 const page = {
   selected: null,
   layers: { visual: true, collision: false, frame: data.now.missing.length > 0 || !data.now.bodies.some((body) => body.shapes.length), mass: false, inertia: false },
@@ -116,7 +116,7 @@ function paint() {
   draw();
 }
 
-/* Shows of the older version, laid over the new one, what is different or elsewhere. */
+/* Hides the bodies of the older version, laid over the new one, that are the same and in the same place. */
 function hideSame() {
   if (!page.before) return;
   const isSame = (name) => !data.statuses[data.renamed[name] || name] && page.before.coincides(name, page.now, data.renamed[name] || name);
@@ -172,7 +172,7 @@ function resize() {
   stage.orbit.update();
 }
 
-/* Sets up the simulation, if the page has one: it moves the robot, and what is moved by hand stays until it goes on. */
+/* Sets up the simulation, if the page has one: it moves the robot. An axis that is moved by hand stays there until the simulation goes on. */
 function setUpMotion() {
   const { motion } = data;
   if (!motion || motion.series.time.length < 2) return;
@@ -196,7 +196,7 @@ async function show() {
   const canvas = element("view");
   stage.isSlow = isDrawnBySoftware();
   try {
-    stage.renderer = new THREE.WebGLRenderer({ canvas, antialias: !stage.isSlow, alpha: true, preserveDrawingBuffer: true }); // else it is not printed
+    stage.renderer = new THREE.WebGLRenderer({ canvas, antialias: !stage.isSlow, alpha: true, preserveDrawingBuffer: true }); // else the picture is not printed
   } catch (error) {
     throw new Error("This browser shows no 3D: WebGL is not there, or switched off. All else on the page works.", { cause: error });
   }
@@ -256,7 +256,7 @@ element("tabs").addEventListener("keydown", (event) => {
 });
 for (const button of document.querySelectorAll("[data-element]")) button.addEventListener("click", () => select(button.dataset.element));
 element("theme").addEventListener("click", () => setTheme(document.documentElement.dataset.theme === "dark" ? "light" : "dark"));
-let theme = "light"; // paper is
+let theme = "light"; // before printing, for which it is light
 addEventListener("beforeprint", () => {
   theme = document.documentElement.dataset.theme;
   setTheme("light");

@@ -58,7 +58,7 @@ def page(
 ) -> bytes:
     """Return the page, with a simulation that plays, and a check. Raises UrdfsyncError if three.js can't be had.
 
-    With the number of a `build` it follows the daemon that serves it.
+    With the number of a `build`, the page follows the daemon that serves it.
     """
     library = threejs.load()
     names = SCRIPTS if build is None else (*SCRIPTS, FOLLOWER)
@@ -126,12 +126,12 @@ def _hash(text: str) -> str:
 
 
 def _json(values: Any) -> str:
-    """Return JSON that ends no script element and begins no comment; no number is null."""
+    """Return JSON that ends no script element and begins no comment. NaN and infinity become null."""
     return msgspec.json.encode(values).decode().translate(_ESCAPES)
 
 
 def _packed(meshes: Iterable[Triangles]) -> str:
-    """Return the contents of meshes, one after the other; the data have the numbers of points and faces of each."""
+    """Return the contents of meshes, one after the other; the page's data tell how many points and faces each has."""
     content = b"".join(mesh.content for mesh in meshes)
     return base64.b64encode(gzip.compress(content, 6, mtime=0)).decode()
 

@@ -29,7 +29,7 @@ function mark(statuses, element) {
   return status ? [" ", make("span", { class: `mark ${status}` }, status)] : [];
 }
 
-/* Fills the panel of axes. `move` is called with an element and a position. Returns what shows all positions. */
+/* Fills the panel of axes. `move` is called with an element and a position. Returns a function that shows all positions. */
 function fillAxes(panel, data, move, select) {
   const follows = (hinge) => hinge.leader ? `follows ${nameOf(hinge.leader)}` : hinge.is_dependent ? "follows through loops" : "";
   const free = data.now.hinges.filter((hinge) => hinge.motion && !follows(hinge));
@@ -68,7 +68,7 @@ function fillAxes(panel, data, move, select) {
   return (positions) => { for (const [name, show] of shown) show(positions.get(name)); };
 }
 
-/* Fills the panel with the tree of links. Returns what marks an element in it. */
+/* Fills the panel with the tree of links. Returns a function that marks an element in it. */
 function fillTree(panel, data, select) {
   const above = new Map(data.now.hinges.map((hinge) => [hinge.child, hinge])), depth = new Map();
   const list = make("div", { role: "tree", "aria-label": "Links" }), items = new Map();
@@ -115,7 +115,7 @@ function endsOf(item) {
   return item.ends ? item.ends.map((end) => end.body) : [item.parent, item.child];
 }
 
-/* Shows the numbers, neighbours, changes and files of an element; of none without one. */
+/* Shows the numbers, neighbours, changes and files of an element; a hint if there is none. */
 function fillDetails(panel, data, element, select) {
   const { bodies, hinges, loops } = data.now, old = data.before || { bodies: [], hinges: [], loops: [] };
   const find = (scene) => [...scene.bodies, ...scene.hinges, ...scene.loops].find((each) => each.element === element);
@@ -140,11 +140,11 @@ function fillDetails(panel, data, element, select) {
   panel.scrollTop = 0;
 }
 
-/* Draws the diagram, if there is one. Returns what marks an element in it. */
+/* Draws the diagram, if there is one. Returns a function that marks an element in it. */
 function drawDiagram(place, data, select) {
   if (!place || !data.diagram) return () => {};
   const drawn = new DOMParser().parseFromString(data.diagram, "image/svg+xml").documentElement;
-  const shadow = place.attachShadow({ mode: "open" }); // its styles are for it alone
+  const shadow = place.attachShadow({ mode: "open" }); // keeps the diagram's styles from the page
   const svg = document.importNode(drawn, true);
   shadow.append(svg);
   const natural = Number(svg.getAttribute("width"));

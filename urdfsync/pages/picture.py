@@ -20,9 +20,9 @@ from urdfsync.pages.scene import Pictures, Scene, Triangles
 from urdfsync.versions.comparison import Contents
 
 _MOST, _MOST_IN_ALL = 60_000, 500_000
-"""The most triangles of one mesh, and of all meshes, which have equal shares: each takes some 13 bytes."""
+"""The most triangles of one mesh, and of all meshes, which share these equally. A triangle takes some 13 bytes."""
 _MOST_REFUSED = 4
-"""The most files that are too large for the package and are read for the picture: each may take 16 s."""
+"""The most files that are read for the picture although they are too large for the package: each may take 16 s."""
 
 
 class Picture(msgspec.Struct, frozen=True):

@@ -1,12 +1,12 @@
 "use strict";
-/* A robot of the page's data in three.js: built, moved, coloured. Metres and radians; z is up. */
+/* Builds, moves and colours a robot of the page's data in three.js. Metres and radians; z is up. */
 
 const LAYERS = ["visual", "collision", "frame", "mass", "inertia"];
 const CREASE = Math.cos(35 * Math.PI / 180); // edges that are sharper are shown as edges
-const NO_EDGE = 1e-12; // square of an edge in m² below which there is none: rounding of thin bodies gives it either sign
-const MOST_AROUND = 48; // faces at one corner that are looked at: a fan has thousands
+const NO_EDGE = 1e-12; // square of an edge, in m², that counts as no edge: rounding gives those of thin bodies either sign
+const MOST_AROUND = 48; // most faces at one point that count for its normals: a fan has thousands
 
-const ONE_WAY = { rotational: true, translational: false }; // whether it turns
+const ONE_WAY = { rotational: true, translational: false }; // whether the motion turns
 const ALONG = { x: [1, 0, 0], y: [0, 1, 0], z: [0, 0, 1] };
 
 /* Returns the ways in which a hinge moves, one after the other: each has a name, an axis, and turns about it or slides. */
@@ -33,10 +33,10 @@ function themeColor(name) {
   return new THREE.Color(getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim()).convertSRGBToLinear();
 }
 
-/* Returns a geometry of triangles whose normals are smooth but at edges. Corners with one normal are one vertex. */
+/* Returns a geometry of triangles with smooth normals, except at edges. Corners at one point with one normal share a vertex. */
 function creased(points, faces) {
   const corners = faces.length, count = points.length / 3;
-  const flat = new Float32Array(corners), areas = new Float32Array(corners / 3); // of faces: unit normal, and its length
+  const flat = new Float32Array(corners), areas = new Float32Array(corners / 3); // of each face: its unit normal, and twice its area
   const begin = new Uint32Array(count + 1), around = new Uint32Array(corners);
   for (let corner = 0; corner < corners; corner++) begin[faces[corner] + 1]++;
   for (let point = 1; point <= count; point++) begin[point] += begin[point - 1];
@@ -95,7 +95,7 @@ async function loadMeshes(text, sizes) {
 function boxOf({ mass, inertia: [xx, xy, xz, yy, yz, zz] }) {
   let tensor = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
   const axes = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
-  for (let sweep = 0; sweep < 10; sweep++) { // Jacobi's method: a turn about one axis takes the product of the two others away
+  for (let sweep = 0; sweep < 10; sweep++) { // Jacobi's method: a turn about one axis makes the product of the two others 0
     for (const [one, other] of [[0, 1], [0, 2], [1, 2]]) {
       const angle = Math.atan(2 * tensor[one][other] / (tensor[other][other] - tensor[one][one])) / 2 || 0;
       const turn = (rows) => {
@@ -105,7 +105,7 @@ function boxOf({ mass, inertia: [xx, xy, xz, yy, yz, zz] }) {
       };
       turn(axes);
       turn(tensor);
-      tensor = tensor.map((_, column) => tensor.map((row) => row[column])); // its columns are turned as its rows
+      tensor = tensor.map((_, column) => tensor.map((row) => row[column])); // turn its columns like its rows
       turn(tensor);
     }
   }
@@ -139,7 +139,7 @@ function lines(points, colors, opacity = 1) {
   return object;
 }
 
-/* One version of the robot. `root` is its root frame; `bodies` and `hinges` are by their elements. */
+/* One version of the robot. `root` is its root frame; `bodies` and `hinges` are maps by element. */
 class RobotView {
   constructor(scene, meshes) {
     this.scene = scene;
@@ -183,7 +183,7 @@ class RobotView {
     body.group.add(object);
   }
 
-  /* Adds frame, centre of mass and inertia box, whose sizes go with the robot's. */
+  /* Adds the frame, the centre of mass and the inertia box of a body. The size of the first two depends on the robot's. */
   #mark(body) {
     const { data } = body, length = 0.05 * this.size;
     const hinge = this.scene.hinges.find((each) => each.child === data.element && (each.motion in ONE_WAY || each.motion === "planar"));
@@ -195,7 +195,7 @@ class RobotView {
       colors.push(.95, .55, 0, .95, .55, 0);
     }
     const ends = [...this.scene.hinges.map(({ parent, pose }) => ({ body: parent, pose })), ...this.scene.loops.flatMap((loop) => loop.ends)];
-    for (const { body: owner, pose } of ends) { // bones, to the frames of the next bodies and of loops
+    for (const { body: owner, pose } of ends) { // lines ("bones") to the frames of the next bodies and of loops
       if (owner !== data.element) continue;
       points.push(0, 0, 0, ...pose.slice(12, 15));
       colors.push(.5, .5, .55, .5, .5, .55);
@@ -274,12 +274,12 @@ class RobotView {
     return this.bodies.get(element).group.matrixWorld.toArray();
   }
 
-  /* Shows a layer of all bodies but those that `isHidden` names. */
+  /* Shows a layer of all bodies, except those for which `isHidden` is true. */
   show(layer, isShown, isHidden = () => false) {
     for (const [element, body] of this.bodies) for (const object of body.layers[layer]) object.visible = isShown && !isHidden(element);
   }
 
-  /* Returns whether a body is where one of another version is. */
+  /* Returns whether a body has the same pose as the body `name` of another version. */
   coincides(element, other, name) {
     if (!other.bodies.has(name)) return false;
     const pose = other.pose(name);

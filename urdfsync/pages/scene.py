@@ -1,4 +1,4 @@
-"""A robot as a picture: bodies with shapes, and the joints between them. Values of no domain, in SI units."""
+"""A robot as a picture: bodies with shapes, and the joints between them. The values fit any domain; SI units."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class Body(msgspec.Struct, frozen=True):
     """A rigid body."""
 
     element: str
-    """In the domain's words: `link hand`."""
+    """The element in the domain's words: `link hand`."""
     component: str
     """Its name in the diagram."""
     facts: Facts
@@ -66,7 +66,7 @@ class Hinge(msgspec.Struct, frozen=True):
     upper: float | None = None
     """None for no limit."""
     leader: str = ""
-    """The followed element; empty if it moves by itself."""
+    """The element that it follows; empty if it moves by itself."""
     multiplier: float = 1.0
     offset: float = 0.0
     is_dependent: bool = False
@@ -83,7 +83,7 @@ class End(msgspec.Struct, frozen=True):
 class Loop(msgspec.Struct, frozen=True):
     """A connection of two bodies that hinges already connect.
 
-    Its equations hold place and axes of its second end, resolved in the first end.
+    Its equations hold the position and axes of its second end, resolved in the first end.
     """
 
     element: str
@@ -93,7 +93,7 @@ class Loop(msgspec.Struct, frozen=True):
     translations: tuple[tuple[float, ...], ...]
     """Directions along which both ends have the same position."""
     rotations: tuple[tuple[tuple[float, ...], tuple[float, ...]], ...]
-    """Pairs of perpendicular directions, of the first end and of the second."""
+    """Pairs of directions that stay perpendicular: one of the first end, one of the second."""
 
 
 class Scene(msgspec.Struct, frozen=True):

@@ -1,8 +1,8 @@
-"""Loads three.js from trimesh, which has it for its own viewer.
+"""Loads three.js from trimesh, which contains it for its own viewer.
 
-The repository has no JavaScript of others. The page gets it from the installed trimesh, which reads meshes anyway:
-three.js r140, 0.7 MB, under the MIT licence. In meshcat and viser it is part of one file with their own programs (0.9
-and 0.8 MB), and both would be a further dependency.
+This repository contains no third-party JavaScript. The page gets three.js from the installed trimesh, which reads
+meshes anyway: r140, 0.7 MB, under the MIT licence. meshcat and viser have it in one file with their own programs (0.9
+and 0.8 MB), and each would be a further dependency.
 """
 
 from __future__ import annotations
@@ -20,11 +20,11 @@ _SCRIPT = "<script>"
 _END = "THREE.GLTFLoader=GLTFLoader;})();"
 """The end of the loader; the viewer's own code follows."""
 _FORBIDDEN = ("</script", "<!--")
-"""Would end the script's element, or change its meaning."""
+"""Texts that would end the script's element, or change its meaning."""
 
 
 class Library(NamedTuple):
-    """A script of others."""
+    """A third-party script."""
 
     text: str
     title: str

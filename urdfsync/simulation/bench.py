@@ -17,20 +17,20 @@ class Signal(msgspec.Struct, frozen=True):
     limits: tuple[str, ...] = ()
     """Parameters with the lower and the upper limit; a single one limits the absolute value; empty for no limit."""
     added: tuple[tuple[str, str], ...] = ()
-    """Parameters and variables whose products are parts of the quantity."""
+    """Pairs of a parameter and a variable; their products are added to the variable."""
 
 
 class Axis(msgspec.Struct, frozen=True):
     """Quantities of one moving joint in a simulation."""
 
     element: str
-    """In the domain's words: `joint elbow`."""
+    """The element in the domain's words: `joint elbow`."""
     position: Signal
     velocity: Signal
     effort: Signal | None = None
     """None for a joint without a drive of its own."""
     acceleration: Signal | None = None
-    """Its limits hold while the joint slows down and while it speeds up; None for a joint without such a limit."""
+    """Its first limit holds while the joint slows down, its second while it speeds up; None without such a limit."""
     is_dependent: bool = False
     """Whether the joint follows others through loops."""
 
@@ -39,7 +39,7 @@ class LoopSignals(msgspec.Struct, frozen=True):
     """Variables of a joint that closes a loop in a simulation, below the main model."""
 
     element: str
-    """In the domain's words: `loop rocker_pin`."""
+    """The element in the domain's words: `loop rocker_pin`."""
     gap: str
     """Distance of the two frames, in m."""
     force: tuple[str, ...]
@@ -54,7 +54,7 @@ class Bench(msgspec.Struct, frozen=True):
     run: str
     """The model that is driven by inputs; empty if there is none."""
     layouts: tuple[tuple[Axis, ...], ...]
-    """For each approach, the axes by the names that its models give them."""
+    """For each approach, the axes with the names that its models give them."""
     loops: tuple[LoopSignals, ...] = ()
 
 

@@ -1,4 +1,4 @@
-"""Exports a model with the package of a robot as FMU, by OpenModelica."""
+"""Exports a model that uses a robot's package as an FMU, by OpenModelica."""
 
 from __future__ import annotations
 
@@ -29,9 +29,9 @@ TOLERANCE = 1e-10
 _DESCRIPTION = "modelDescription.xml"
 _BY_URDFSYNC = "exported by urdfsync"
 _BEGINNING = 2**16
-"""The number of first bytes of a description that contain the attributes of its root element."""
+"""This number of first bytes of a description contains the attributes of its root element."""
 _MOST_BYTES = 2**28
-"""The most bytes of an FMU whose list of contents is read: the list may be nearly all of a file."""
+"""The most bytes of an FMU that is opened: its list of contents, which is read, may be nearly the whole file."""
 _HIGHER_DERIVATIVE = re.compile(rb'(?<=name=")((?:der\(){2,})([^"()]*)\)+(?=")')
 _MODEL_EXCHANGE = re.compile(rb"[ \t]*<ModelExchange\b[^>]*?(?:/>|>.*?</ModelExchange>)\s*", re.DOTALL)
 
@@ -120,7 +120,7 @@ def export(
 
 
 def _corrected(content: bytes, *, with_model_exchange: bool) -> bytes:
-    """Write higher derivatives as FMI has them, `der(x,2)`, where OpenModelica 1.27 has `der(der(x))`."""
+    """Write higher derivatives as FMI does, `der(x,2)`, instead of OpenModelica 1.27's `der(der(x))`."""
     corrected = io.BytesIO()
     with zipfile.ZipFile(io.BytesIO(content)) as exported, zipfile.ZipFile(corrected, "w", zipfile.ZIP_DEFLATED) as fmu:
         for member in exported.infolist():
@@ -135,14 +135,14 @@ def _corrected(content: bytes, *, with_model_exchange: bool) -> bytes:
 def is_exported(file: Path) -> bool:
     """Whether a file is an FMU that urdfsync exported.
 
-    It may be a stranger's, so only the beginning of its description is unpacked.
+    The file may be a stranger's, so only the beginning of its description is unpacked.
     """
     try:
         if not file.is_file() or file.stat().st_size > _MOST_BYTES:
             return False
         with zipfile.ZipFile(file) as fmu:
             if fmu.getinfo(_DESCRIPTION).compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
-                return False  # other readers unpack whole blocks
+                return False  # the readers of other methods unpack whole blocks
             with fmu.open(_DESCRIPTION) as description:
                 return _BY_URDFSYNC.encode() in description.read(_BEGINNING)
     except (OSError, KeyError, ValueError, EOFError, RuntimeError, zipfile.BadZipFile, zlib.error):

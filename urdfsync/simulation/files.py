@@ -58,7 +58,7 @@ def check_file(file: Path, inputs: Mapping[str, Path]) -> None:
 
 
 def default_file(name: str, is_ours: Callable[[Path], bool]) -> Path:
-    """Return the file of a name in the working folder. Raises OutputError if `is_ours` denies an existing one."""
+    """Return the file with this name in the working folder. Raises OutputError if it exists and `is_ours` is false."""
     file = Path(name)
     if file.is_symlink() or (file.exists() and not is_ours(file)):
         hint = "name a file with `--output`, this one to replace it"

@@ -24,7 +24,7 @@ from urdfsync.simulation.results import Series, SimulateOptions
 from urdfsync.simulation.run import simulate
 
 AGREEMENT = 1e-6
-"""The greatest difference that counts as agreement, of each variable relative to its greatest value or 1."""
+"""The greatest difference that counts as agreement, relative to a variable's greatest value or 1."""
 _REFERENCE_TOLERANCE = 1e-10
 _TOLERANCES = (1e-10, 1e-8, 1e-6)
 """Tolerances of FMPy's integration of model exchange; the first successful one counts."""
@@ -42,11 +42,11 @@ class Trial(msgspec.Struct, frozen=True):
     agreement: Mapping[str, float]
     """For each kind that was simulated, the greatest relative difference of a variable from `simulate`."""
     worst: Mapping[str, str]
-    """The variable with this difference."""
+    """For each kind, the variable with this difference."""
     compared: int
-    """Number of variables."""
+    """Number of compared variables."""
     problems: Mapping[str, str] = {}
-    """For each kind that FMPy can't simulate, why."""
+    """For each kind that FMPy can't simulate, the reason."""
 
 
 class WrittenFmu(msgspec.Struct, frozen=True):
@@ -94,7 +94,7 @@ class _Request(msgspec.Struct, frozen=True):
 class _Examined(msgspec.Struct):
     findings: list[str]
     series: dict[str, dict[str, list[float]]]
-    """By kind."""
+    """The series of each variable, by kind."""
     problems: dict[str, str]
 
 

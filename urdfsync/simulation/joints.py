@@ -11,9 +11,9 @@ from urdfsync.simulation.bench import Axis, Bench, Signal
 from urdfsync.simulation.results import JointResult, LoopResult, PassedLimit, Range, Series
 
 _ENDLESS = 1e300
-"""A larger limit is none: compilers write infinity as their greatest number."""
+"""A larger limit counts as none: compilers write infinity as their greatest number."""
 _ROUNDING = 1e-6
-"""The margin of `UrdfSync.Functions.isAtMost`: in the unit of a quantity, and as a share of it."""
+"""The margin of `UrdfSync.Functions.isAtMost`: this number in the quantity's unit, plus this fraction of the limit."""
 _INTEGRATION = 1e-4
 """The error of the integration that is no violation of a limit, as a share of the quantity's whole range.
 
@@ -27,7 +27,7 @@ Layouts: TypeAlias = Sequence[Sequence[Axis]]
 
 
 def pattern(bench: Bench) -> str:
-    """Return a regular expression for the variables of joints of a robot anywhere in a model."""
+    """Return a regular expression for the variables of a robot's joints and loops, anywhere in a model."""
     axes = [axis for layout in bench.layouts for axis in layout]
     names = dict.fromkeys(name for axis in axes for _, signal in _signals(axis) for name in _names(signal))
     names |= dict.fromkeys(name for loop in bench.loops for name in (loop.gap, *loop.force, *loop.torque))
@@ -54,7 +54,7 @@ def joint_results(layouts: Layouts, series: Series, parameters: Mapping[str, flo
 
 
 def loop_results(bench: Bench, series: Series) -> Iterator[LoopResult]:
-    """Yield the result of each loop of each robot in a model, without loops whose joint is replaced."""
+    """Yield the result of each loop of each robot in a model, except loops whose joint the user has replaced."""
     for place, _ in robots(bench.layouts, series) if bench.loops else ():
         for loop in bench.loops:
             vectors = [[_below(place, name) for name in names] for names in ((loop.gap,), loop.force, loop.torque)]
@@ -64,9 +64,10 @@ def loop_results(bench: Bench, series: Series) -> Iterator[LoopResult]:
 
 
 def robots(layouts: Layouts, series: Series) -> list[tuple[str, Sequence[Axis]]]:
-    """Return the components that are robots, with their layouts: a robot has most of a layout's positions.
+    """Return the components that are robots, with their layouts: those with the largest part of a layout's positions.
 
-    Not all, since the user may have replaced a joint by another model; and other parts may have the name of a joint.
+    A robot need not have all of them, since the user may have replaced a joint by another model. Other components may
+    have some of them, if they share the name of a joint.
     """
     shares: dict[tuple[str, int], float] = {}
     for number, layout in enumerate(layouts):
@@ -93,7 +94,7 @@ def _values(signal: Signal, place: str, series: Series, parameters: Mapping[str,
     name = _below(place, signal.variable)
     if name not in series:
         return None
-    import numpy as np  # 100 ms; with a plot, while the compiler is busy
+    import numpy as np  # takes 100 ms, which other commands save
 
     values = np.array(series[name])
     for factor, variable in ((_below(place, a), _below(place, b)) for a, b in signal.added):

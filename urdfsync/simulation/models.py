@@ -25,7 +25,7 @@ _ARRAY = re.compile(r"\s*\[")
 _UNIT = re.compile(r"\bunit\s*=\s*(\"[^\"]*\"|\{[^{}]*\})")
 _KINDS = ("model", "block", "class")
 _FILTERED = (("Sources", "Position"), ("Sources", "Speed"))
-"""Endings of names of the Modelica Standard Library's drives with a filter."""
+"""Endings of the names of drives of the Modelica Standard Library that filter their input."""
 
 
 class Input(msgspec.Struct, frozen=True):
@@ -49,7 +49,7 @@ class Model:
     """A class that can be simulated, with its base classes."""
 
     def __init__(self, scopes: Scopes, node: Node, content: Callable[[str], bytes]) -> None:
-        """`content` reads a file of Modelica."""
+        """`content` reads a Modelica file."""
         self.node, self.name = node, str(node)
         # the parser's text, since components have positions in it
         self._text = functools.cache(lambda file: text_of(content(file)))
@@ -57,7 +57,7 @@ class Model:
 
     @functools.cached_property
     def settings(self) -> dict[str, float]:
-        """The numbers in the annotation `experiment` of the model, by the names of Modelica."""
+        """The numbers in the model's annotation `experiment`, by their names in Modelica."""
         name = self.node.definition.name
         text = self._text(self.node.file)[name.starts[0] :] if self.node.file and name.starts else ""
         experiment = _EXPERIMENT.search(re.split(rf"\bend\s+{re.escape(str(name))}\s*;", text)[0])
@@ -65,7 +65,7 @@ class Model:
         return {name: number for name, number in numbers.items() if number > 0}
 
     def step(self, stop: float, wanted: float | None) -> float:
-        """Return the default interval of results of a simulation until `stop`, in s."""
+        """Return the interval of results of a simulation until `stop`, in s: the `wanted` one, else the model's."""
         return wanted or self.settings.get("Interval") or stop / self.settings.get("NumberOfIntervals", STEPS)
 
     def inputs(self) -> list[Input]:
@@ -91,7 +91,7 @@ class Model:
     def driven(self, package: str) -> Driven:
         """Return the changes that let inputs follow a table, and that switch off the filters of the package's drives.
 
-        Drives of the user's own models keep them: without a filter, start values may contradict the motion.
+        Drives of the user's own models keep their filters: without one, start values may contradict the motion.
         """
         changed: dict[str, list[int]] = {}
         modifiers = []

@@ -66,7 +66,7 @@ def read_motion(file: Path, inputs: Sequence[Input]) -> Motion:
 
 
 def _read_rows(file: Path) -> list[tuple[int, list[str]]]:
-    """Return the rows that are not empty, with their lines: a header, and at least two more."""
+    """Return the rows that are not empty, with their line numbers: a header, and at least two more rows."""
     try:
         text = read_unrecorded(file).decode("utf-8-sig")  # does not wait for a pipe, or read an endless device
     except OSError as error:
@@ -197,7 +197,7 @@ class ModelicaMotion(msgspec.Struct, frozen=True):
     """A motion in Modelica."""
 
     functions: str = ""
-    """Of a package."""
+    """Functions of a package."""
     declarations: tuple[str, ...] = ()
     equations: tuple[str, ...] = ()
     """Equations of a model whose inputs follow the motion."""
@@ -239,6 +239,6 @@ def second_derivatives(times: Sequence[float], values: Sequence[float]) -> list[
     Its third derivative has no jump at the second point and at the last but one. So the spline is exact for a cubic.
     Through three points it is a parabola, through two points a straight line.
     """
-    from scipy.interpolate import CubicSpline  # half a second that other simulations save
+    from scipy.interpolate import CubicSpline  # its import takes 0.5 s, which other simulations save
 
     return [float(number) for number in CubicSpline(times, values)(times, 2)]

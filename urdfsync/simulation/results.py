@@ -13,7 +13,7 @@ from urdfsync.checks.results import RunOptions
 from urdfsync.diagnostics import Diagnostic
 
 STOP = 1.0
-"""End of a simulation whose model has no `experiment` annotation with one, in s."""
+"""End of a simulation in s, unless the model's annotation `experiment` or the user gives one."""
 STEPS = 500
 """Number of intervals of results, unless the annotation or the user gives their length."""
 TOLERANCE = 1e-6
@@ -45,7 +45,7 @@ class Range(msgspec.Struct, frozen=True):
     """The range of a joint's quantity over a simulation."""
 
     variable: str
-    """Its full name."""
+    """The variable's full name."""
     unit: str
     least: float
     greatest: float
@@ -72,7 +72,7 @@ class JointResult(msgspec.Struct, frozen=True):
     """One joint of one robot over a simulation; None for a quantity that the model lacks."""
 
     element: str
-    """In the domain's words: `joint elbow`."""
+    """The element in the domain's words: `joint elbow`."""
     robot: str
     """The component that is the robot: `robot`, `cell.left`; empty if it is the model itself."""
     position: Range | None = None
@@ -89,15 +89,15 @@ class LoopResult(msgspec.Struct, frozen=True):
     """One loop of one robot over a simulation: greatest numbers of the joint that closes it."""
 
     element: str
-    """In the domain's words: `loop rocker_pin`."""
+    """The element in the domain's words: `loop rocker_pin`."""
     robot: str
     """See `JointResult.robot`."""
     gap: float
-    """In m."""
+    """Greatest gap, in m."""
     force: float
-    """In N."""
+    """Greatest force, in N."""
     torque: float
-    """In N·m."""
+    """Greatest torque, in N·m."""
 
 
 class SimulateResult(msgspec.Struct, frozen=True):
@@ -121,7 +121,7 @@ class SimulateResult(msgspec.Struct, frozen=True):
     seconds: float
     """The duration from beginning to end, in s."""
     is_known: bool
-    """Whether it is a remembered result."""
+    """Whether the result is a remembered one."""
     loops: tuple[LoopResult, ...] = ()
     files: Mapping[str, Path] = {}
     """The written files, by their options."""

@@ -27,7 +27,7 @@ from urdfsync.simulation.results import STOP, TOLERANCE, JointResult, PassedLimi
 from urdfsync.simulation.values import modifiers
 
 _LATER = 1.5
-"""Seconds until progress names the compiler."""
+"""Seconds of compiling after which the cache is trimmed."""
 _LONGEST_MESSAGE = 200
 _ROUNDING = 1e-9
 """The error that a quotient of two times may have."""
@@ -78,7 +78,7 @@ def _run(options: SimulateOptions, prepared: Prepared, progress: Progress) -> tu
     key = result_key(package.robot, [options.tool], prepared.needed, *facts)
     if key and (earlier := cache.load(key, SimulationResult)):
         return earlier, run, True
-    later = threading.Timer(_LATER, cache.trim)  # 200 ms, while the compiler is busy
+    later = threading.Timer(_LATER, cache.trim)  # takes 200 ms, so it is done while the compiler is busy
     later.daemon = True
     later.start()
 

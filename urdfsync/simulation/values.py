@@ -45,9 +45,10 @@ def find_unknown(model: str, names: Iterable[str], parameters: Collection[str]) 
 
 
 def nearest_parameter(name: str, parameters: Iterable[str]) -> str:
-    """Return the parameter that the user may have meant: its name, or its last part, is much like `name`.
+    """Return the parameter that the user may have meant: its name, or the last part of it, is much like `name`'s.
 
-    Of several with such a last part, it is the shortest with most of the other parts; empty if there is none.
+    Of several with this last part, it is the one that shares most other parts with `name`, then the shortest. Empty if
+    there is none.
     """
     parameters = list(parameters)
     if near := nearest(name, parameters, _LIKENESS):

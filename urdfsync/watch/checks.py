@@ -17,7 +17,7 @@ from urdfsync.engine.result import Checked
 from urdfsync.watch import events
 
 _PATIENCE = 10.0
-"""Seconds for a running check when the daemon ends; a remaining compiler ends with the process."""
+"""Seconds that an ending daemon waits for a running check; a compiler that still runs ends with the daemon."""
 
 
 class CheckJob(msgspec.Struct, frozen=True, eq=False):
@@ -29,7 +29,7 @@ class CheckJob(msgspec.Struct, frozen=True, eq=False):
 
 
 class CheckEnded(msgspec.Struct, frozen=True):
-    """A check has ended; without findings if it was cancelled."""
+    """A check has ended; `result` is None if it was cancelled."""
 
     job: CheckJob
     result: BuildCheck | None
@@ -40,7 +40,7 @@ class CancelledError(Exception):
 
 
 class CheckQueue:
-    """The newest check of each robot, in order; its context cancels them at the end. Methods return events.
+    """The newest check of each robot, in order. Leaving its context cancels all checks. Methods return events.
 
     Only the check itself runs in a thread; its end comes through the daemon's queue, as `CheckEnded`.
     """
@@ -51,7 +51,7 @@ class CheckQueue:
         self._jobs: dict[str, CheckJob] = {}
         """The checks by robot; the first one may be running."""
         self._thread: threading.Thread | None = None
-        """The running check, also a cancelled one."""
+        """The thread of the running check, even of a cancelled one."""
         self._last: dict[str, Checked] = {}
         self._told: set[Diagnostic] = set()
 

@@ -136,7 +136,7 @@ class Daemon:
                 self._rescan()
             settled = self._find_settled(has_looked=has_looked)
             if settled and self._reload_config():
-                continue  # it lets all robots settle again
+                continue  # the new configuration lets all robots settle again
             changed = [watched for watched in settled if self._has_to_be_built(watched)]
             if changed or self._is_paused:
                 self._update_pause()
@@ -339,7 +339,7 @@ class Daemon:
             watched.settle(time.monotonic() + self._options.rescan, is_told=False)
 
     def _take_failure(self, watched: WatchedRobot, result: Result) -> None:
-        """Wait for the exporter, which may be writing an invalid source; after some time it is an error."""
+        """Wait for the exporter, which may still be writing an invalid source. After some time it is an error."""
         again, error = watched.failure == result.diagnostics, result.source_error
         if error is not None and not (again or watched.invalid_until):
             reason = f"waiting for the exporter of {shown(watched.robot.source)}"

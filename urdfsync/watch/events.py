@@ -1,7 +1,8 @@
 """The events of `urdfsync watch` as values; `--format json` writes them with the tag as the event's name.
 
 Events of one robot come in this order: `Settling` when one of its files changed, `Building` when it has settled,
-`Waiting` if its source is invalid, and `Built` or `Failed`; or `Unchanged` if its files have their former content.
+`Waiting` if its source is invalid, then `Built` or `Failed`. If its files have their former content, only `Unchanged`
+follows `Settling`.
 Checks have their own events: `Checking`, and `CheckDone` for the last one of several.
 """
 
@@ -22,7 +23,7 @@ class Event(msgspec.Struct, frozen=True, tag=str.lower):
 
 
 class RobotEvent(Event, frozen=True):
-    """One event of the robot that is named first."""
+    """One event of one robot."""
 
     robot: str
 
@@ -37,7 +38,7 @@ class Started(Event, frozen=True):
 
 
 class Viewing(Event, frozen=True):
-    """Pages of the robots are at this address, until the daemon ends; the first event."""
+    """Pages of the robots are at this address, until the daemon ends. This is the first event."""
 
     address: str
 
@@ -88,7 +89,7 @@ class Failed(Event, frozen=True):
 
 
 class Checking(RobotEvent, frozen=True):
-    """The check of the robot's package begins; one that was begun before is cancelled."""
+    """The check of the robot's package begins; an unfinished earlier one is cancelled."""
 
 
 class CheckDone(RobotEvent, frozen=True, tag="checked"):
@@ -102,7 +103,7 @@ class CheckDone(RobotEvent, frozen=True, tag="checked"):
 
 
 class Noted(Event, frozen=True):
-    """Findings about no robot; reported once, until they end and come again."""
+    """Findings that concern no robot. Each is reported once, and again if it ends and comes back."""
 
     diagnostics: tuple[Diagnostic, ...]
 
@@ -129,7 +130,7 @@ class Ran(RobotEvent, frozen=True):
 
 
 class Stopping(Event, frozen=True):
-    """The daemon was told to end; the last event."""
+    """The daemon was told to end. This is the last event."""
 
     signal: str
     """Name of the signal, for example `SIGINT`."""

@@ -42,7 +42,7 @@ class CommandRunner:
     def run(self, robot: RobotConfig, files: Sequence[Path]) -> Iterator[events.Event]:
         """Run the command for a robot with these changed files, after a running one has ended.
 
-        Several changes in the meantime make one more run. `CommandEnded` is put into the queue at the end.
+        Several changes in the meantime cause only one more run. `CommandEnded` is put into the queue at the end.
         """
         if not self._command:
             return
@@ -71,7 +71,7 @@ class CommandRunner:
             text = str(robot.folder)
         names = {"URDFSYNC_ROBOT": robot.name, "URDFSYNC_PACKAGE": robot.target.package, "URDFSYNC_FILES": text}
         try:
-            code = subprocess.run(  # noqa: S602 - a shell command is what the user gives
+            code = subprocess.run(  # noqa: S602 - the user gives a shell command
                 self._command,
                 shell=True,
                 cwd=self._folder,

@@ -1,4 +1,4 @@
-"""Events of the file system, by way of watchdog."""
+"""Events of the file system, from watchdog."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ _HINTS = {
 }
 
 
-# it warns of lost events, which the next rescan replaces
+# watchdog warns of lost events; the next rescan makes up for them
 logging.getLogger("watchdog").addHandler(logging.NullHandler())
 
 
@@ -56,7 +56,7 @@ class Observer(events.FileSystemEventHandler):
         self._queue = queue
         self._backend: BaseObserver | None = None
         self._watches: dict[tuple[str, bool, int, int], ObservedWatch] = {}
-        """By folder, whether folders below are watched, too, and the numbers of device and file."""
+        """Watches by folder, whether folders below are watched, too, device number and inode."""
 
     def dispatch(self, event: events.FileSystemEvent) -> None:
         """Put an event into the queue."""

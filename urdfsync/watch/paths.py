@@ -19,7 +19,7 @@ _FEW = 16
 
 
 class WatchedFolders(msgspec.Struct, frozen=True):
-    """Folders to watch; without symbolic links, as events have none."""
+    """Folders to watch. Their paths contain no symbolic links, like those of events."""
 
     singles: frozenset[str] = frozenset()
     """Folders to watch without the folders below them."""

@@ -85,7 +85,7 @@ class RobotStatus(NamedTuple):
 
     activity: Activity
     text: str
-    """The rest of a line that names the robot."""
+    """The words after the robot's name."""
 
 
 class LogLine(NamedTuple):

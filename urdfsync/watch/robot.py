@@ -16,10 +16,10 @@ from urdfsync.diagnostics import Diagnostic
 from urdfsync.engine.package_files import note_state, unchanged_state
 
 _TOLD = (STAT, STAT_TYPE, LSTAT)
-"""Kinds of entries whose changes are reported, inputs first; not names in folders or states of other robots."""
+"""Kinds of entries whose changes are reported, inputs first. Lists of folders and other robots' states are not."""
 
 Looks: TypeAlias = dict[Entry, "str | tuple[int, ...]"]
-"""The state of each entry: the hash of a file's content, without its times; facts of all else."""
+"""The state of each entry: for a file its content's hash, whatever its times; for all else its facts."""
 
 
 def look_at(entry: Entry, facts: tuple[int, ...] | None = None) -> str | tuple[int, ...]:
@@ -56,7 +56,7 @@ class WatchedRobot(msgspec.Struct):
     due: float = math.inf
     """When to look at the files next, in seconds of a monotonic clock; infinite at rest."""
     is_told: bool = False
-    """Whether `Settling` was reported; looks after the daemon's own builds are not."""
+    """Whether `Settling` was reported; it is not reported after the daemon's own writes."""
     sample: Looks | None = None
     """The state at the look before the last; None if an event came since. Two equal looks: the robot has settled."""
     invalid_until: float = 0.0
@@ -66,7 +66,7 @@ class WatchedRobot(msgspec.Struct):
     failure: tuple[Diagnostic, ...] | None = None
     """Why the last build failed; None if it did not."""
     left_alone: frozenset[tuple[str, str]] = frozenset()
-    """What the last build left: misfits, and stale files that it did not write, with the kinds of their actions."""
+    """Files that the last build left alone: misfits, and stale files that it did not write; each with the reason."""
     pending: tuple[Path, ...] = ()
     """Files that were written while the package is broken: the command of `--exec` waits until it is repaired."""
 

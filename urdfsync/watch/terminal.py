@@ -29,7 +29,7 @@ class StatusArea:
 
     @property
     def room(self) -> int:
-        """The most rows of the status: a third of the terminal, or four of five rows."""
+        """The most rows of the status: a third of the terminal, but at least four if it has five."""
         height = self.console.height
         return max(min(4, height - 1), height // 3)
 

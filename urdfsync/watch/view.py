@@ -1,7 +1,7 @@
 """Serves the pages of watched robots to browsers on this machine; server-sent events update them.
 
-The server listens only on the loopback interface. Requests from pages of other sites are refused: their `Origin`
-differs, or their `Host`, if the name of the site resolves to this machine.
+The server listens only on the loopback interface. It refuses requests from pages of other sites. Their `Origin`
+differs, or their `Host` does, if the other site's name resolves to this machine.
 """
 
 from __future__ import annotations

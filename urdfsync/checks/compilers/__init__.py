@@ -1,4 +1,4 @@
-"""Modelica compilers. A job is done in a process of its own: it may crash, and keeps gigabytes for large robots."""
+"""Modelica compilers. Each job runs in its own process: a compiler may crash, and keeps gigabytes for large robots."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from urdfsync.diagnostics import ConfigError, Diagnostic, Severity
 COMPILERS: Mapping[str, Compiler] = {
     name: cast(Compiler, import_module(f"{__name__}.{name}")) for name in get_args(settings.Compiler)
 }
-"""By the value of `--tool`, the default first."""
+"""The compilers by the value of `--tool`, the default first."""
 BOTH = "both"
 """The value of `--tool` that compares two compilers."""
 _BOTH = ("rumoca", "omc")
@@ -31,7 +31,7 @@ _BOTH = ("rumoca", "omc")
 def choose(config: Config, name: str | None = None, *, trusted: bool = False) -> tuple[Tool, ...]:
     """Return the one or two compilers that `--tool` chooses; if `name` is None, those that the configuration chooses.
 
-    `trusted` says whether the user trusts the configuration: it may choose a compiler by which models start programs,
+    `trusted` says whether the user trusts the configuration: it may choose a compiler that lets models start programs,
     or name the compiler's program. `--tool omc` is the user's own choice.
     """
     chosen = name or config.check.tool

@@ -118,7 +118,7 @@ class Complaint(msgspec.Struct, frozen=True):
 
     message: str
     file: str = ""
-    """As the compiler names it; empty if it does not."""
+    """The file as the compiler names it; empty if it names none."""
     line: int = 0
     column: int = 0
     code: str = "does-not-compile"
@@ -137,13 +137,13 @@ class Compiler(Protocol):
     MODULES: tuple[str, ...]
     """The modules that have to be installed."""
     INSTALL: str
-    """How to get it, as a hint."""
+    """How to install the compiler, as a hint."""
     METHODS: tuple[str, ...]
     """Methods of integration."""
     HAS_STANDARD_LIBRARY: bool
     """Whether the compiler finds the Modelica Standard Library itself."""
     STARTS_PROGRAMS: bool
-    """Whether models can start programs through it. Then the user has to trust the configuration that chooses it."""
+    """Whether it lets models start programs. Then the user has to trust the configuration that chooses it."""
 
     def program(self, named: str) -> str | None:
         """Return the path of the program to start, empty if it needs none; None if it is missing.

@@ -1,4 +1,4 @@
-"""OpenModelica: `omc SCRIPT.mos` for each job; its answers stand in its output, results in files.
+"""OpenModelica: `omc SCRIPT.mos` runs each job; its output has the answers, files have the results.
 
 Written for the answers that OpenModelica 1.27 gave, see docs/openmodelica.md.
 """
@@ -292,8 +292,8 @@ def _simulated(task: CompileTask, answers: Sequence[_Answer], folder: Path) -> C
 def _read_results(file: Path, task: CompileTask) -> SimulationResult:
     """Read a trajectory in MATLAB's format 4. It has parameters as well; CSV lacks them.
 
-    Two tables have the numbers: `data_1` constants, at the beginning and at the end; `data_2` a column for each
-    instant. `dataInfo` has the table and the row of each name, from 1 on; a negative row is negated.
+    Two tables have the numbers: `data_1` the constants at the beginning and at the end, `data_2` a column for each
+    instant. `dataInfo` has the table and the row of each name, from 1 on; a negative row means negated numbers.
     """
     import numpy as np  # scipy brings it along
     from scipy.io import loadmat

@@ -1,9 +1,9 @@
 """The loops of a robot in Pinocchio: closed poses, closed motions, and the forces of the loops.
 
-Pinocchio has a tree, with two frames for each loop, and computes their poses and Jacobians. Only the choice of the
-equations and the start come from `kinematics.loops`. With the place x and the axes R of the child's frame in the
-parent's, the equations are t·x = 0 and u·R·v = 0, together g = 0. The motion of the axes is given; the other joints
-follow: J·q̇ = 0 and J·q̈ = -J̇·q̇, where J is the derivative of g.
+Pinocchio's model is a tree. Two frames are added for each loop, and Pinocchio computes their poses and Jacobians. Only
+the choice of the equations and the start come from `kinematics.loops`. Let x and R be the child frame's position and
+axes in the parent's frame. Then the equations are t·x = 0 and u·R·v = 0, together g = 0. The motion of the axes is
+given; the other joints follow: J·q̇ = 0 and J·q̈ = -J̇·q̇, where J is the derivative of g.
 """
 
 from __future__ import annotations
@@ -19,36 +19,36 @@ from urdfsync.urdf.kinematics.loops import Assembly
 Array = NDArray[np.float64]
 
 _STEPS = 8
-"""Steps from the start to a pose, so that both belong to one assembly."""
+"""Number of steps from the start to a pose: small steps keep the loops in the same assembly."""
 _ITERATIONS = 30
 CLOSED, _FARTHEST = 1e-12, 1.0
-"""Largest gap and step, in rad and m, of a converged Newton's method; the smallest of a diverging one."""
+"""Newton's method converges if no gap or step (rad, m) exceeds the first, and diverges if one reaches the second."""
 _NEAR_DEAD_POINT = 0.25
-"""Part of the start's least singular value; below it a compiler may find another assembly."""
+"""Fraction of the Jacobian's least singular value at the start; below it a compiler may find another assembly."""
 
 
 class OpenLoopError(Exception):
-    """The loops can't be closed in a pose, or hardly."""
+    """The loops can't be closed in a pose, or it is near a dead point."""
 
 
 class Reaction(NamedTuple):
-    """A loop at an instant."""
+    """The gap and the force of a loop at an instant."""
 
     gap: Array
-    """From the parent's frame to the child's, in the root's frame."""
+    """Vector from the parent's frame to the child's, resolved in the root's frame."""
     force: Array
-    """Of the parent on the child, in the parent's frame of the loop."""
+    """Force of the parent on the child, resolved in the loop's frame on the parent."""
     torque: Array
 
 
 class Closing:
-    """The loops of a robot; `others` are the joints that follow through loops."""
+    """The loops of a robot, and the joints that follow through them."""
 
     def __init__(self, pin: Any, model: Any, assembly: Assembly, others: Array, start: Array, first: Array) -> None:
         """Add frames to the model.
 
-        Positions of all coordinates are the sum of those that follow from the axes, such as `start`, and `others` times
-        the positions of the other joints, which are `first` at the start.
+        The positions of all coordinates are a sum: those that follow from the axes (`start` at the start), and `others`
+        times the positions of the other joints (`first` at the start).
         """
         self._pin, self._model, self._others, self._start, self._first = pin, model, others, start, first
         self._closures = [assembly.closures[loop.name] for loop in assembly.tree.loops]
@@ -68,7 +68,7 @@ class Closing:
         return int(model.addFrame(frame, append_inertia=False))
 
     def closed(self, positions: Array) -> Array:
-        """Return closed positions by Newton's method; `positions` follow only from the axes. Raises OpenLoopError."""
+        """Close the loops by Newton's method; `positions` are those that follow from the axes. Raises OpenLoopError."""
         others = self._first
         for share in np.linspace(0, 1, _STEPS + 1):
             known = self._start + share * (positions - self._start)
@@ -84,9 +84,9 @@ class Closing:
         return np.asarray(positions + self._others @ others)
 
     def motion(self, positions: Array, axes: Array, speeds: Array) -> tuple[Array, Array]:
-        """Return the velocities for a velocity of 1 of each axis.
+        """Return the velocities of all coordinates for each axis that moves with velocity 1.
 
-        Return also the accelerations at these speeds, for unaccelerated axes.
+        Return also their accelerations at these `speeds` while no axis accelerates.
         """
         jacobian = self._equations(positions)[1]
         ways = axes - self._others @ np.linalg.lstsq(jacobian @ self._others, jacobian @ axes)[0]
@@ -94,7 +94,7 @@ class Closing:
         return ways, -self._others @ np.linalg.lstsq(jacobian @ self._others, drift)[0]
 
     def reactions(self, positions: Array, load: Array) -> list[Reaction]:
-        """Return gaps and forces; `load` are the efforts of all coordinates without loops.
+        """Return gaps and forces; `load` are the efforts that all coordinates would need without loops.
 
         Followers have no drives: the forces λ in the loops carry their load, Jᵀ·λ.
         """
@@ -110,7 +110,7 @@ class Closing:
         return found
 
     def forces(self, positions: Array, load: Array) -> Any:
-        """Return the forces in all loops in Pinocchio's form: on the bodies of joints, in their frames."""
+        """Return the forces in all loops in Pinocchio's form: one on each joint's body, in the joint's frame."""
         pin, model = self._pin, self._model
         data, forces = self._data(positions), [pin.Force.Zero() for _ in range(model.njoints)]
         for (parent, child), reaction in zip(self._frames, self.reactions(positions, load), strict=True):
@@ -129,14 +129,14 @@ class Closing:
         return data
 
     def _equations(self, positions: Array) -> tuple[Array, Array]:
-        """Return the left sides of all equations at a pose, and their derivatives by all coordinates."""
+        """Return the left sides of all equations at a pose, and their derivatives with respect to all coordinates."""
         pin, model, data = self._pin, self._model, self._data(positions)
         gaps, rows = list[float](), list[Array]()
         for frames, closure in zip(self._frames, self._closures, strict=True):
             pose = data.oMf[frames[0]].actInv(data.oMf[frames[1]])
             axes = pose.rotation
             parent, child = (pin.getFrameJacobian(model, data, frame, pin.LOCAL) for frame in frames)
-            # of the child's frame against the parent's, resolved in the child's
+            # how the child's frame moves relative to the parent's, resolved in the child's
             jacobian = child - pose.inverse().action @ parent
             for t in closure.translations:
                 gaps.append(float(t @ pose.translation))
@@ -148,7 +148,7 @@ class Closing:
         return np.array(gaps), np.array(rows)
 
     def _drift(self, positions: Array, velocity: Array) -> Array:
-        """Return J̇·q̇, the second derivatives of the left sides without accelerations of the coordinates."""
+        """Return J̇·q̇, the second derivatives of the left sides while no coordinate accelerates."""
         pin, model, data = self._pin, self._model, self._model.createData()
         pin.forwardKinematics(model, data, self._q(positions), velocity, np.zeros(model.nv))
         pin.updateFramePlacements(model, data)

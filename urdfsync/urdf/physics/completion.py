@@ -28,11 +28,11 @@ _NEEDED = {
 }
 """Attributes that Pinocchio's reader requires."""
 _PER_MASS = (0.013, 0.002, -0.003, 0.016, 0.001, 0.012)
-"""Made-up inertias of 1 kg, in the order of the fields: not diagonal, and possible for a body."""
+"""Made-up inertia tensor of 1 kg, in the order of `Inertia`'s fields: not diagonal, and possible for a body."""
 
 
 class CompletedSource(NamedTuple):
-    """A copy of a URDF, the same bytes if nothing is missing, and notes on its changes, without full stops."""
+    """A copy of a URDF (the same bytes if nothing is missing), and notes on its changes, without full stops."""
 
     content: bytes
     notes: tuple[str, ...] = ()
@@ -41,7 +41,7 @@ class CompletedSource(NamedTuple):
 def completed_for_pinocchio(content: bytes, joints: Collection[str] | None = None) -> CompletedSource:
     """Return the URDF in UTF-8, with the elements and attributes that Pinocchio's reader requires.
 
-    `joints` are those of our reading, see `plain_root`.
+    `joints` are the names of the joints that our reader found, see `plain_root`.
     """
     root = xml.parse(content := plain_urdf(content, joints)).root
     added = set() if root.get("name") else {"the robot's name"}
@@ -72,8 +72,8 @@ def completed_for_pinocchio(content: bytes, joints: Collection[str] | None = Non
 def with_inertias(content: bytes, tree: KinematicTree) -> CompletedSource:
     """Return the URDF with made-up inertias in all links behind a moving joint that carries no mass.
 
-    The root link counts as moving: a robot without any mass gets inertias in all its links. Other couplings become
-    `<mimic>`.
+    The root link counts as moving: a robot without any mass gets inertias in all its links. Couplings that the source
+    states in another way become `<mimic>`.
     """
     massless, root = _massless_links(tree), xml.parse(content).root
     couplings = {joint.name: mimic for joint, mimic in tree.followers()}
@@ -96,7 +96,7 @@ def with_inertias(content: bytes, tree: KinematicTree) -> CompletedSource:
 
 
 def _massless_links(tree: KinematicTree) -> set[str]:
-    """Return the links below moving joints that carry no mass, those joints' own links included."""
+    """Return all links below each moving joint that carries no mass, its child included."""
     massive = {link.name for link in tree.links if link.inertial and link.inertial.mass > 0}
     for joint in reversed(tree.joints):  # from the leaves to the root
         if joint.child in massive:
@@ -110,7 +110,7 @@ def _massless_links(tree: KinematicTree) -> set[str]:
 
 def _made_up_inertial(link: str) -> Element:
     """Return mass properties that no two links share, in a frame that is turned and off-centre."""
-    mass = random.Random(link).uniform(0.5, 3)  # noqa: S311 - the link's name decides: the same on every machine
+    mass = random.Random(link).uniform(0.5, 3)  # noqa: S311 - seeded by the link's name: the same on every machine
     element = Element("inertial")
     SubElement(element, "origin", xyz="0.04 -0.07 0.06", rpy="0.3 -0.8 0.6")
     SubElement(element, "mass", value=repr(round(mass, 3)))

@@ -1,7 +1,7 @@
-"""Force and torque of the ground on a standing robot, from the robot's own numbers: no reference has contacts.
+"""Force and torque of the ground on a standing robot, from the robot's own numbers: the reference has no contacts.
 
 The base is held level, so that no robot tips, and the joints are held at the start. The force on each point follows the
-law of the library's `Contacts.Functions.point`, written once more.
+law of the library's `Contacts.Functions.point`, which is written here a second time.
 """
 
 from __future__ import annotations
@@ -21,21 +21,21 @@ from urdfsync.urdf.robot import Box, Capsule, Contact, Cylinder, Sphere
 
 GRAVITY = 9.80665
 PENETRATION, DAMPING_RATIO, FRICTION, SLIP_SPEED = 3e-4, 2.0, 0.8, 1e-3
-"""Numbers of the ground for links without numbers of their own."""
+"""The ground's numbers for links that state none."""
 _UPRIGHT, _TILTED = 1e-3, 0.15
-"""Sines of the tilt between which a cylinder changes from its end to its rim."""
+"""Sines of a cylinder's tilt: between them, the contact moves from its end to its rim."""
 
 
 class Point(NamedTuple):
     """A point of a link that may touch the ground."""
 
     place: Array
-    """In the root link's frame, raised by the link's depth without a force."""
+    """Position in the root link's frame, raised by the link's `min_depth`, at which there is no force yet."""
     share: float
-    """Weight among the points of its shape."""
+    """Weight of this point among the points of its shape."""
     stiffness: float
     damping: float
-    """As part of the spring force, in s/m."""
+    """Damping as a fraction of the spring force, in s/m."""
     contact: Contact
 
 
@@ -48,7 +48,7 @@ class Stand(NamedTuple):
     """Depth of the lowest point at which the ground carries the weight."""
 
     def wrench(self, rise: float = 0.0, slide: Sequence[float] = (0.0, 0.0)) -> Array:
-        """Return force and torque about the root link's origin while the robot moves upward and sideways."""
+        """Return the ground's force, and its torque about the root link's origin, while the robot rises and slides."""
         total, speed = np.zeros(6), math.hypot(*slide)
         for point in self.points:
             depth = max(0.0, self.depth + self.lowest - point.place[2])
@@ -63,7 +63,7 @@ class Stand(NamedTuple):
 
 
 def stand(tree: KinematicTree, imports: Mapping[str, Import], weight: float) -> Stand | None:
-    """Return how a robot stands; None if nothing of it touches the ground, or it weighs nothing."""
+    """Return how a robot stands; None if none of its shapes can touch the ground, or it weighs nothing."""
     points = list(_points(tree, imports, weight)) if 0 < weight < math.inf else []
     if not points:
         return None
@@ -93,7 +93,7 @@ def _points(tree: KinematicTree, imports: Mapping[str, Import], weight: float) -
 
 
 def _lowest(axes: Array, shape: Any) -> Iterable[tuple[Array, float]]:
-    """Yield the touching points of a shape, from its origin, in the axes of the root link, and their weights."""
+    """Yield the touching points of a shape, with weights: vectors from its origin, in the root link's axes."""
     match shape:
         case Box(size=size):
             corners = np.array(np.meshgrid(*[(-edge / 2, edge / 2) for edge in size])).reshape(3, -1).T

@@ -1,4 +1,4 @@
-"""The experiment of the URDF domain: probes for a compiler, and the expected values by Pinocchio."""
+"""The experiment of the URDF domain: probes for a compiler, and the expected values from Pinocchio."""
 
 from __future__ import annotations
 
@@ -26,11 +26,11 @@ from urdfsync.urdf.robot import MOTION_KINDS, Robot
 _ITERATED = 1e-7
 """The least tolerance for robots with loops: compilers close them by iteration."""
 _MOST_AXES = 20
-"""The most freely moving axes of a package's robot: rumoca takes 6 GB for 30."""
+"""Greatest number of axes in the free motion of a package's robot: rumoca takes 6 GB for 30."""
 
 
 def experiment(sample: Sample, step: float | None = None) -> Experiment | str:
-    """Return the comparison, see `urdfsync.checks.experiment.Checks`. Links that move without any mass get inertias.
+    """Return the comparison, see `urdfsync.checks.experiment.Checks`. Moving links without any mass get inertias.
 
     Raises SourceError if the source has errors, or if Pinocchio is not installed or can't read it.
     """
@@ -47,11 +47,11 @@ def experiment(sample: Sample, step: float | None = None) -> Experiment | str:
     completed, made_up = completion.with_inertias(completed, KinematicTree.of(robot))
     tree = KinematicTree.of(_robot(read_robot(completed, file, options)), (sample.target.name,))
     trials = list[Trial]()
-    # the record has a warning then
+    # the record of any other robot has a warning
     has_record = not (
         tree.loops or obstacles(tree.joints) or any(sharing_joint(joint, "joint") for joint in tree.joints)
     )
-    # the reference has the smooth law and rigid drives, and the embedded compiler starts no two joints that slide
+    # the reference has smooth friction and rigid drives, and rumoca can't start two joints with stiction that slide
     simplified = msgspec.structs.replace(options, friction="smooth", elastic="none", saturated="none")
     with np.errstate(all="ignore"):  # infinite numbers in the source
         try:
@@ -73,7 +73,7 @@ def experiment(sample: Sample, step: float | None = None) -> Experiment | str:
 
 
 def _trials(subject: Subject, approach: str, step: float | None) -> Iterator[Trial]:
-    """Yield the simulations for one approach, first the one of all instants."""
+    """Yield the simulations for one approach; the first goes through all instants."""
     names = probe.robot_variables(subject, approach)
     label = " of the record" if len(subject.options.approach) > 1 and approach == "record" else ""
     pairs = list(quantities.bodies(subject, names))
@@ -102,7 +102,7 @@ def _trials(subject: Subject, approach: str, step: float | None) -> Iterator[Tri
 
 
 def _free(subject: Subject, names: RobotVariables, name: str) -> Iterator[Trial]:
-    """Yield the trial with given efforts, if accelerations follow from them."""
+    """Yield the trial in which given efforts move the axes, if these efforts determine the accelerations."""
     is_free, reference, time = subject.options.base == "floating", subject.reference, (0.0,)
     courses = [probe.free_course(subject, number) for number in range(len(subject.axes))]
     state = reference.free_state(courses, motion.FREE_START if is_free else {})
@@ -137,7 +137,7 @@ def _free(subject: Subject, names: RobotVariables, name: str) -> Iterator[Trial]
 
 
 def _simplified(tree: KinematicTree, options: Options) -> Iterator[str]:
-    """Yield the laws of joints that the compared package lacks."""
+    """Yield the chosen laws of joints that the compared package replaces by simpler ones, in words."""
     driven = assembly(tree, options).driven
     drives = [joint for joint in tree.joints if joint.name in driven]
     joints = {
@@ -164,7 +164,7 @@ def _not_compared(subject: Subject) -> Iterator[str]:
     if "record" in options.approach and subject.tree.loops:
         yield "the record, which has no loops"
     elif "record" in options.approach and obstacles(subject.tree.joints):
-        yield "the record, which has no tables with ball joints"
+        yield "the record: it has no tables for robots with ball joints"
     elif "record" in options.approach:
         yield "limits, sensors and contacts of the generic robot"
 

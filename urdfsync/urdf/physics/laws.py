@@ -1,7 +1,7 @@
-"""Laws of joints that the reference lacks: whether one of each kind gives energy away that it never got.
+"""Checks the laws of joints that the reference lacks: a joint must not give away energy that it never got.
 
-Each such joint of the package stands alone in the world, behind it a body. Its axis moves to and fro from a relaxed
-start. Up to any time, the energy that the axis takes in is then at least zero: friction loses some, springs and bodies
+One joint of each kind in the package stands alone in the world and carries a body. Its axis moves to and fro from a
+relaxed start. Up to any time, the axis must have taken in at least zero energy: friction loses some, springs and bodies
 hand back what they got (passivity). A law with the wrong sign hands out more.
 """
 
@@ -55,7 +55,7 @@ def laws_trial(tree: KinematicTree, target: Target, options: Options) -> Trial |
 
 
 def _declarations(k: int, model: str, joint: Joint, laws: str) -> Iterator[str]:
-    """Yield a joint, its body and what moves it: by an effort if it sticks, since it can't follow a prescribed way.
+    """Yield a joint, its body and its drive. A sticking joint is driven by an effort: it can't follow a prescribed way.
 
     The body is light, so that its energy hides no loss; on a spring it swings slowly enough for any solver.
     """
@@ -65,7 +65,7 @@ def _declarations(k: int, model: str, joint: Joint, laws: str) -> Iterator[str]:
     light = f"1e-4*{stiffness}" if "spring" in laws else breakaway if is_pushed else "1e-6"
     mass, inertia = ("1", light) if is_turning else (light, "1")
     inertias = ", ".join(f"I_{i}{i} = {inertia}" for i in (1, 2, 3))
-    # prescribed axes begin where they are, and their springs relaxed
+    # the drive gives a prescribed axis its start, where the spring is relaxed
     yield f"{model} joint{k}(checkLimits = false, fixedStart = {str(is_pushed).lower()})"
     yield f"Modelica.Mechanics.MultiBody.Parts.Body body{k}(animation = false, m = {mass}, r_CM = zeros(3), {inertias})"
     kind, q = ("Rotational", "phi") if is_turning else ("Translational", "s")

@@ -1,8 +1,8 @@
-"""The motion of a robot in the comparison: a function of names and limits, the same on every machine.
+"""The motion of a robot in the comparison. It depends only on names and limits: it is the same on every machine.
 
 One simulation goes through all instants, since compiling is expensive. At each instant base and axes have given
-positions, speeds and accelerations. In between they move smoothly: joints in loops follow by integration, which jumps
-would stop.
+positions, speeds and accelerations. In between they move smoothly: joints in loops follow by integration, and a jump
+would stop the integration.
 """
 
 from __future__ import annotations
@@ -22,24 +22,24 @@ GRAVITY = 9.81
 """Along -z of the world, in m/s²."""
 
 ENDLESS = 1e300
-"""A larger limit is none: numbers that follow from it would be infinite."""
-_FARTHEST = 10.0  # limits beyond it (m or rad) do not show where a joint works, and cost digits
+"""A larger limit counts as none: numbers that follow from it would be infinite."""
+_FARTHEST = 10.0  # m or rad; limits beyond it do not tell where a joint works, and cost digits
 
 
 class Course(NamedTuple):
-    """One coordinate at an instant."""
+    """Position, speed and acceleration of one coordinate at an instant."""
 
     position: float
     speed: float
     acceleration: float
 
     def ahead(self, time: float) -> Course:
-        """Return the course at a time after the instant."""
+        """Return the course `time` seconds after the instant, at constant acceleration."""
         position = self.position + self.speed * time + self.acceleration * time**2 / 2
         return Course(position, self.speed + self.acceleration * time, self.acceleration)
 
     def way_to(self, goal: Course) -> tuple[float, ...]:
-        """Return coefficients of the time since the instant: they lead to the goal one second later."""
+        """Return the coefficients of a polynomial in the time since the instant. It reaches the goal after 1 s."""
         d, v, a = (there - left for there, left in zip(goal, self.ahead(1.0), strict=True))
         parabola = self.position, self.speed, self.acceleration / 2
         return *parabola, 10 * d - 4 * v + a / 2, 7 * v - 15 * d - a, 6 * d - 3 * v + a / 2
@@ -48,14 +48,14 @@ class Course(NamedTuple):
 class Instant(enum.IntEnum):
     """The instants, in s.
 
-    All up to `TURNED` are compared with the reference; at the others only limits are checked, and at the last four the
-    ground's force.
+    Instants up to `TURNED` are compared with the reference. At the next six limits are checked, and at the last four
+    the ground's force.
     """
 
     START = 0
-    """At rest under gravity, where Run and Test begin; only accelerations differ."""
+    """At rest under gravity, as at the beginning of Run and Test, but with accelerations."""
     SLOW = 1
-    """So slow that dry friction changes its sign."""
+    """So slow that dry friction is still changing its sign."""
     BACK = 2
     """The same in the other direction."""
     FAST = 3
@@ -68,7 +68,7 @@ class Instant(enum.IntEnum):
     HIGH = 7
     ABOVE = 8
     STRAINED = 9
-    """The effort is just above its limit, backward, so that a lost sign shows."""
+    """The effort is just above its limit and acts backward, so that a lost sign shows."""
     LOADED = 10
     """The effort is just below, in the other direction."""
     STANDING = 11
@@ -81,20 +81,20 @@ class Instant(enum.IntEnum):
 COMPARED = tuple(map(float, list(Instant)[: Instant.TURNED + 1]))
 """The instants at which all quantities are compared."""
 JUST = 1e-3
-"""Part of a limit by which it is passed or kept."""
+"""Fraction of a limit by which a value passes it or stays within."""
 LOADS = {Instant.STRAINED: -1 - JUST, Instant.LOADED: 1 - JUST}
-"""The part of its effort limit that drives each axis."""
+"""The effort that drives each axis at these instants, as a fraction of its limit."""
 PERIOD = 10.0
-"""Of the way there and back in Test, in s."""
+"""Duration of the way there and back in Test, in s."""
 GROUND_DEPTH = 1e3
-"""Depth of the ground in m: farther than any robot reaches, and near enough for digits."""
+"""Depth of the ground in m: farther than any robot reaches, but not so far that digits are lost."""
 ON_GROUND: Mapping[Instant, Vector] = {
     Instant.STANDING: (0.0, 0.0, 0.0),
     Instant.SLIDING: (0.3, -0.2, 0.0),
     Instant.SINKING: (0.0, 0.0, -0.005),
     Instant.RISING: (0.0, 0.0, 1.0),
 }
-"""Speeds of a robot that stands."""
+"""Velocity of a standing robot's base at each instant."""
 _SWINGS = {
     Instant.START: (0.0, 0.0, 0.0),
     Instant.SLOW: (0.5, 2e-3, 0.7),
@@ -102,7 +102,7 @@ _SWINGS = {
     Instant.FAST: (0.8, 1.0, 1.5),
     Instant.TURNED: (-0.7, -1.0, -1.1),
 }
-"""Parts of one amplitude in position, speed and acceleration."""
+"""Factors of the first amplitude in position, speed and acceleration."""
 _SHIFTS = {
     Instant.START: (0.0, 0.0, 1.0),
     Instant.SLOW: (1.0, 0.0, -1.2),
@@ -110,16 +110,16 @@ _SHIFTS = {
     Instant.FAST: (-0.4, 0.0, 1.3),
     Instant.TURNED: (0.9, 0.0, -0.7),
 }
-"""Those of another amplitude, so that speed and acceleration are independent."""
+"""Factors of a second amplitude, so that speed and acceleration are independent."""
 
 
 def ways(courses: Sequence[Course]) -> list[tuple[float, ...]]:
-    """Return the way of a coordinate from each instant on."""
+    """Return the polynomials of a coordinate: one for the second after each instant."""
     return [course.way_to(goal) for course, goal in itertools.pairwise([*courses, courses[-1].ahead(1.0)])]
 
 
 def _swinging(start: float, swing: float, shift: float) -> list[Course]:
-    """Return a coordinate at the instants up to `TURNED`."""
+    """Return the courses of a coordinate at the instants up to `TURNED`."""
     rows = (zip(_SWINGS[instant], _SHIFTS[instant], strict=True) for instant in _SWINGS)
     courses = ([swing * a + shift * b for a, b in row] for row in rows)
     return [Course(start + position, speed, gain) for position, speed, gain in courses]
@@ -129,7 +129,7 @@ PATH = (Course(0.4, -0.6, 1.1), Course(-0.3, 0.8, -0.7), Course(0.9, 0.5, 1.6))
 """x, y and z of the root link's frame in the world."""
 TURN = Course(0.7, 0.9, -1.4)
 """Angle of the root link's frame about `TURN_AXIS`."""
-TURN_AXIS: Vector = (2 / 7, 3 / 7, -6 / 7)  # also that of prescribed balls, in the joint frame
+TURN_AXIS: Vector = (2 / 7, 3 / 7, -6 / 7)  # ball joints turn about it, too, in the joint's frame
 """At an angle to all axes of the world, so that gravity and centrifugal forces act along all axes of the root link."""
 
 
@@ -148,7 +148,7 @@ def axis_course(joint: Joint) -> Course:
     """Return the course of a driven axis.
 
     It begins near the middle of its range, if that is finite and sensible. The joint's name decides, so that a new
-    joint does not change the motion of the others. No speed is close to zero, where faults are invisible.
+    joint does not change the motion of the others. No speed is close to zero, where faults would be invisible.
     """
     draw = random.Random(joint.name)  # noqa: S311 - not for cryptography
 
@@ -179,14 +179,14 @@ def axis_courses(joint: Joint, start: float, strains: Mapping[Instant, float] = 
 
 
 def loop_courses(joint: Joint, start: float, share: float) -> tuple[Course, ...]:
-    """Return the courses of an axis in a loop: a share of the motion of others, without passed limits."""
+    """Return the courses of an axis in a loop: a `share` of the motion of an axis outside loops. It passes no limit."""
     course = axis_course(joint)
     moving = _swinging(start, share * course.speed, share * course.acceleration / 2)
     return (*moving, *(Course(start, 0.0, 0.0) for _ in range(len(Instant) - len(moving))))
 
 
 def base_courses(depth: float = -GROUND_DEPTH) -> tuple[tuple[Course, ...], ...]:
-    """Return the courses of the base's x, y, z and angle; it rests while limits are passed.
+    """Return the courses of the base's x, y, z and angle. The base rests while joints are at their limits.
 
     `depth` is the robot's depth in the ground.
     """

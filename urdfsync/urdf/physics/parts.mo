@@ -1,5 +1,5 @@
 
-  function place "From one instant to the next; ways has the coefficients of the time since the last one"
+  function place "Position at a time; ways has a row for each instant: the coefficients of the time since that instant"
     input Real t;
     input Real ways[:, 6];
     output Real y;
@@ -12,7 +12,7 @@
     annotation (derivative(noDerivative = ways) = speed);
   end place;
 
-  function speed "Its first derivative"
+  function speed "First derivative of place"
     input Real t;
     input Real ways[:, 6];
     input Real t1;
@@ -26,7 +26,7 @@
     annotation (derivative(noDerivative = ways, order = 2) = gain);
   end speed;
 
-  function gain "Its second derivative"
+  function gain "Second derivative of place"
     input Real t;
     input Real ways[:, 6];
     input Real t1;
@@ -76,7 +76,7 @@
     extends Modelica.Mechanics.MultiBody.Interfaces.PartialTwoFrames;
     parameter Real ways[:, 6];
     parameter Real axis[3];
-    parameter Real rpy[3] "Of the joint's frame in frame_a";
+    parameter Real rpy[3] "Angles of the joint's frame in frame_a";
     Modelica.Units.SI.Angle phi;
     Modelica.Units.SI.AngularVelocity w;
     Modelica.Mechanics.MultiBody.Frames.Orientation R;
@@ -113,13 +113,13 @@
 
 
   partial model PartialMeter "Counts the energy that a flange hands on to a joint and a body"
-    parameter Real size "Of the motion, or of the effort";
-    parameter Real inertia = 0 "Of the body, if it moves as the flange does";
+    parameter Real size "Size of the motion, or of the effort";
+    parameter Real inertia = 0 "Inertia of the body, if it moves as the flange does";
     Real effort;
     Real speed;
     Real energy(start = 0, fixed = true);
     Real exchanged(start = 1e-12, fixed = true);
-    Real given = max(0, inertia*speed^2/2 - energy)/exchanged "Part of it that the joint gives and never got";
+    Real given = max(0, inertia*speed^2/2 - energy)/exchanged "Fraction of the exchanged energy that the joint gives and never got";
   equation
     der(energy) = effort*speed;
     der(exchanged) = abs(effort*speed);

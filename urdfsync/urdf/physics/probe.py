@@ -1,6 +1,6 @@
 """The Modelica text that moves a generated robot by `motion`, and the variables to read.
 
-It uses little of the package, so that packages may be edited: the variables below, and `m`.
+It uses only `m` and the variables below, so that it also works with edited packages.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ CENTRE = tuple(f"centre[{i}]" for i in (1, 2, 3))
 
 
 class RobotVariables(msgspec.Struct, frozen=True):
-    """Names in a model that has the robot as `robot`."""
+    """Names of variables in a model whose component `robot` is the robot."""
 
     declaration: str
     """Declaration of the robot, up to the modifiers of the comparison."""
@@ -48,7 +48,7 @@ class RobotVariables(msgspec.Struct, frozen=True):
     places: Mapping[str, tuple[str, ...]]
     """Place of each link's frame."""
     axes: Mapping[str, tuple[str, ...]]
-    """Its rotation matrix, as Modelica has it."""
+    """Rotation matrix of each link's frame, as Modelica defines it."""
     joints: Mapping[str, str]
     """Component of each joint; none in the record."""
     sensors: Mapping[str, str]
@@ -58,7 +58,7 @@ class RobotVariables(msgspec.Struct, frozen=True):
 
 
 def robot_variables(subject: Subject, approach: str) -> RobotVariables:
-    """Return the names for an approach. The record moves the generic robot, whose links are numbers."""
+    """Return the names for an approach. For the record they are those of the generic robot, which numbers its links."""
     tree, target, options = subject.tree, subject.target, subject.options
     moments, three = list[str](), (1, 2, 3)
     places, axes, is_package = dict[str, tuple[str, ...]](), dict[str, tuple[str, ...]](), approach == "package"
@@ -103,7 +103,7 @@ def moving_probe(
 ) -> Probe:
     """Return a model in which base and axes of the robot move through all instants.
 
-    If it stands, the ground is at its last position. `step` is the interval of the results, in s.
+    If the robot can stand, the ground is below its last position. `step` is the interval of the results, in s.
     """
     target, options = subject.target, subject.options
     world = f"n = {{0, 0, -1}}, g = {motion.GRAVITY!r}, enableAnimation = false"
@@ -141,13 +141,13 @@ def moving_probe(
     declarations.append(f"MovingBase base({tables}, axis = {vector(motion.TURN_AXIS)})")
     source = text(target, options, "", declarations, connections, _driven_balls(subject))
     last = float(max(motion.Instant))
-    # loops are closed by integration: its error appears in accelerations, times the square of its rate of decay
+    # loops are closed by integration: accelerations contain its error times the square of its rate of decay
     tolerance = 3e-12 if subject.tree.loops else None
     return Probe(source, "Probe_.Probe", last, step, tuple(values), tuple(optional), tolerance)
 
 
 def _sweep(k: int, joint: Joint, component: str, reaches: Mapping[str, Mapping[str, str]]) -> Iterator[str]:
-    """Yield a drive as Test has one, which moves nothing, and its housing."""
+    """Yield a drive like Test's, connected only to its housing, and the housing."""
     kind = MOTION_KINDS[joint.type]
     q, v = ("phi", "w") if kind == "rotational" else ("s", "v")
     modifiers = [f"{name} = {component}.{name}" for name in (f"{q}_start", f"{q}_min", f"{q}_max", f"{v}_max")]
@@ -159,9 +159,9 @@ def _sweep(k: int, joint: Joint, component: str, reaches: Mapping[str, Mapping[s
 
 
 def _driven_balls(subject: Subject) -> list[str]:
-    """Return the lines of a class that prescribes the motion of ball joints; none without any.
+    """Return the lines of a class that prescribes the motion of ball joints; no lines if there are none.
 
-    It extends the robot, since no other class may connect drives to the frames of its joints.
+    The class extends the robot: only then may it connect drives to the frames of the robot's joints.
     """
     target, axis = subject.target, vector(motion.TURN_AXIS)
     components = [subject.tree.joint(ball.name).component for ball in subject.balls]
@@ -180,9 +180,9 @@ def _driven_balls(subject: Subject) -> list[str]:
 def free_probe(
     subject: Subject, names: RobotVariables, courses: Sequence[Course], efforts: Sequence[float], values: Iterable[str]
 ) -> Probe:
-    """Return a model with efforts on the axes, from their `courses`; every second one begins at its own place.
+    """Return a model with efforts on the axes. Their positions and speeds begin as `courses` say.
 
-    It extends the same bench as Run and Test, with their gravity.
+    The model extends the bench of Run and Test, and so has their gravity.
     """
     starts, turning, sliding = list[str](), dict[str, tuple[float, float]](), dict[str, tuple[float, float]]()
     axes, options = subject.axes, subject.options
@@ -228,9 +228,9 @@ def free_probe(
 
 
 def free_course(subject: Subject, number: int) -> Course:
-    """Return position and speed at which the axis with this number, from 0, begins to move freely, and a gain.
+    """Return how an axis begins its free motion; `number` counts the axes from 0.
 
-    An axis in a loop begins in the closed pose, a ball never at zero.
+    An axis in a loop keeps the package's start position, and so does every second one that is no ball joint.
     """
     joint = subject.axes[number]
     course = motion.axis_course(joint)
@@ -239,7 +239,7 @@ def free_course(subject: Subject, number: int) -> Course:
 
 
 def limit_variable(subject: Subject, joint: Joint, ending: str) -> str:
-    """Return the variable of a warning with the joint's name in its message.
+    """Return the variable of a warning whose message has the joint's name.
 
     The robot itself checks the effort of a leader, which carries its followers' load, and of joints that share a motor.
     """
@@ -263,9 +263,9 @@ def text(
     connections: Iterable[str],
     classes: Iterable[str] = (),
 ) -> str:
-    """Return the package `Probe_`, whose model `Probe` may extend a bench; `classes` are lines of further ones."""
+    """Return the package `Probe_`, whose model `Probe` may extend a bench; `classes` are lines of other classes."""
     libraries = [name for name, _ in options.uses]
-    imports = dict.fromkeys([*libraries, target.package.partition(".")[0]])  # rumoca loads no others
+    imports = dict.fromkeys([*libraries, target.package.partition(".")[0]])  # rumoca loads only imported ones
     lines = [
         "package Probe_",
         *(f"  import {library};" for library in imports),

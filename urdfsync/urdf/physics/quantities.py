@@ -1,4 +1,4 @@
-"""The compared quantities, each with its expected values by Pinocchio or by the source."""
+"""The compared quantities, each with its expected values from Pinocchio or from the source."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ Pair: TypeAlias = tuple[Compared, Sequence[Iterable[float]]]
 """A quantity, and its expected values at each of its instants."""
 
 _CLEAR = 1e-5
-"""Least relative distance from a limit at which it is clearly passed or kept: warnings have some slack."""
+"""Relative distance from which on a value clearly passes or keeps a limit: warnings have some slack."""
 
 
 def poses(
@@ -73,7 +73,7 @@ def _efforts(
 
 
 def over_time(subject: Subject, names: RobotVariables, step: float) -> Iterator[Pair]:
-    """Yield poses and efforts every `step` s, at times with closed loops."""
+    """Yield poses and efforts every `step` seconds, without times at which a loop can't be closed."""
     solved = dict[float, Solution]()
     for k in range(round(Instant.TURNED / step) + 1):
         with contextlib.suppress(OpenLoopError):
@@ -84,7 +84,7 @@ def over_time(subject: Subject, names: RobotVariables, step: float) -> Iterator[
 
 
 def loops(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
-    """Yield the gap of each loop, and the force in the joint that closes it, if it is unique."""
+    """Yield the gap of each loop, and the force in the joint that closes it, if that force is unique."""
     solved = [subject.solved[float(instant)] for instant in Instant]
     for k, loop in enumerate(subject.tree.loops):
         element, values = f"loop {loop.name}", tuple(f"gap{k + 1}[{i}]" for i in (1, 2, 3))
@@ -101,7 +101,7 @@ def loops(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
 
 
 def starts(subject: Subject) -> Iterator[Pair]:
-    """Yield where joints begin that loops move, then where Test moves its axes."""
+    """Yield the start positions of joints in loops, then the positions between which Test moves the axes."""
     rows, closed = subject.reference.coordinates(), subject.states[float(Instant.START)].positions
     for k, joint in enumerate(subject.closed_joints(), 1):
         what = Quantity.START, subject.loop_around(joint), _unit(joint), (f"start{k}",), (0.0,), Part.LOOPS, joint.name
@@ -141,7 +141,7 @@ def sensors(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
 
 
 def limits(subject: Subject) -> Iterator[Pair]:
-    """Yield the warnings of each joint: 1 where it comes, at instants with a clear answer."""
+    """Yield the warnings of each joint at instants with a clear answer: 1 if the warning is expected."""
     coordinates = subject.reference.coordinates()
     for joint in subject.tree.joints:
         if joint.type not in MOTION_KINDS:
@@ -150,7 +150,7 @@ def limits(subject: Subject) -> Iterator[Pair]:
         lower, upper = own_range(joint)
         speed = joint.limit.velocity if joint.limit else None
         effort = joint.limit.effort if joint.limit else None
-        # later the ground acts on the efforts, too
+        # at later instants the ground changes the efforts
         for time, state in list(subject.states.items())[: Instant.STANDING]:
             q, v = float(state.positions[row]), abs(float(state.v[row]))
             tests = {
@@ -177,7 +177,7 @@ def limits(subject: Subject) -> Iterator[Pair]:
 
 
 def ground(subject: Subject) -> Iterator[Pair]:
-    """Yield what holds a standing robot level: the parts of force and torque that the ground does not carry."""
+    """Yield the force and torque that hold a standing robot level: the parts that the ground does not carry."""
     if subject.stand is None:
         return
     held = subject.solved[float(Instant.STANDING)]
@@ -190,7 +190,7 @@ def ground(subject: Subject) -> Iterator[Pair]:
 
 
 def table(pairs: Iterable[Pair], times: Sequence[float]) -> tuple[tuple[Compared, ...], dict[str, tuple[float, ...]]]:
-    """Return the compared quantities, and the expected numbers at all times, NaN for none."""
+    """Return the compared quantities, and their expected numbers at all times; NaN where there is none."""
     every, numbers = list[Compared](), dict[str, dict[float, float]]()
     for compared, rows in pairs:
         every.append(compared)

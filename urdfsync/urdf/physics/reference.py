@@ -1,7 +1,7 @@
-"""The reference: poses, efforts, accelerations and readings of sensors of a robot by Pinocchio.
+"""The reference: a robot's poses, efforts, accelerations and sensor readings, computed by Pinocchio.
 
 Pinocchio reads the file itself. Only the parts that its reader leaves out are added here: `mimic` elements and drives.
-They are read separately, since our own reader is under test; sensors are those of the second reading.
+They are read separately, since our own reader is under test. Sensors come from the second reading.
 
 Notation as in Featherstone, Rigid Body Dynamics Algorithms (2008): efforts by the recursive Newton-Euler algorithm
 (RNEA, section 5.3). Joints that mimic others enter through q = B·p + c with the positions p of the axes, whose efforts
@@ -36,7 +36,7 @@ TURNING_STEEPNESS, SLIDING_STEEPNESS = 100, 1000
 """Steepness s of the dry friction f·tanh(s·v/2) of generated joints, in s/rad and s/m."""
 
 _GREATEST_CONDITION = 1e12
-"""Greatest condition of a mass matrix for which accelerations follow from efforts; real robots have 1 to 1e8."""
+"""Up to this condition number of the mass matrix, efforts determine accelerations; real robots have 1 to 1e8."""
 _SLIDING_JOINTS = ("JointModelPX", "JointModelPY", "JointModelPZ", "JointModelPrismatic")  # Pinocchio's names
 
 
@@ -46,15 +46,16 @@ class PinocchioRobot(NamedTuple):
     model: Any
     """Pinocchio's model; its first joint is the free motion of the root link."""
     followers: Mapping[str, Mimic]
-    """Mimic relation of each follower, by the names of joints."""
+    """Mimic relation of each follower, by the follower's name."""
     rotors: Array
-    """Inertias of the rotors in the mass matrix: Pinocchio's `armature` has none between two joints."""
+    """The rotors' part of the mass matrix: Pinocchio's `armature` can't couple two joints."""
 
 
 def read(content: bytes, file: str, loose: Collection[str] = ()) -> PinocchioRobot:
     """Read a URDF with Pinocchio. Raises SourceError if Pinocchio is not installed or refuses the file.
 
-    Fixed joints in `loose` stay joints: Pinocchio has no force in joints that it merges. Its reader has no ball joints.
+    Pinocchio merges fixed joints and has no force in them, so those in `loose` become movable. Its reader knows no ball
+    joints: they are added here.
     """
     pin = pinocchio()
     root, balls = xml.parse(content).root, set[str]()
@@ -102,7 +103,7 @@ def read(content: bytes, file: str, loose: Collection[str] = ()) -> PinocchioRob
 
 
 def _with_balls(pin: Any, model: Any, balls: Collection[str]) -> Any:
-    """Return a model in which some hinges turn in all directions; their damping is that about each axis."""
+    """Return a model in which the hinges `balls` are ball joints; each has its hinge's damping about every axis."""
     changed = pin.Model()
     for k in range(1, model.njoints):
         name, old = model.names[k], model.joints[k]
@@ -136,11 +137,11 @@ class Configuration(msgspec.Struct, frozen=True):
     v: Array
     a: Array
     positions: Array
-    """Positions of joints, by the coordinates of the velocity; those of the base have no meaning."""
+    """Positions of joints, in the order of `v`; those of the base have no meaning."""
     ways: Array
-    """Velocities of all coordinates for a velocity of 1 of each axis, a column each."""
+    """Velocities of all coordinates, a column for each axis: the axis moves with velocity 1."""
     drift: Array
-    """Accelerations of all coordinates for unaccelerated axes."""
+    """Accelerations of all coordinates while no axis accelerates."""
 
 
 class Reference:
@@ -150,7 +151,7 @@ class Reference:
         self.pin, self.model = pinocchio(), robot.model
         self.model.gravity.linear = np.array([0, 0, -motion.GRAVITY])
         self.axes = tuple(axes)
-        """The independent joints, balls last: these turn about `motion.TURN_AXIS`."""
+        """The independent joints. Ball joints come last, and turn about `motion.TURN_AXIS`."""
         self.rotors = robot.rotors
         balls = [joint for joint in self.model.joints if joint.shortname() == "JointModelSpherical"]
         self._balls, self._scalars = [joint.idx_v + k for joint in balls for k in range(3)], len(axes) - len(balls)
@@ -170,7 +171,7 @@ class Reference:
                 self.steepness[joint.idx_v] = SLIDING_STEEPNESS
 
     def state(self, courses: Sequence[Course], base: Sequence[Course] = (*motion.PATH, motion.TURN)) -> Configuration:
-        """Return the configuration for the axes, and for place and angle of the base. Raises OpenLoopError."""
+        """Return the configuration for courses of the axes, and of the base's place and angle. Raises OpenLoopError."""
         pin, model = self.pin, self.model
         p, speeds, gains = np.array(courses).reshape(-1, 3).T
         positions, ways, drift = self.projection @ p + self._offset, self.projection, np.zeros(model.nv)
@@ -190,7 +191,7 @@ class Reference:
         return state
 
     def free_state(self, courses: Sequence[Course], start: Mapping[str, Vector]) -> Configuration:
-        """Return a configuration at time 0, with the start values of a free base; another base rests at zero."""
+        """Return a configuration at time 0, with the start values of a free base; any other base is at rest at zero."""
         state, pin = self.state(courses), self.pin
         state.q[:7], state.v[:6], state.a[:6] = (*(0,) * 6, 1), 0, 0
         if start:
@@ -209,7 +210,7 @@ class Reference:
         return {name: joint.idx_v for name, joint in zip(self.model.names, self.model.joints, strict=True)}
 
     def effort_gains(self, state: Configuration, efforts: Array, columns: Sequence[int]) -> Array:
-        """Return the gains in acceleration of some axes by efforts beside those of `state`; all others keep theirs.
+        """Return by how much additional efforts accelerate some axes beyond `state`; other accelerations stay.
 
         (Bᵀ·M·B)·a = efforts, with the columns of these axes in B.
         """
@@ -217,10 +218,10 @@ class Reference:
         return self._solved(ways.T @ self._mass(state.q) @ ways, efforts)
 
     def free_gains(self, state: Configuration, efforts: Array, is_free: bool) -> tuple[Array, float] | None:
-        """Return the accelerations of all coordinates from the efforts of the axes; None if none follow.
+        """Return the accelerations of all coordinates; None if the efforts of the axes do not determine them.
 
-        Return also their relative uncertainty, since poses are closed only to `closing.CLOSED`: light joints that hang
-        on heavy ones amplify such errors. The base rests, unless `is_free`. Balls turn in all directions.
+        Return also their relative uncertainty: loops are closed only to `closing.CLOSED`, and a large load on a small
+        mass amplifies this error. The base rests, unless `is_free`. Ball joints turn in all directions.
         """
         data, nv = self.model.createData(), self.model.nv
         load = self._load(data, state, state.drift)
@@ -240,17 +241,17 @@ class Reference:
         return np.asarray(self.pin.crba(self.model, self.model.createData(), q)) + self.rotors
 
     def _load(self, data: Any, state: Configuration, a: Array) -> Array:
-        """Return the efforts of all coordinates, losses among them, for a configuration with accelerations `a`."""
+        """Return the efforts of all coordinates, including losses, for a configuration with accelerations `a`."""
         return np.asarray(self.pin.rnea(self.model, data, state.q, state.v, a) + self.rotors @ a + self.losses(state.v))
 
     @staticmethod
     def _solved(mass: Array, efforts: Array) -> Array:
         if not len(efforts) or not np.isfinite(mass).all() or not np.isfinite(efforts).all():
-            return np.zeros(len(efforts))  # numbers without end in the source, which no simulation takes
+            return np.zeros(len(efforts))  # infinite numbers in the source: no simulation accepts them
         return np.asarray(np.linalg.lstsq(mass, efforts)[0])
 
     def acceleration(self, state: Configuration, sensor: Element) -> tuple[Array, Array]:
-        """Return acceleration minus gravity and angular velocity at a place on a link, in the axes of the sensor."""
+        """Return a sensor's acceleration minus gravity, and its angular velocity, in the sensor's axes."""
         pin, model = self.pin, self.model
         link = model.frames[model.getFrameId(sensor.parent, pin.BODY)]
         pose = link.placement * pin.SE3(origin(sensor))
@@ -264,7 +265,7 @@ class Reference:
         return gain, pin.getFrameVelocity(model, data, frame, pin.LOCAL).angular
 
     def wrench(self, state: Configuration, sensor: Element, parent: str) -> tuple[Array, Array]:
-        """Return force and torque in the joint of a sensor, below the link `parent`, in the sensor's axes."""
+        """Return force and torque in a sensor's joint, in the sensor's axes; `parent` is the link above the joint."""
         pin, model = self.pin, self.model
         data, joint = model.createData(), model.getJointId(sensor.parent)
         load = self._load(data, state, state.a)
@@ -325,7 +326,7 @@ class Solution(msgspec.Struct, frozen=True):
     efforts: Array
     """Efforts of the axes."""
     reactions: Sequence[Reaction]
-    """Of the loops, in the order of the tree; gaps are in the world."""
+    """Reactions of the loops, in the order of the tree; their gaps are resolved in the world."""
 
     def frame(self, link: str) -> tuple[Array, Array]:
         """Return place and axes (as columns) of a link's frame in the world."""

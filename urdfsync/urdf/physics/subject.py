@@ -25,9 +25,9 @@ from urdfsync.urdf.robot import MOTION_KINDS, Joint
 from urdfsync.urdf.second.reading import Element, read_again
 
 _MARGIN = 0.9
-"""Part of ranges and speeds that Test uses."""
+"""Fraction of ranges and speeds that Test uses."""
 _REACH = {"rotational": 1.0, "translational": 0.1}
-"""The longest way of Test, in rad and m, unless loops leave less."""
+"""The longest way of an axis in Test, in rad or m, unless loops allow less."""
 _SHARES = tuple(0.25**k for k in range(8))
 
 
@@ -51,10 +51,10 @@ class Subject:
         """The parts of this robot that are not compared, in order."""
         self.starts = start_positions(closed.tree)
         self.share = self._closable_share()
-        """Share of the amplitudes for joints in loops."""
+        """Fraction of the usual amplitudes by which joints in loops move."""
         limits = [joint.limit.effort if joint.limit and joint.limit.effort else math.inf for joint in self.axes]
         courses, strains = self._courses(self.share), dict[Instant, dict[str, float]]()
-        # accelerations of any size may open a loop
+        # loads accelerate no joint in a loop: a large acceleration may open the loop
         outside = [n for n, joint in enumerate(self.axes) if not self.is_in_loop(joint)]
         for instant, share in LOADS.items():
             state = self._state(instant, courses)
@@ -70,7 +70,7 @@ class Subject:
 
     @cached_property
     def sensors(self) -> Mapping[str, Element]:
-        """The sensors as they are read again."""
+        """The sensors of the second reading."""
         return read_again(self.content, self.options).sensors
 
     @cached_property
@@ -83,9 +83,9 @@ class Subject:
         return checked
 
     def sweeps(self) -> Iterator[tuple[Joint, float, float]]:
-        """Yield where Test moves each axis: the start, and the farther end of the range, with a margin.
+        """Yield each axis with the ends of its way in Test: the start, and the farther end of the range, with a margin.
 
-        A speed of pi/period times the way is kept by a cosine.
+        The axis moves along a cosine: its greatest speed is pi/period times the way.
         """
         ranges, followers = position_ranges(self.tree), self.tree.followers_by_leader()
 
@@ -103,11 +103,11 @@ class Subject:
                 yield joint, start, start + above if above >= below else start - below
 
     def closed_joints(self) -> Sequence[Joint]:
-        """Return the joints whose start closes a loop, as far as the package states it."""
+        """Return the joints in loops whose start the package states."""
         return [joint for joint in self.tree.joints if self.is_in_loop(joint) and joint.start is not None]
 
     def loop_around(self, joint: Joint) -> str:
-        """Return the first loop that a joint is a part of, in words; else the joint."""
+        """Return the first loop that contains a joint, in words; the joint itself if none does."""
         above = {each.child: each for each in self.tree.joints}
 
         def path(link: str) -> set[str]:
@@ -150,7 +150,7 @@ class Subject:
         return self.reference.state([course[instant] for course in courses], [c[instant] for c in self.base])
 
     def solve_at(self, time: float) -> Solution:
-        """Return the expected values at any time of the motion, by `parts.mo`. Raises OpenLoopError."""
+        """Return the expected values at any time of the motion in `parts.mo`. Raises OpenLoopError."""
         second = math.floor(time)
 
         def at(courses: Sequence[Course]) -> Course:

@@ -1,1 +1,1 @@
-"""A second reading of the source, which shares no code with the first, and the package's numbers compared with it."""
+"""A second reading of the source, which shares no code with the first, and its comparison with a package's numbers."""

@@ -36,7 +36,7 @@ from urdfsync.urdf.second.tables import expected_tables
 _RECORDS = "UrdfSync.Records."
 _SHAPE = re.compile(r"((?:visual|collision)\d+)(?:_\d+)?(\.|Corners)")
 _LETTERS = {True: ("phi", "w", "tau"), False: ("s", "v", "f")}
-"""Position, speed and effort in Modelica, of joints that turn and of joints that slide, as `COMMANDS`."""
+"""Modelica's letters of position, speed and effort, in the order of `COMMANDS`, by whether a joint turns."""
 _NO_MASS = {
     **dict.fromkeys(("inertial.origin.xyz", "inertial.origin.rpy"), ZERO),
     **{f"inertial.{path}": (0.0,) for path in ("mass", *(f"inertia.{part}" for part in TENSOR))},
@@ -61,7 +61,7 @@ def compare_numbers(sample: Sample, packages: Sequence[Mapping[str, bytes]]) -> 
 
 
 class _Comparison:
-    """Counts the values of the texts in `right`, `total` and `uncompared`, and tells `differences`."""
+    """Counts the values of a package's texts in `right`, `total` and `uncompared`, and lists `differences`."""
 
     def __init__(self, texts: Mapping[str, bytes], reading: Reading, sample: Sample) -> None:
         self.reading, self.sample, self.name = reading, sample, sample.target.name
@@ -111,7 +111,7 @@ class _Comparison:
         return Numbers(self.right, self.total, tuple(self.differences), uncompared=tuple(uncompared))
 
     def _compare(self, file: str, element: str, values: Sequence[Value], expected: Mapping[str, Stated]) -> None:
-        """Count values, and compare them: one that is not expected is not compared, one that lacks is a difference."""
+        """Count values and compare them. An unexpected value is not compared; a missing one is a difference."""
         given, line = {value.path for value in values}, values[0].line if values else 0
         for value in (*values, *(Value(path, "", "nothing", line) for path in expected if path not in given)):
             own, stated = _read(value.text), expected.get(value.path)
@@ -149,7 +149,7 @@ class _Comparison:
         expected = dict[str, Stated]()
         for path, stated in element.values.items():
             owner = path.partition(".")[0]
-            # a mesh that can't be read is left out
+            # the package leaves out a mesh that can't be read
             is_drawn = owner in owners or f"{owner}.uri" not in element.values
             if is_drawn and not path.startswith(elsewhere) and not path.endswith(".shape"):
                 expected[path] = stated
@@ -158,7 +158,7 @@ class _Comparison:
             expected["type"] = Stated(f"{element.type.capitalize()}Joint", element.line)
         elif kind == "loop":
             expected |= _equations(element, {value.path: literals(value.text) for value in values})
-        elif not whole and element is self.massless_root:  # Modelica's frames need a body there
+        elif not whole and element is self.massless_root:  # it has a body with mass 0, which Modelica's frames need
             del expected["hasInertial"]
             expected |= {path: Stated(number, element.line) for path, number in _NO_MASS.items()}
         for k, value in enumerate(given):
@@ -231,7 +231,7 @@ class _Comparison:
         return next((self.reading.joints[name] for name in names), None)
 
     def _positions(self) -> dict[str, float]:
-        """Return where the joints begin: by the start record, or as near to zero as all limits allow."""
+        """Return the joints' start positions: from the start record, else as near to zero as all limits allow."""
         joints = {name: joint for name, joint in self.reading.joints.items() if joint.type in MOVES}
         begin = {name: joint.number("start") for name, joint in joints.items() if "start" in joint.values}
         for value in self.values.get(f"{self.name}Start.mo", ()):
@@ -258,7 +258,7 @@ class _Comparison:
         return {name: position(name) for name in joints}
 
     def _starts(self, file: str) -> None:
-        """Compare where joints begin: those in loops close these, all others begin where the source says."""
+        """Compare the start positions of joints: those in loops must close these, all others are as the source says."""
         values, gap = {value.path: value for value in self.values.get(file, ())}, 0.0
         placed = poses(self.reading, self._positions()) if self.reading.loops else {}
         for loop in self.reading.loops.values():
@@ -354,7 +354,7 @@ class _Comparison:
                 self._compare(file, f"sensor {name}", [value], {value.path: stated})
 
     def _bench(self, file: str) -> None:
-        """Compare what Run or Test connects with the axis of each joint, and the outputs of sensors."""
+        """Compare the sources that Run or Test connects to the axes of joints, and the outputs of sensors."""
         values, joints = self.values[file], self.reading.joints
         texts = {end: Value(end, "", *others[0]) for end, others in _ends(values).items()}
         texts |= {value.path: value for value in values if value.path != "connect"}
@@ -368,7 +368,7 @@ class _Comparison:
                 expected = {path: text for path, text in expected.items() if path in texts}
             elif kind == "joint" and element.type in MOVES and not element.leader:
                 flanges = [self._flange(component, side) for side in ("axis", "support")]
-                # loops leave few freedoms: which of the named joints are driven, or of all, is left to urdfsync
+                # loops leave few freedoms: urdfsync may choose which of the named joints it drives, or of all joints
                 is_free = flanges[0] in texts and (element.is_named or not named)
                 is_driven = is_free or not element.in_loop
                 expected = {flanges[0]: "nothing"}
@@ -385,7 +385,7 @@ class _Comparison:
     def _source(
         self, joint: Element, component: str, flanges: Sequence[str], texts: Mapping[str, Value], *, is_run: bool
     ) -> dict[str, str]:
-        """Return what moves a joint in Run or Test: texts by the ends of connections, outputs and modifiers."""
+        """Return the texts by which Run or Test moves a joint, by ends of connections, outputs and modifiers."""
         source, (q, speed, effort) = f"{component}Drive", _LETTERS[joint.type in TURNS]
         (axis, _), own = flanges, f"robot.{component}"
         expected = {flange: f"{source}.{end}" for flange, end in zip(flanges, ("flange", "support"), strict=True)}
@@ -417,7 +417,7 @@ def _read(text: str) -> Any:
 
 
 def _ends(values: Sequence[Value]) -> defaultdict[str, list[tuple[str, int]]]:
-    """Return the connections of each end, with their lines."""
+    """Return the ends to which each end is connected, with the lines of the connections."""
     ends = defaultdict[str, list[tuple[str, int]]](list)
     for value in values:
         if value.path == "connect":
@@ -428,7 +428,7 @@ def _ends(values: Sequence[Value]) -> defaultdict[str, list[tuple[str, int]]]:
 
 
 def _equations(loop: Element, given: Mapping[str, Any]) -> dict[str, Stated]:
-    """Return the equations of a loop: the given ones, if they are some of those that a joint of its kind has."""
+    """Return the expected equations of a loop: the given ones, if a joint of its kind can have them."""
     keys = ("translations", "rotations", "childRotations")
     numbers = [given.get(key) for key in keys]
     whole = [each if isinstance(each, tuple) and len(each) % 3 == 0 else (math.nan,) * 3 for each in numbers]
@@ -449,7 +449,7 @@ def _equations(loop: Element, given: Mapping[str, Any]) -> dict[str, Stated]:
 
 
 def _shown(value: Any) -> str:
-    """Return a value in words; a rotation by its angles."""
+    """Return a value in words; a rotation as its angles."""
     if isinstance(value, str):
         return value
     if len(np.shape(value)) == 2:

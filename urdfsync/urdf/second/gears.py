@@ -13,7 +13,7 @@ from urdfsync.urdf.second.plain import decimal
 
 
 class Gear(NamedTuple):
-    """The gear of a joint: its numbers, and those of another joint that its motor turns, too."""
+    """The gear of a joint: its numbers, and those of another joint that the same motor turns."""
 
     reduction: float = 1.0
     offset: float = 0.0
@@ -23,7 +23,7 @@ class Gear(NamedTuple):
 
 
 def read_gears(root: Any) -> dict[str, Gear]:
-    """Return the gears of a URDF by their joints, by the endings of tags and attributes."""
+    """Return the gears of a URDF, by joint. Tags and attributes are recognized by their endings."""
     gears = dict[str, Gear]()
     turning = {
         joint.get("name")
@@ -45,7 +45,7 @@ def read_gears(root: Any) -> dict[str, Gear]:
 
 
 def _shared_gears(element: Any, kind: str) -> dict[str, Gear] | None:
-    """Return the gears of two joints by the documented positions of joints; None for another kind of transmission."""
+    """Return the gears of two joints by the documented formulas of their positions; None for another transmission."""
     roles = {"flexJoint": "joint1", "rollJoint": "joint2", "rightActuator": "actuator1", "leftActuator": "actuator2"}
     parts, count = dict[str, Any](), 0
     for ending in ("joint", "actuator"):
@@ -77,7 +77,7 @@ def _shared_gears(element: Any, kind: str) -> dict[str, Gear] | None:
 
 
 def _numbers(*elements: Any, with_attributes: bool = False) -> dict[str, float]:
-    """Return the numbers in some elements by their plain names; the first of each name counts."""
+    """Return the numbers in some elements by name, without prefix and underscores; the first of each name counts."""
     numbers = dict[str, float]()
     for element in elements:
         texts = [(part.tag, part.get("value", part.text or "")) for part in element]

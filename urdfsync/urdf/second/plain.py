@@ -1,4 +1,4 @@
-"""Writes a source as plain URDF: SDFormat's spelling as attributes, and joints of several axes as chains.
+"""Writes a source as plain URDF: SDFormat's elements become attributes, and joints with several axes become chains.
 
 The second reader and Pinocchio read the result. Only the decoding of bytes is shared with the first reader.
 """
@@ -17,7 +17,7 @@ from urdfsync.urdf.parse import xml
 _ALONE = {"parent": "link", "child": "link", "mass": "value", "axis": "xyz"}
 """Elements whose text has the meaning of an attribute."""
 _NAMES = "xyz lower upper effort velocity damping friction multiplier offset ixx ixy ixz iyy iyz izz size radius length"
-"""Elements with the meaning of an attribute of the element around them."""
+"""Elements that mean an attribute of the element around them."""
 
 
 def plain_urdf(content: bytes, joints: Collection[str] | None = None) -> bytes:
@@ -29,7 +29,7 @@ def plain_urdf(content: bytes, joints: Collection[str] | None = None) -> bytes:
 def plain_root(content: bytes, joints: Collection[str] | None = None) -> Any:
     """Return the root of a source as plain URDF.
 
-    `joints` are those of the first reading: a chain stands for a ball that is none of them.
+    `joints` are the names in the first reading. A ball joint that is not among them becomes a chain of hinges.
     """
     root = _parse(content)
     for joint in [part for part in root if part.tag in ("joint", "drake:joint")]:
@@ -66,7 +66,7 @@ def plain_root(content: bytes, joints: Collection[str] | None = None) -> Any:
 
 
 def decimal(text: str) -> float:
-    """Return a number. Raises ValueError, also for what only Python takes for one, such as `1_000`."""
+    """Return a number. Raises ValueError, also for texts that only Python accepts, such as `1_000`."""
     if "_" in text or not text.isascii():
         raise ValueError(text)
     return float(text)
@@ -80,7 +80,7 @@ def _parse(content: bytes) -> Any:
 
 
 def _make_chain(root: Any, joint: Any, axes: str, *, has_damping: bool) -> None:
-    """Replace a joint by hinges about some axes, with massless links between them; the source only measures these."""
+    """Replace a joint by hinges about some axes, with massless links between them. They are measured, not driven."""
     root.remove(joint)
     damping = joint.xpath("dynamics/@damping") if has_damping else ()
     for part in joint.xpath("axis | limit | dynamics"):

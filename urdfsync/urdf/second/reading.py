@@ -1,7 +1,7 @@
-"""Reads a URDF again, plainly and without any code of the first reader, to check what that one has read.
+"""Reads a URDF a second time, without any code of the first reader, to check the first reading.
 
 Values stand under the paths that they have in the records of a package: `limits.effort`. The first reader has accepted
-the source, so faults are not reported here: a value that can't be read is a missing one.
+the source, so faults are not reported here: a value that can't be read counts as missing.
 """
 
 from __future__ import annotations
@@ -84,18 +84,18 @@ class Element(msgspec.Struct):
     command: str = ""
     """The quantity that is the input of Run; empty for a joint that Run does not drive."""
     is_named: bool = False
-    """Whether the source or the configuration names it as driven."""
+    """Whether the source or the configuration names the joint as driven."""
     is_measured: bool = False
-    """Whether the source only measures it."""
+    """Whether the source only measures the joint."""
     in_loop: bool = False
     has_limit: bool = False
     shares: str = ""
-    """Another joint that its motor turns, too."""
+    """Another joint that the same motor turns."""
     axes: tuple[Any, ...] = ()
-    """Of a loop; of a force-torque sensor, whether it has the parent's axes, and the other direction."""
+    """A loop's axes, or two flags of a force-torque sensor: it has the parent's axes; it measures parent to child."""
 
     def put(self, path: str, value: Any, at: Any) -> None:
-        """State a value at the line of an XML element; a number stands alone in its tuple."""
+        """State a value at the line of an XML element; a single number becomes a tuple of one."""
         self.values[path] = Stated((value,) if isinstance(value, float) else value, getattr(at, "sourceline", 0))
 
     def number(self, path: str) -> float:
@@ -114,13 +114,13 @@ class Reading(msgspec.Struct):
     unread: str = ""
     """Why yourdfpy read nothing; empty if it did."""
     contradictions: tuple[str, ...] = ()
-    """Links and joints that only one of yourdfpy and this module reads."""
+    """Links and joints that only yourdfpy or only this module reads."""
 
 
 def read_again(content: bytes, options: Options, names: Collection[str] | None = None) -> Reading:
     """Return the second reading of a source without errors. Raises ValueError or LookupError if it can't be read.
 
-    A chain stands for each ball that is none of the `names` of joints.
+    A ball joint becomes a chain of hinges if its name is not in `names`.
     """
     root = plain_root(content, names)
     gears = read_gears(root)
@@ -150,7 +150,7 @@ def read_again(content: bytes, options: Options, names: Collection[str] | None =
 
 
 def rotation(rpy: Sequence[float]) -> Any:
-    """Return the matrix of fixed-axis roll, pitch and yaw angles; a matrix itself."""
+    """Return the matrix of fixed-axis roll, pitch and yaw angles; a given matrix is returned as it is."""
     if len(np.shape(rpy)) == 2:
         return rpy
     (a, b, c), (s, t, u) = np.cos(rpy), np.sin(rpy)
@@ -187,7 +187,7 @@ def poses(reading: Reading, positions: Mapping[str, float]) -> dict[str, Any]:
 
 
 def same(ours: Any, theirs: Any) -> bool:
-    """Return whether two values agree: of rotations the matrices, of numbers nine digits."""
+    """Return whether two values agree: rotations as matrices, numbers to nine digits."""
     if isinstance(ours, str) or isinstance(theirs, str) or ours is None:
         return bool(ours == theirs)
     if {np.size(ours), np.size(theirs)} == {3, 9}:
@@ -211,7 +211,10 @@ def _numbers(text: str | None, count: int = 1) -> tuple[float, ...] | None:
 
 
 def _at(element: Any, places: str, count: int = 1, default: Any = None) -> Any:
-    """Return the numbers at the first existing place, the only number by itself: a path, an attribute behind `@`."""
+    """Return the numbers at the first existing place; the number itself if `count` is 1.
+
+    A place is a path, an attribute behind `@`, or both.
+    """
     for place in places.split():
         path, _, attribute = place.partition("@")
         holder = element.find(path or ".")
@@ -384,7 +387,7 @@ def _put_drive(
 
 
 def _drives(root: Any) -> Iterator[dict[str, Any]]:
-    """Yield what ros2_control, transmissions and plugins say of one joint each, in the order in which they count."""
+    """Yield each statement of ros2_control, transmissions and plugins about a joint; the earlier ones count first."""
     for control in root.iterchildren("ros2_control"):
         for joint in control.iterchildren("joint"):
             names = [part.get("name", "").removesuffix("_pid") for part in joint.iterchildren("command_interface")]
@@ -432,7 +435,7 @@ def _transmission(element: Any) -> Iterator[dict[str, Any]]:
 
 
 def _sensors(root: Any, reading: Reading) -> Iterator[Element]:
-    """Yield the sensors at existing places, the first of each name there."""
+    """Yield the sensors of existing links and joints; of several with one name and place, only the first."""
     above, placed = {joint.child: name for name, joint in reading.joints.items()}, dict[tuple[str, str], Any]()
     for element, name, kind, place in _find_sensors(root):
         is_wrench = kind == "force_torque"
@@ -484,7 +487,7 @@ def _find_sensors(root: Any) -> Iterator[tuple[Any, str, str, str]]:
 
 
 def _loops(root: Any, reading: Reading, options: Options) -> Iterator[Element]:
-    """Yield the loops of the configuration, then those of the source that it does not state."""
+    """Yield the loops of the configuration, then those of the source that the configuration does not state."""
     ends, known = {name: joint.child for name, joint in reading.joints.items()}, set[Any]()
     for option in options.loops:
         frames = [LoopFrame(frame) if isinstance(frame, str) else frame for frame in option.frames]
@@ -498,7 +501,7 @@ def _loops(root: Any, reading: Reading, options: Options) -> Iterator[Element]:
 
 
 def _loop(name: str, kind: str, element: Any, places: Sequence[Any], axis: Any, second: Any) -> Element:
-    """Return a loop between two frames: link, place and angles of each."""
+    """Return a loop between two frames; `places` are the link, position and angles of each."""
     loop = Element(name, getattr(element, "sourceline", 0), kind, places[0][0], places[1][0])
     loop.put("name", name, element)
     for path, (_, xyz, rpy) in zip(("origin", "childOrigin"), places, strict=True):
@@ -524,7 +527,7 @@ def _loops_in(root: Any, reading: Reading) -> Iterator[tuple[Any, ...]]:
                 place = end if own is None else own
                 places.append((end.get("link"), _at(place, "@xyz", 3, ZERO), _at(place, "@rpy", 3, ZERO)))
             (first, _, rpy), (last, xyz, _) = places
-            if element.xpath("child_origin[not(@rpy)]") and {first, last} <= placed.keys():  # it is parallel
+            if element.xpath("child_origin[not(@rpy)]") and {first, last} <= placed.keys():  # the frames are parallel
                 places[1] = last, xyz, placed[last][:3, :3].T @ placed[first][:3, :3] @ rotation(rpy)
         elif element.tag == "drake_ball_constraint":
             kind = "ball"
@@ -544,7 +547,7 @@ def _loops_in(root: Any, reading: Reading) -> Iterator[tuple[Any, ...]]:
 
 
 def _loops_by_name(reading: Reading) -> Iterator[tuple[Any, ...]]:
-    """Yield a ball for each two links that onshape-to-robot names as ends of a loop."""
+    """Yield a ball joint for each pair of links that onshape-to-robot names as the ends of a loop."""
     for name in reading.links:
         other = f"{name[:-1]}2"
         if re.fullmatch("closing_.+_1", name) and other in reading.links:
@@ -555,7 +558,7 @@ def _loops_by_name(reading: Reading) -> Iterator[tuple[Any, ...]]:
 
 
 def _ask_yourdfpy(reading: Reading, root: Any) -> None:
-    """Take the values in which yourdfpy differs, of all that it reads."""
+    """Replace the values that yourdfpy reads differently by its own."""
     logger = logging.getLogger("yourdfpy.urdf")
     before, logger.disabled = logger.disabled, True
     try:
@@ -576,15 +579,15 @@ def _ask_yourdfpy(reading: Reading, root: Any) -> None:
             own = elements[their.name].values if their.name in elements else {}
             for path, (value, line) in own.items():
                 other = _of_yourdfpy(their, path)
-                # it reads no quaternions, which are matrices here
+                # yourdfpy reads no quaternions; here they are matrices
                 if other is not None and not isinstance(value, np.ndarray) and not same(value, other):
                     own[path] = Stated(other, line)
 
 
 def _of_yourdfpy(their: Any, path: str) -> Any:
-    """Return what yourdfpy reads of a link or joint at a path of the records; None for nothing.
+    """Return yourdfpy's value of a link or joint at a path of the records; None if there is nothing to compare.
 
-    Angles are a matrix. It has axes of any length, and limits of continuous joints.
+    Angles are a matrix. yourdfpy's axes may have any length, and its continuous joints have limits: these give None.
     """
     if path in ("name", "axis") or (path in ("limits.lower", "limits.upper") and their.type == "continuous"):
         return None

@@ -1,4 +1,4 @@
-"""The tables of the record of a whole robot, counted again from its elements in the order of the record."""
+"""The tables of a whole robot's record, computed again from its elements in the order of the record."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _FORMS: dict[str, list[tuple[str, int, str, list[str]]]] = {
     "Sphere": [('"sphere"', 3, "-{0}.radius", _BALL)],
     "Mesh": [("{0}.uri", 1, "0", ["1", "1", "1"])],
 }
-"""Kind, axis of the length, start and sizes of the parts of a drawn shape."""
+"""The parts of each drawn shape: kind, axis of the length, start and sizes."""
 _FORMS["Capsule"] = [
     *_FORMS["Cylinder"],
     *(('"sphere"', 3, f"{sign}0.5*{{0}}.length-{{0}}.radius", _BALL) for sign in ("-", "")),
@@ -33,7 +33,7 @@ def expected_tables(
 ) -> Mapping[str, list[str]]:
     """Return the items of each table, as texts without blanks, from elements with their components.
 
-    `shapes` are the drawn ones: the types and the numbers of the links of their components.
+    `shapes` are the drawn shapes by component: the type of each, and the number of its link.
     """
     links = [(element, c) for element, c in elements if not element.child]
     joints = [(element, c) for element, c in elements if element.child]
