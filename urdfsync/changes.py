@@ -146,7 +146,7 @@ class Changes(msgspec.Struct, frozen=True):
 
     @property
     def change_class(self) -> ChangeClass:
-        """The class with the farthest reach, of all differences."""
+        """The class of the differences: of several, the one with the farthest reach."""
         if self.generator:
             return ChangeClass.GENERATOR
         return max((change.change_class for change in self.changes), key=lambda c: c.rank, default=ChangeClass.NONE)

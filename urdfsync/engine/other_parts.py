@@ -65,10 +65,10 @@ def tell_uses(uses: Mapping[str, Use]) -> Iterator[Diagnostic]:
         lines = _lines(Path(path), use.names)
         for name, line in sorted(lines.items(), key=lambda item: item[1]):
             new = use.names[name]
-            message = f"`{name}` names another part now: its former part is called `{new}`"
+            message = f"`{name}` names another part now; the former one is called `{new}`"
             hint = f"use `{new}`, or save the file as it is"
             if new.endswith(GONE):
-                message = f"`{name}` names another part now: its former part is gone"
+                message = f"`{name}` names another part now; the former one is gone"
                 hint = "change it, or save the file as it is if it is right"
             elif new == MAYBE:
                 message, hint = f"`{name}` may name another part now", "look at it, and save the file"

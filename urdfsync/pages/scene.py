@@ -97,7 +97,7 @@ class Loop(msgspec.Struct, frozen=True):
 
 
 class Scene(msgspec.Struct, frozen=True):
-    """A whole robot; each hinge stands after the one that it follows."""
+    """A whole robot. A hinge that follows another stands after it."""
 
     bodies: tuple[Body, ...]
     """The root first, each after its parent."""

@@ -112,7 +112,7 @@ def loads(text: str, file: str) -> tuple[Record | None, Diagnostic | None]:
             found = found or damage(file, number, _what_is_wrong(content, error))
             continue
         if word == "release" and _numbers(value) > _numbers(__version__):
-            message = f"urdfsync {value} wrote this state, which is newer than this one ({__version__})"
+            message = f"urdfsync {value} wrote this state, and this is {__version__}, which is older"
             raise StateError.of("newer-state", message, file, number, hint="update urdfsync")
         values[word].append(value)
     if missing := [word for word in _HEADINGS if not values[word]]:

@@ -44,7 +44,7 @@ class KinematicTree(msgspec.Struct, frozen=True):
     """In natural order of their names."""
 
     def __hash__(self) -> int:
-        """Return a hash of the elements; the mapping of their names has none."""
+        """Return a hash of the elements. The mapping of their names is left out: mappings have no hash."""
         return hash((self.links, self.joints, self.sensors, self.loops))
 
     @classmethod
