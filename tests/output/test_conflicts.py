@@ -164,7 +164,7 @@ SHOULDER = "urdfsync resolve modelica/Arm/Shoulder.mo --merge --prefer mine"
         ),
         (
             *(texts_of(EDITED, EXPORTED, base=None), Reason.UNOWNED),
-            "this file exists, and urdfsync did not write it. There is no base, so it can't be merged.",
+            "This file exists, and urdfsync did not write it. There is no base, so it can't be merged.",
             f"arm: Elbow.generated.mo urdfsync resolve {ELBOW} --keep --keep your file as it is --edit both",
         ),
         (
