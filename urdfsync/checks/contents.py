@@ -9,7 +9,7 @@ import contextlib
 import hashlib
 import os
 import shutil
-from collections.abc import Callable, Collection, Iterable
+from collections.abc import Collection
 from pathlib import Path
 
 from urdfsync.answers.facts import read_unrecorded
@@ -63,21 +63,18 @@ def _refuse_bad_link(top: str, link: str) -> None:
         raise _refusal(Path(link), problem, "replace it by the files themselves")
 
 
-def copy_library(
-    root: Path, target: Path, leave_out: Callable[[str, list[str]], Iterable[str]] = lambda *_: ()
-) -> None:
-    """Copy a library, which is a folder or a file. `leave_out` works like the `ignore` of `shutil.copytree`.
+def copy_library(root: Path, target: Path) -> None:
+    """Copy a library, which is a folder or a file.
 
     Raises UrdfsyncError for a symbolic link to a folder or out of the library, and for a library that is too large.
     """
     top, size = os.path.realpath(root), 0
 
-    def ignored(folder: str, names: list[str]) -> set[str]:
-        left_out = {*leave_out(folder, names)}
-        for path in (Path(folder, name) for name in names if name not in left_out):
+    def ignored(folder: str, names: list[str]) -> list[str]:
+        for path in (Path(folder, name) for name in names):
             if path.is_symlink():
                 _refuse_bad_link(top, str(path))
-        return left_out
+        return []
 
     def copy(source: str, place: str) -> str:
         nonlocal size

@@ -25,7 +25,7 @@ Version: TypeAlias = tuple[int, ...]
 OLDEST: Version = (4, 1)  # the oldest that the embedded compiler accepts
 NEXT: Version = (5,)  # newer versions are untested, and used only if there is no other
 
-_COPY_REVISION = 6  # to be raised when libraries are taken apart in another way
+_COPY_REVISION = 7  # to be raised when libraries are taken apart in another way
 
 _ANNOTATED_VERSION = re.compile(r'(?:^|,|\bannotation\s*\()\s*version\s*=\s*"(\d+(?:\.\d+)*)', re.MULTILINE)
 _NOISE = re.compile(rb'"(?:\\.|[^"\\])*"|//[^\n]*|/\*.*?\*/', re.DOTALL)

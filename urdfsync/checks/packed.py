@@ -21,7 +21,7 @@ _REMARK = r"//[^\n]*|/\*.*?\*/"
 _QUOTED = r"'(?:\\.|[^'\\])*'"
 _NAME = rf"(?:{_QUOTED}|[A-Za-z_]\w*+)"
 _KINDS = "package|model|block|function|record|type|connector|class"
-_GAP = r"(?:\s++|//[^\n]*+|/\*.*?\*/)*+"
+_GAP = rf"(?:\s++|{_REMARK})*+"
 _FRONT = re.compile(rf"\ufeff?{_GAP}(?:within\b(?:{_REMARK}|{_QUOTED}|[^;/'])*+;{_GAP})?", re.DOTALL)
 """The text before the class in a file."""
 _LOOKS = "|".join((*sorted(LAYOUT), "Documentation"))
@@ -105,12 +105,10 @@ def _kept(library: Library, found: Container[str]) -> Iterator[str]:
 
 def original_place(text: str, line: int) -> tuple[str, int]:
     """Return the file (below the library's folder) and the line there of a line (from 1) of a packed text."""
-    lines = text.split("\n")[:line]
-    number = max((number for number, each in enumerate(lines) if _PLACE.match(each)), default=None)
-    if number is None:
-        return "", line
-    file, _, first = lines[number].removeprefix(_MARK).rpartition(":")
-    return file, int(first) + line - number - 2
+    for since, each in enumerate(reversed(text.split("\n")[:line])):
+        if place := _PLACE.match(each):
+            return place[1], int(place[2]) + since - 1
+    return "", line
 
 
 def _stem(path: str) -> str:
@@ -136,13 +134,9 @@ def _texts(
         for file in inside.get(path.removesuffix("package.mo").rstrip("/"), ()):
             if file != path:
                 yield from _texts(f"{owner}.{_stem(file).rpartition('/')[2]}", file, texts, inside)
-    mark = f"\n{_MARK}{place}:{1 + text.count(chr(10), 0, start)}\n"
-    if start:
-        yield owner, mark
-        mark = ""
+    yield owner, f"\n{_MARK}{place}:{1 + text.count(chr(10), 0, start)}\n"
     for name, each in _members(above, text, start, len(text)):
-        yield name or owner, f"{mark}{each}"
-        mark = ""
+        yield name or owner, each
 
 
 def _members(owner: str, text: str, at: int, end: int) -> Iterator[tuple[str, str]]:
