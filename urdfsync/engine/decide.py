@@ -299,7 +299,8 @@ def _renumbered(
 def _refuse_markers(files: PackageFiles, actions: Iterable[Action], orders: Iterable[str]) -> None:
     """Refuse files in which version control left its merge markers. Raises OutputError."""
     errors = []
-    edited = [a for a in actions if a.mine not in (None, a.base, a.generated) and a.role is not Role.IMPORT]
+    texts = (action for action in actions if action.role is not Role.IMPORT and action.reason is not Reason.UPDATE)
+    edited = [action for action in texts if action.mine not in (None, action.base, action.generated)]
     # contradictions of branches are conflicts, not errors; and with `--undo`, the user chose a text with markers
     told = {action.origin or action.path for action in edited if action.is_conflict} & files.left_by_git.keys()
     told |= files.overlay.keys()
@@ -313,28 +314,27 @@ def _refuse_markers(files: PackageFiles, actions: Iterable[Action], orders: Iter
         raise OutputError(*errors)
 
 
-def _recorded_orders(generation: Generation) -> dict[str, tuple[str, ...]]:
-    """Return the lines of each `package.order` that the last build wrote, by key.
+def _recorded_orders(generation: Generation) -> dict[str, Collection[str]]:
+    """Return the lines of each `package.order` that the last build wrote, by key, in their order.
 
     Without a recorded model, the lines follow from the recorded files, and their order is lost.
     """
-    inputs, last, orders = generation.inputs, generation.inputs.last, dict[str, tuple[str, ...]]()
+    inputs, last, orders = generation.inputs, generation.inputs.last, dict[str, dict[str, None]]()
     package = last.package if generation.is_structural or inputs.has_moved else generation.package
     if last.record.files and package:
-        orders = {last.folder.key(path): names for path, names in package.orders.items()}
+        orders = {last.folder.key(path): dict.fromkeys(names) for path, names in package.orders.items()}
     for key in last.files:
         folder, _, name = key.removesuffix("/package.mo").removesuffix(".mo").rpartition("/")
         if f"{folder}/".startswith(last.folder.key("")) and key.endswith(".mo"):
-            names = orders.get(f"{folder}/package.order", ())
-            orders[f"{folder}/package.order"] = names if name in names else (*names, name)
+            orders.setdefault(f"{folder}/package.order", {})[name] = None
     if "." in last.target.package and last.record.files:
         above, _, name = last.folder.rpartition("/")
-        orders[f"{above}/package.order" if above else "package.order"] = (name,)
+        orders[f"{above}/package.order" if above else "package.order"] = {name: None}
     return {key: names for key, names in orders.items() if inputs.files.is_inside(key)}
 
 
 def _removable_lines(
-    generation: Generation, order: str, text: str, recorded: Sequence[str], actions: Iterable[Action]
+    generation: Generation, order: str, text: str, recorded: Collection[str], actions: Iterable[Action]
 ) -> list[str]:
     """Return the lines of a `package.order` to remove: deleted classes, and recorded lines without a class.
 
@@ -386,11 +386,11 @@ def _decide_orders(
             is_united = inputs.last.record.is_united
             is_joined = find_markers(old) and united.can_join(files.path(key), old, is_united=is_united)
             text = join_sides(old) if is_joined else old
-            written = recorded.get(key, ())
+            written, wanted = recorded.get(key, ()), set(names)
             # a look at the disk for each name would take 15 ms with 100 links
-            unwanted = [name for name in written if name not in names]
+            unwanted = [name for name in written if name not in wanted]
             removable = _removable_lines(generation, key, text, unwanted, actions)
-            owned = [*(name for name in written if name in names), *removable]
+            owned = [*(name for name in written if name in wanted), *removable]
         if inputs.options.adopts and old is None:  # list the user's classes, too: tools hide unlisted ones
             users = _classes_beside(key, files.classes(key.removesuffix("package.order")))
             names = (*names, *(name for name in users if name not in names))

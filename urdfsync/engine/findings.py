@@ -145,16 +145,17 @@ def _changed_connectors(generation: Generation) -> Iterator[Diagnostic]:
     ):
         return
     connectors = effects.interface(complete, generation.now, changes.renames, robot.target, robot.options)
+    file = shown(robot.source)
     if new := [f"`{connector_change.new}`" for connector_change in connectors if connector_change.old is None]:
         message = f"new connectors and variables: {_first(new, _NEW)}"
-        yield Diagnostic(Severity.NOTE, CONNECTORS, message, shown(robot.source))
+        yield Diagnostic(Severity.NOTE, CONNECTORS, message, file)
     for connector_change in connectors:
         element, connector = connector_change.path
         if connector_change.old is not None:
             now = f"is now `{connector_change.new}`" if connector_change.new else "is gone"
             message = f"{element}: its {connector} `{connector_change.old}` {now}"
-            place = shown(robot.source), generation.lines.get(element, 0)
-            yield Diagnostic(Severity.NOTE, CONNECTORS, message, *place, hint=connector_change.hint)
+            line = generation.lines.get(element, 0)
+            yield Diagnostic(Severity.NOTE, CONNECTORS, message, file, line, hint=connector_change.hint)
 
 
 def orphaned_state(config: Config) -> list[Diagnostic]:
