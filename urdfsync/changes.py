@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import functools
 from collections import defaultdict
-from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Hashable, Iterable, Iterator, Mapping, Sequence
 from typing import Any, Protocol, TypeAlias, cast
 
 import msgspec
@@ -124,8 +125,8 @@ class Change(msgspec.Struct, frozen=True):
 Describe: TypeAlias = Callable[[Version, Version, Mapping[ElementKey, str], Any], Iterable[Change]]
 """Returns the changes from one version to another, given the new names of elements and options of the new version.
 
-The attribute `describe` of a domain. Without it, a changed value is a parameter change; additions and removals are
-structural changes.
+The attribute `describe` of a domain. Without it, additions and removals are structural changes. A changed value is
+structural if the text of a model follows it, see `by_texts`, and otherwise a parameter change.
 """
 
 
@@ -172,7 +173,8 @@ def compare(old: Version, new: Version, domain: Domain, options: Any, matching: 
     if matching is None:
         is_same = old.snapshot == new.snapshot
         matching = Matching() if is_same else match(domain.features(old.snapshot), domain.features(new.snapshot))
-    renames, describe = matching.renames, cast("Describe", domain.describe or _describe)
+    default = functools.partial(_describe, unit=domain.unit)
+    renames, describe = matching.renames, cast("Describe", domain.describe or default)
     changes = [
         Change((f"{kind} {name}",), ChangeKind.RENAMED, ChangeClass.STRUCTURAL, name, renamed)
         for (kind, name), renamed in renames.items()
@@ -182,13 +184,50 @@ def compare(old: Version, new: Version, domain: Domain, options: Any, matching: 
     return Changes(tuple(sorted(changes, key=_weight)), renames, tuple(matching.doubts.values()))
 
 
-def _describe(old: Version, new: Version, renames: Mapping[ElementKey, str], options: Any) -> Iterator[Change]:  # noqa: ARG001 - see `Describe`
+def by_texts(changes: Changes, owners: Collection[str]) -> Changes:
+    """Return the changes of a domain without `describe`; `owners` are the elements of models with another text.
+
+    Their changes are structural. If only a model of the whole has another text, any change may be the reason.
+    """
+    is_whole = not changes.generator and changes.change_class.rank < ChangeClass.STRUCTURAL.rank
+    is_whole = is_whole and bool(owners - changes.by_element().keys())
+    raised = [
+        msgspec.structs.replace(change, change_class=ChangeClass.STRUCTURAL)
+        if is_whole or change.element in owners
+        else change
+        for change in changes.changes
+    ]
+    return msgspec.structs.replace(changes, changes=tuple(sorted(raised, key=_weight)))
+
+
+def _describe(
+    old: Version,
+    new: Version,
+    renames: Mapping[ElementKey, str],
+    options: Any,  # noqa: ARG001 - see `Describe`
+    *,
+    unit: Callable[[Any, Sequence[str]], str],
+) -> Iterator[Change]:
     """Yield the changes of a domain without words of its own: `("parts", "motor", "mass")` is `part motor / mass`."""
-    for difference in find_differences(old, new, plain(old.snapshot), plain(new.snapshot)):
+    before = _under_new_names(plain(old.snapshot), renames)
+    for difference in find_differences(old, new, before, plain(new.snapshot)):
         kind, *path = map(str, difference.path)
         words = (f"{kind.removesuffix('s')} {path[0]}", *path[1:]) if path else (kind,)
         is_value = difference.kind is ChangeKind.CHANGED
-        yield difference.change(words, ChangeClass.PARAMETER if is_value else ChangeClass.STRUCTURAL)
+        of_value = unit(new.snapshot, [kind, *path])
+        yield difference.change(words, ChangeClass.PARAMETER if is_value else ChangeClass.STRUCTURAL, of_value)
+
+
+def _under_new_names(data: Mapping[str, Any], renames: Mapping[ElementKey, str]) -> Mapping[str, Any]:
+    """Return plain data by kind and name with the new names of its elements, and without `displaced` ones."""
+    gone, moved = displaced(renames), dict[str, Any]()
+    for part, elements in data.items():
+        kind = part.removesuffix("s")
+        if isinstance(elements, Mapping) and any(of_kind == kind for of_kind, _ in renames):
+            kept = {name: value for name, value in elements.items() if (kind, name) not in gone}
+            elements = {renames.get((kind, name), name): value for name, value in kept.items()}  # noqa: PLW2901
+        moved[part] = elements
+    return moved
 
 
 def _weight(change: Change) -> tuple[bool, ...]:

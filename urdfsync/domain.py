@@ -218,6 +218,7 @@ class Domain(Protocol):
 
     # Optional features. Each Protocol stands beside the code that uses it; a module may implement it, too.
     advice: Any = None  # `urdfsync.config.advice.Advice`
+    starter: Any = None  # `urdfsync.config.advice.Starter`
     beside: Any = None  # `urdfsync.engine.source.Beside`
     imports: Any = None  # `urdfsync.engine.imports.Mentions`
     describe: Any = None  # `urdfsync.changes.Describe`
@@ -241,6 +242,10 @@ class Domain(Protocol):
     ) -> Iterable[Artifact | Order]:
         """Return all files of the package but the imported ones. Pure."""
         ...
+
+    def unit(self, snapshot: Snapshot, path: Sequence[str]) -> str:
+        """Return the unit of the value at a path of plain data such as `parts`, `motor`, `mass`; empty if unknown."""
+        return ""
 
     def uses(self, options: Any) -> Sequence[tuple[str, str]]:
         """Return the libraries that a generated package needs, with their versions, for a top-level `uses`."""

@@ -3,9 +3,11 @@
 PACKAGES = {
     "check": "rumoca scipy",
     "cluster": "distributed",
+    "epanet": "wntr",
     "fmu": "fmpy",
     "physics": "pin",
     "plot": "matplotlib",
+    "table": "openpyxl pint",
     "xacro": "xacro",
 }
 """The packages of each extra, as in pyproject.toml."""

@@ -9,7 +9,7 @@ from pathlib import Path
 from urdfsync import config, registry
 from urdfsync.api import load
 from urdfsync.commands import arguments
-from urdfsync.commands.init import Guess, guess_robots, robot_table, show_guesses, write_errors, write_schema
+from urdfsync.commands.init import Guess, guess_robots, robot_table, show_guesses, write_errors, write_schema, write_templates
 from urdfsync.diagnostics import ConfigError
 from urdfsync.files import shown
 from urdfsync.output.console import Console
@@ -53,5 +53,6 @@ def run(args: argparse.Namespace, console: Console) -> int:
     config.parse(plain, loaded.file, shown(loaded.file))  # refuses contradictory settings
     with write_errors(loaded.file):
         write_schema(loaded.root)  # first: if it fails, the configuration stays as it is
+        write_templates(loaded.root, guesses)
         save(loaded.file, content, new.encode())
     return show_guesses(console, loaded.file, "extended", guesses, warnings)

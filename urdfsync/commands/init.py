@@ -48,6 +48,13 @@ class Guess(msgspec.Struct, frozen=True):
     arguments: Mapping[str, str]
     package: str
     options: tuple[Proposal, ...] = ()
+    templates: Mapping[str, str] = {}
+    """Templates to begin with, by their paths."""
+
+    @property
+    def templates_folder(self) -> str:
+        """The folder for these templates."""
+        return f"templates/{self.robot}"
 
 
 def add(commands: arguments.Commands) -> None:
@@ -84,6 +91,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     _refuse_existing(file)
     with write_errors(file):
         write_schema(file.parent)  # first: if it fails, there is no configuration yet, and `init` can be repeated
+        write_templates(file.parent, guesses)
         put(file, configuration_text(domain, guesses, merges=args.merge).encode())
     if is_clone and not (is_asked or installs):
         message, hint = (
@@ -158,7 +166,8 @@ def _guess(
     fleet = [one.arguments for one in known if (root / one.source).resolve() == source.resolve()]
     robot, package = _free_names(source, given, own_name, fleet, known)
     proposals = tuple(advice.propose(snapshot, reading.diagnostics)) if advice else ()
-    guess = Guess(robot, path.as_posix(), values, package, proposals)
+    templates = domain.starter(snapshot) if domain.starter else {}
+    guess = Guess(robot, path.as_posix(), values, package, proposals, templates)
     return guess, (*text.diagnostics, *map(text.locate, reading.diagnostics))
 
 
@@ -214,12 +223,25 @@ def robot_table(guess: Guess, domain: Domain) -> str:
     ]
     if domain.name != "urdf":
         lines.append(_assignment("domain", domain.name))
+    if guess.templates:
+        lines.append(_assignment("templates", guess.templates_folder))
     types = {field.encode_name: field.type for field in msgspec.structs.fields(domain.options)}
     for proposal in guess.options:
         reason = " ".join("".join(char if char.isprintable() else " " for char in proposal.reason).split())
         words = f"{in_words(types[proposal.option])}; guessed: {reason}"
         lines.append(f"{_assignment(proposal.option, proposal.value)}  # {words}")
     return "\n".join(lines) + "\n"
+
+
+def write_templates(root: Path, guesses: Sequence[Guess]) -> None:
+    """Write the templates of new robots. Raises ConfigError for files that are there already, and OSError."""
+    texts = {root / one.templates_folder / path: text for one in guesses for path, text in one.templates.items()}
+    for file in texts:
+        if file.exists():
+            raise ConfigError.of("template-exists", "the template exists already", shown(file), hint="move it away")
+    for file, text in texts.items():
+        file.parent.mkdir(parents=True, exist_ok=True)
+        put(file, text.encode())
 
 
 def _assignment(key: str, value: Any) -> str:

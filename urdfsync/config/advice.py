@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any, Protocol
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, Protocol, TypeAlias
 
 import msgspec
 
@@ -17,6 +17,10 @@ class Proposal(msgspec.Struct, frozen=True):
     option: str
     value: Any
     reason: str
+
+
+Starter: TypeAlias = Callable[[Snapshot], Mapping[str, str]]
+"""Returns templates for `init` to write, by their paths; the domain's attribute `starter`."""
 
 
 class Advice(Protocol):

@@ -29,9 +29,10 @@ def _find_warnings(config: Config, robot: RobotConfig) -> Iterator[Diagnostic]:
         message, line = f"{noun}{shown(path)} of `{key}` does not exist", robot.lines.get(key, 0)
         code, hint = "no-package-path" if key == "package_paths" else "no-users-path", "correct it, or take it out"
         yield Diagnostic(Severity.WARNING, code, message, shown(config.file), line, hint=hint)
-    if robot.templates is None or not is_folder(robot.templates):
-        return
-    templates = set(_files(templates_folder(registry.domain(robot.domain))))
+    domain = registry.domain(robot.domain)
+    if robot.templates is None or not is_folder(robot.templates) or domain.starter:
+        return  # templates of a domain with a starter are the user's
+    templates = set(_files(templates_folder(domain)))
     own = _files(robot.templates)
     for name in sorted(own.keys() - templates):
         replaces = name if name.endswith(_SUFFIX) else f"{name}{_SUFFIX}"

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import msgspec
 
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
-from urdfsync.domain import Artifact, Domain, Import, Order, Snapshot, Target
+from urdfsync.domain import Artifact, Domain, Import, Order, Role, Snapshot, Target
 from urdfsync.files import Templates, digest, normalised, shown, text_digest
 from urdfsync.modelica.files import class_path
 
@@ -87,6 +87,12 @@ class Package:
             ):
                 changed.add(path)
         return frozenset(changed)
+
+    def changed_models(self, last: Package) -> set[str]:
+        """Return the owners of files other than records whose text differs from that in another package."""
+        both = (path for path in self.changed_since(last) if self.artifacts[path].role is not Role.RECORD)
+        changed = (path for path in both if path not in last.artifacts or self.hash(path) != last.hash(path))
+        return {self.artifacts[path].owner for path in changed}
 
 
 def generate(

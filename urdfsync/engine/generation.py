@@ -126,6 +126,8 @@ class Generation(msgspec.Struct, frozen=True, dict=True):
             return None
         if differences.change_class.rank >= ChangeClass.STRUCTURAL.rank and last.package is None:
             return None  # git may have merged two models into an invalid one
+        if self.inputs.domain.describe is None and differences.changes and last.package is not None:
+            differences = changes.by_texts(differences, self.package.changed_models(last.package))
         is_same = last.record.generator == self.inputs.generator and last.target == robot.target
         if is_same and last.record.options == option_values(robot.options):
             return differences

@@ -247,6 +247,8 @@ def _with_version(
         generate(domain, version.snapshot, version.imports or {}, robot.target, robot.options, templates)
         for version in (old, new)
     ]
+    if domain.describe is None:
+        differences = changes.by_texts(differences, packages[1].changed_models(packages[0]))
     changed = packages[1].changed_since(packages[0])
     older, newer = (_files_of(*pair, changed) for pair in zip(packages, (old, new), strict=True))
     actions = []

@@ -1,0 +1,148 @@
+"""The table domain as the core sees it: `urdfsync.domain.Domain` describes its functions."""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Iterator, Mapping, Sequence
+from types import ModuleType
+from typing import Any
+
+from urdfsync.domain import Artifact, Domain, ElementKey, Features, Import, Order, Reading, Role, Target
+from urdfsync.table.model import FROM, TO, Options, Row, Table
+from urdfsync.table.names import component_name, type_name
+
+_TITLES = {"Records": "Numbers of the elements", "Models": "Models of the elements"}
+
+
+class _Module:
+    """A module of this package that few commands need: it is loaded at its first use."""
+
+    def __init__(self, name: str) -> None:
+        self._name = f"urdfsync.table.{name}"
+
+    def __get__(self, domain: TableDomain, owner: type[TableDomain]) -> ModuleType:
+        """Return the module."""
+        return importlib.import_module(self._name)
+
+
+class _Connections:
+    """The connections in a CSV beside the source, such as `rooms.connections.csv` beside `rooms.csv`."""
+
+    SUFFIX = ".connections.csv"
+
+    def join(self, content: bytes, other: bytes, file: str) -> tuple[bytes, Sequence[tuple[int, int]]]:
+        """Return the source with the connections at its end; see `Beside`."""
+        from urdfsync.table.formats import join
+
+        return join(content, other, file)
+
+
+class TableDomain(Domain):
+    """Tables of elements, in CSV, TOML, JSON, YAML or XLSX, to Modelica."""
+
+    name = "table"
+    model = Table
+    options = Options
+    beside = _Connections()
+    advice = _Module("starter")
+
+    def starter(self, snapshot: Table) -> Mapping[str, str]:
+        """Return templates for the columns of a table, to be edited."""
+        from urdfsync.table.starter import templates
+
+        return templates(snapshot)
+
+    def uses(self, options: Options) -> Sequence[tuple[str, str]]:
+        """Return the libraries of the configuration."""
+        return tuple(options.uses.items())
+
+    def read(self, content: bytes, file: str, options: Options) -> Reading:
+        """Read a source."""
+        from urdfsync.table.reading import read
+
+        return read(content, file, options)
+
+    def names(self, snapshot: Table, target: Target) -> Mapping[str, Mapping[str, str]]:  # noqa: ARG002 - see `Domain`
+        """Return the component names of the elements."""
+        return {"elements": {key: component_name(key) for key in snapshot.elements}}
+
+    def artifacts(
+        self,
+        snapshot: Table,
+        imports: Mapping[str, Import],  # noqa: ARG002 - a table refers to no files
+        target: Target,
+        options: Options,
+    ) -> Iterator[Artifact | Order]:
+        """Yield the files that the options choose; templates decide what is in them."""
+        elements = {key: _element(key, row, options) for key, row in snapshot.elements.items()}
+        parent = target.package.rpartition(".")[0]
+        folders = {folder: role for folder, role, file in _FOLDERS if file in options.files}
+        title = f"Made by urdfsync from the table {target.name}"
+        data = {"within": parent, "name": target.package.rpartition(".")[2], "title": title}
+        data |= {"uses": {} if parent else options.uses}
+        yield Artifact("package.mo", Role.PACKAGE, "package.mo.jinja", data, "table")
+        system = [target.name] if "system" in options.files else []
+        yield Order("package.order", (*system, *options.classes, *folders))
+        for name in options.classes:
+            data = {"within": target.package, "class": name}
+            yield Artifact(f"{name}.mo", Role.MODEL, f"{name}.mo.jinja", data, "table")
+        if system:
+            connections = [
+                {"name": key, "start": elements[str(row[FROM])], "end": elements[str(row[TO])], "row": row}
+                for key, row in snapshot.connections.items()
+            ]
+            data = {"within": target.package, "class": target.name, "elements": list(elements.values())}
+            data |= {"connections": connections}
+            yield Artifact(f"{target.name}.mo", Role.MODEL, "system.mo.jinja", data, "table")
+        for folder, role in folders.items():
+            data = {"within": target.package, "name": folder, "title": _TITLES[folder], "uses": {}}
+            yield Artifact(f"{folder}/package.mo", Role.PACKAGE, "package.mo.jinja", data, "table")
+            yield Order(f"{folder}/package.order", tuple(element["class"] for element in elements.values()))
+            for key, element in elements.items():
+                data = {"within": f"{target.package}.{folder}", "root": target.package, **element}
+                template = "record.mo.jinja"
+                if role is Role.MODEL:
+                    template = f"model/{element['kind']}.mo.jinja" if options.kind else "model.mo.jinja"
+                else:
+                    data["columns"] = _columns(element["row"], snapshot.units["elements"])
+                yield Artifact(f"{folder}/{element['class']}.mo", role, template, data, f"element {key}")
+
+    def features(self, snapshot: Table) -> Mapping[ElementKey, Features]:
+        """Return the cells of elements, and the ends of connections."""
+        features = {("element", key): Features(_contents(row), {}) for key, row in snapshot.elements.items()}
+        for key, row in snapshot.connections.items():
+            ends = {end: ("element", str(row[end])) for end in (FROM, TO)}
+            existing = {end: one for end, one in ends.items() if one in features}
+            contents = {column: value for column, value in _contents(row).items() if column not in (FROM, TO)}
+            features["connection", key] = Features(contents, existing)
+        return features
+
+    def unit(self, snapshot: Table, path: Sequence[str]) -> str:
+        """Return the unit of a value at a path such as `elements`, `motor`, `mass`."""
+        return snapshot.units.get(path[0], {}).get(path[-1], "")
+
+
+_FOLDERS = (("Records", Role.RECORD, "record"), ("Models", Role.MODEL, "model"))
+
+
+def _element(key: str, row: Row, options: Options) -> dict[str, Any]:
+    kind = row[options.kind] if options.kind else ""
+    return {"name": key, "class": type_name(key), "component": component_name(key), "kind": kind, "row": row}
+
+
+def _columns(row: Row, units: Mapping[str, str]) -> list[dict[str, Any]]:
+    """Return the filled cells of a row as a record declares them."""
+    types = {bool: "Boolean", int: "Integer", float: "Real", str: "String"}
+    return [
+        {"name": component_name(column, "column"), "title": column, "type": types[type(value)], "value": value}
+        | {"unit": units.get(column, "")}
+        for column, value in row.items()
+        if value is not None
+    ]
+
+
+def _contents(row: Row) -> dict[str, Any]:
+    return {column: value for column, value in row.items() if value is not None}
+
+
+DOMAIN = TableDomain()

@@ -1,0 +1,205 @@
+"""Reads tables from CSV, TOML, JSON, YAML and XLSX; each becomes sheets of plain cells with their lines."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import tomllib
+import warnings
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from pathlib import PurePath
+from typing import Any, NamedTuple
+
+from urdfsync.diagnostics import SourceError
+from urdfsync.extras import install_command
+
+CONNECTIONS = "connections"
+MARK = b"\n\0connections\0\n"
+"""Stands between a source and the connections in the CSV beside it."""
+
+
+class Sheet(NamedTuple):
+    """A table as it was written: the header, and each row with its line."""
+
+    header: Sequence[str]
+    rows: Sequence[tuple[int, Sequence[object]]]
+
+
+NOTHING = Sheet((), ())
+
+
+def read_sheets(content: bytes, file: str) -> tuple[Sheet, Sheet]:
+    """Return elements and connections. Raises SourceError for a source that has no table."""
+    content, _, beside = content.partition(MARK)
+    suffix = PurePath(file).suffix.lower()
+    if suffix not in _READERS:
+        hint = f"use one of {', '.join(sorted(_READERS))}"
+        raise SourceError.of("table-format", f"`{suffix}` is no format of tables", file, hint=hint)
+    elements, connections = _READERS[suffix](content, file)
+    if beside:
+        first = content.count(b"\n") + MARK.count(b"\n")
+        connections = _read_csv(beside, file, first)[0]
+    return elements, connections
+
+
+def join(content: bytes, other: bytes, file: str) -> tuple[bytes, Sequence[tuple[int, int]]]:  # noqa: ARG001 - see `Beside`
+    """Return a source with the connections of the CSV beside it, and the lines of both."""
+    first = content.count(b"\n") + MARK.count(b"\n")
+    return content + MARK + other, [(first + line, line) for line in range(1, other.count(b"\n") + 2)]
+
+
+def _read_csv(content: bytes, file: str, first: int = 0) -> tuple[Sheet, Sheet]:
+    """Read a CSV, separated by commas, semicolons or tabs, as its header is."""
+    text = _decode(content, file, first)
+    header = text.split("\n", 1)[0]
+    separator = max(",;\t", key=header.count)
+    reader = csv.reader(io.StringIO(text, newline=""), delimiter=separator, strict=True)
+    rows, line = list[tuple[int, Sequence[object]]](), 1
+    try:
+        for row in reader:
+            if any(cell.strip() for cell in row):
+                rows.append((first + line, row))
+            line = reader.line_num + 1
+    except csv.Error as error:
+        raise SourceError.of("table-file", f"this is no CSV: {error}", file, first + line, hint="correct it") from None
+    return (Sheet([str(cell) for cell in rows[0][1]], rows[1:]) if rows else NOTHING), NOTHING
+
+
+def _read_toml(content: bytes, file: str) -> tuple[Sheet, Sheet]:
+    text = _decode(content, file)
+    try:
+        return _from_data(tomllib.loads(text), text, file)
+    except tomllib.TOMLDecodeError as error:
+        raise SourceError.of("table-file", f"this is no TOML: {error}", file, hint="correct it") from None
+
+
+def _read_json(content: bytes, file: str) -> tuple[Sheet, Sheet]:
+    text = _decode(content, file)
+    try:
+        return _from_data(json.loads(text), text, file)
+    except (json.JSONDecodeError, RecursionError) as error:
+        line, message = getattr(error, "lineno", 0), getattr(error, "msg", "it is nested too deeply")
+        raise SourceError.of("table-file", f"this is no JSON: {message}", file, line, hint="correct it") from None
+
+
+def _read_yaml(content: bytes, file: str) -> tuple[Sheet, Sheet]:
+    import yaml
+
+    text = _decode(content, file)
+    try:
+        return _from_data(yaml.load(text, getattr(yaml, "CSafeLoader", yaml.SafeLoader)), text, file)  # noqa: S506 - safe
+    except (yaml.YAMLError, ValueError, RecursionError) as error:
+        mark, problem = getattr(error, "problem_mark", None), getattr(error, "problem", None) or str(error)
+        message, line = f"this is no YAML: {problem}", mark.line + 1 if mark else 0
+        raise SourceError.of("table-file", message, file, line, hint="correct it") from None
+
+
+def _from_data(data: object, text: str, file: str) -> tuple[Sheet, Sheet]:
+    """Return the sheets of data with the list or mapping `elements`, and perhaps `connections`.
+
+    A list alone has the elements; so has a mapping of mappings, whose keys name them.
+    """
+    lists = data if isinstance(data, Mapping) else {"elements": data}
+    if "elements" not in lists:
+        lists = {CONNECTIONS: lists.get(CONNECTIONS, []), "elements": {k: v for k, v in lists.items() if k != CONNECTIONS}}
+    if unknown := lists.keys() - {"elements", CONNECTIONS}:
+        hint = f"a table has `elements` and `{CONNECTIONS}`"
+        raise SourceError.of("table-file", f"`{min(map(str, unknown))}` is unknown", file, hint=hint)
+    return _from_entries(lists["elements"], text, file), _from_entries(lists.get(CONNECTIONS, []), text, file)
+
+
+def _from_entries(entries: object, text: str, file: str) -> Sheet:
+    if isinstance(entries, Mapping) and all(isinstance(entry, Mapping) for entry in entries.values()):
+        entries = [{"name": name, **entry} for name, entry in entries.items()]
+    if not (isinstance(entries, list) and all(isinstance(entry, Mapping) for entry in entries)):
+        hint = "write one entry for each element, with its columns as keys"
+        raise SourceError.of("table-file", "the elements are neither a list nor a table of entries", file, hint=hint)
+    header = list(dict.fromkeys(str(column) for entry in entries for column in entry))
+    rows, position = list[tuple[int, Sequence[object]]](), 0
+    for entry in entries:
+        cells = {str(column): value for column, value in entry.items()}
+        # entries are in order, so the line of one is where its first value stands behind that of the last one
+        found = text.find(str(next(iter(cells.values()), "")), position)
+        position = found if found >= 0 else position
+        rows.append((text.count("\n", 0, position) + 1, [cells.get(column) for column in header]))
+    return Sheet(header, rows)
+
+
+def _read_xlsx(content: bytes, file: str) -> tuple[Sheet, Sheet]:
+    """Read the first sheet, and the sheet `connections`; formulas have the values that were last computed."""
+    try:
+        import openpyxl
+    except ImportError:
+        hint = install_command("table")
+        raise SourceError.of("no-openpyxl", "a workbook needs openpyxl, which is not installed", file, hint=hint) from None
+    books = []
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # openpyxl warns of what it leaves out, such as conditional formats
+        for computed in (True, False):
+            try:
+                books.append(openpyxl.load_workbook(io.BytesIO(content), data_only=computed))
+            except Exception as error:  # noqa: BLE001 - it may raise anything on a damaged file
+                message = f"this is no workbook: {error}"
+                raise SourceError.of("table-file", message, file, hint="save it as .xlsx again") from None
+    values, formulas = books
+    names = values.sheetnames
+    named = {name.lower(): name for name in names}
+    found = [names[0], named[CONNECTIONS]] if CONNECTIONS in named and len(names) > 1 else names[:1]
+    sheets = [_from_worksheet(values[name], formulas[name], file) for name in found]
+    return sheets[0], sheets[1] if len(sheets) > 1 else NOTHING
+
+
+def _from_worksheet(values: Any, formulas: Any, file: str) -> Sheet:
+    if merged := next(iter(values.merged_cells.ranges), None):
+        message, hint = f"sheet `{values.title}` has merged cells: {merged}", "unmerge them, and fill each cell"
+        raise SourceError.of("table-file", message, file, merged.min_row, hint=hint)
+    rows = list[tuple[int, Sequence[object]]]()
+    for number, (cells, originals) in enumerate(zip(values.iter_rows(), formulas.iter_rows(), strict=True), 1):
+        for cell, original in zip(cells, originals, strict=True):
+            if cell.value is None and original.value is not None:
+                message, hint = f"the formula in {cell.coordinate} was never computed", "open the workbook, and save it"
+                raise SourceError.of("table-file", message, file, number, hint=hint)
+        if any(cell.value is not None for cell in cells):
+            rows.append((number, [cell.value for cell in cells]))
+    if not rows:
+        return NOTHING
+    header = _without_end(rows[0][1])
+    width = len(header)
+    return Sheet(
+        ["" if cell is None else str(cell) for cell in header],
+        [(line, _without_end(cells) if any(c is not None for c in cells[width:]) else cells[:width]) for line, cells in rows[1:]],
+    )
+
+
+def _without_end(cells: Sequence[object]) -> Sequence[object]:
+    """Return the cells up to the last one that is filled."""
+    last = max((number for number, cell in enumerate(cells, 1) if cell is not None), default=0)
+    return cells[:last]
+
+
+def _read_epanet(content: bytes, file: str) -> tuple[Sheet, Sheet]:
+    from urdfsync.table import epanet
+
+    return epanet.read(content, file)
+
+
+def _decode(content: bytes, file: str, first: int = 0) -> str:
+    try:
+        return content.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = first + error.object.count(b"\n", 0, error.start) + 1
+        message, hint = "the file is not UTF-8", "save it as UTF-8, then try again"
+        raise SourceError.of("table-file", message, file, line, hint=hint) from None
+
+
+_READERS = {
+    ".csv": _read_csv,
+    ".inp": _read_epanet,
+    ".json": _read_json,
+    ".toml": _read_toml,
+    ".tsv": _read_csv,
+    ".xlsx": _read_xlsx,
+    ".yaml": _read_yaml,
+    ".yml": _read_yaml,
+}

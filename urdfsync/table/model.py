@@ -1,0 +1,45 @@
+"""A table of elements and the connections between them, as values."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Literal, TypeAlias
+
+import msgspec
+
+Value: TypeAlias = float | int | bool | str | None
+"""A cell: a number in SI units, a truth value, a text, or None for an empty cell."""
+Row: TypeAlias = Mapping[str, Value]
+"""The cells of one row, by column."""
+File: TypeAlias = Literal["record", "model", "system"]
+
+FROM, TO = "from", "to"
+"""The columns of a connection that name its elements."""
+
+
+class Options(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """How a table becomes a package."""
+
+    key: str = ""
+    """The column that names the elements; empty for the first column."""
+    kind: str = ""
+    """The column that chooses the template of an element's model, `model/KIND.mo.jinja`; empty for `model.mo.jinja`."""
+    files: tuple[File, ...] = ("record", "model")
+    """The files to generate: a record and a model for each element, and one model of the whole system."""
+    classes: tuple[str, ...] = ()
+    """Further classes of the package, such as a connector, from `CLASS.mo.jinja`."""
+    columns: Mapping[str, str] = {}
+    """The unit of columns, or `text`, `integer` or `boolean`; the table's header may state it, too."""
+    uses: Mapping[str, str] = msgspec.field(default_factory=lambda: {"Modelica": "4.0.0"})
+    """The libraries that the templates need, with their versions."""
+
+
+class Table(msgspec.Struct, frozen=True):
+    """All rows of a source, sorted by their keys."""
+
+    elements: dict[str, dict[str, Value]]
+    """The elements by key; a row has no cell for its key."""
+    connections: dict[str, dict[str, Value]]
+    """The connections by `FROM TO`, with a number if there are several."""
+    units: dict[str, dict[str, str]]
+    """The SI unit of each column of numbers, as Modelica writes it, for `elements` and `connections`."""

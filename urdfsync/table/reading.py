@@ -1,0 +1,214 @@
+"""Reads a source as a table: keys, types and units are checked, and numbers are converted to SI."""
+
+from __future__ import annotations
+
+import datetime
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from decimal import Decimal
+from typing import NamedTuple
+
+from urdfsync.diagnostics import Diagnostic, Severity, SourceError
+from urdfsync.domain import Reading
+from urdfsync.spelling import nearest
+from urdfsync.table import formats
+from urdfsync.table.formats import Sheet
+from urdfsync.table.model import FROM, TO, Options, Table, Value
+from urdfsync.table.names import find_clashes
+from urdfsync.table.units import Unit, find_unit, is_same_kind
+
+_HEADER = re.compile(r"\s*(?P<name>.*?)\s*(?:\[(?P<unit>[^\[\]]*)\])?\s*", re.DOTALL)
+_NUMBER = re.compile(r"[-+]?(\d+(\.\d*)?|\.\d+)([eE][-+]?\d{1,3})?", re.ASCII)
+_KIND = re.compile(r"[A-Za-z0-9_-]+")
+_TRUTH = {"true": True, "false": False}
+_TYPES = ("text", "integer", "boolean")
+
+
+class _Column(NamedTuple):
+    """A column: its name, and its unit or the name of its type."""
+
+    name: str
+    type: Unit | str
+
+
+def read(content: bytes, file: str, options: Options) -> Reading:
+    """Read a source; see `Domain.read`."""
+    reader = _Reader(file, options)
+    try:
+        elements, connections = formats.read_sheets(content, file)
+        table = reader.read(elements, connections)
+    except SourceError as error:
+        return Reading(None, (*reader.findings, *error.diagnostics))
+    is_wrong = any(finding.severity is Severity.ERROR for finding in reader.findings)
+    return Reading(None if is_wrong else table, tuple(reader.findings), reader.lines, tuple(reader.of_options))
+
+
+class _Reader:
+    """Reads one source, and collects its findings."""
+
+    def __init__(self, file: str, options: Options) -> None:
+        self.findings: list[Diagnostic] = []
+        self.of_options: list[tuple[str, Diagnostic]] = []
+        self.lines: dict[str, int] = {}
+        self._file, self._options = file, options
+
+    def read(self, elements: Sheet, connections: Sheet) -> Table:
+        """Return the table; it is whole if there is no error among the findings."""
+        key = self._options.key or (_name_and_unit(elements.header[0])[0] if elements.header else "")
+        columns = self._columns(elements, {key, self._options.kind} - {""})
+        links = self._columns(connections, {FROM, TO})
+        known = {column.name for column in (*columns, *links)}
+        for option, name in [("key", key), ("kind", self._options.kind), *(("columns", n) for n in self._options.columns)]:
+            if name and name not in known and elements.header:
+                near = nearest(name, known)
+                hint = f"did you mean `{near}`?" if near else f"the columns are {', '.join(sorted(known))}"
+                self._of_option(option, f"there is no column `{name}`", hint)
+        if connections.rows and (lacking := {FROM, TO} - known):
+            self._error("no-column", f"the connections have no column `{min(lacking)}`", 0, "name both elements in each row")
+            connections = formats.NOTHING
+        rows = self._rows(elements, columns, key)
+        for name, reason in find_clashes(rows):
+            self._error("key-clash", f"the key `{name}` is no name: {reason}", self.lines[f"element {name}"], "rename it")
+        joined = self._connections(connections, links, rows)
+        units = {
+            kind: {column.name: column.type.si for column in of_kind if isinstance(column.type, Unit)}
+            for kind, of_kind in (("elements", columns), ("connections", links))
+        }
+        return Table(dict(sorted(rows.items())), dict(sorted(joined.items())), units)
+
+    def _columns(self, sheet: Sheet, texts: set[str]) -> list[_Column]:
+        """Return the columns; those of `texts` have texts."""
+        columns = list[_Column]()
+        for number, cell in enumerate(sheet.header):
+            name, unit = _name_and_unit(cell)
+            if not name or not name.isprintable():
+                self._error("no-column", f"column {number + 1} has no name", 1, "name it in the header")
+            elif name in (column.name for column in columns):
+                self._error("no-column", f"there are two columns `{name}`", 1, "rename one")
+            column = _Column(name, "text" if name in texts else self._type(name, unit, sheet, number))
+            columns.append(column)
+        for name, reason in find_clashes([column.name for column in columns if column.name], "column"):
+            if "same name" in reason:
+                self._error("no-column", f"column `{name}` can't be told apart: {reason}", 1, "rename it")
+        return columns
+
+    def _type(self, name: str, unit: str, sheet: Sheet, number: int) -> Unit | str:
+        """Return the unit or the type of a column, by its header and the configuration."""
+        declared = self._options.columns.get(name, "")
+        try:
+            if (unit or declared) in _TYPES:
+                return unit or declared
+            if unit and declared and not is_same_kind(unit, declared):
+                self._error("bad-unit", f"column `{name}` is in {unit}, but the configuration says {declared}", 1, "correct one")
+            if unit or declared:
+                return find_unit(unit or declared)
+        except ValueError as error:
+            self._error("bad-unit", f"column `{name}`: {error}", 1, "write a unit such as `kg.m2`, or `1` for none")
+            return "text"
+        except SourceError as error:
+            self._error(error.diagnostics[0].code, error.diagnostics[0].message, 1, error.diagnostics[0].hint)
+            return "text"
+        cells = [cells[number] for _, cells in sheet.rows if number < len(cells) and cells[number] not in (None, "")]
+        if cells and all(_is_number(cell) for cell in cells):
+            hint = f"write `{name} [kg]` with its unit, `{name} [1]` if it has none, or `{name} [text]`"
+            self._error("no-unit", f"column `{name}` has numbers, and no unit", 1, hint)
+        return "text"
+
+    def _rows(self, sheet: Sheet, columns: Sequence[_Column], key: str) -> dict[str, dict[str, Value]]:
+        rows = dict[str, dict[str, Value]]()
+        for line, row in self._values(sheet, columns):
+            name = str(row.pop(key, None) or "")
+            kind = row.get(self._options.kind) if self._options.kind else None
+            if not name:
+                self._error("no-key", "the row has no key", line, f"fill its column `{key}`")
+            elif name in rows:
+                first = self.lines[f"element {name}"]
+                self._error("duplicate-key", f"the key `{name}` stands in line {first}, too", line, "rename one")
+            elif self._options.kind and not (isinstance(kind, str) and _KIND.fullmatch(kind)):
+                hint = "use letters, digits, `_` and `-`: it names a template"
+                self._error("no-kind", f"the kind `{kind or ''}` of `{name}` can't be a template", line, hint)
+            else:
+                rows[name], self.lines[f"element {name}"] = row, line
+        return rows
+
+    def _connections(
+        self, sheet: Sheet, columns: Sequence[_Column], elements: Mapping[str, object]
+    ) -> dict[str, dict[str, Value]]:
+        rows = dict[str, dict[str, Value]]()
+        for line, row in self._values(sheet, columns):
+            ends = [str(row.get(end) or "") for end in (FROM, TO)]
+            for name in ends:
+                if name not in elements:
+                    near = nearest(name, elements)
+                    hint = f"did you mean `{near}`?" if near else "add it, or correct the connection"
+                    self._error("no-element", f"there is no element `{name}`", line, hint)
+            key, number = " ".join(ends), 2
+            while key in rows:
+                key, number = f"{' '.join(ends)} {number}", number + 1
+            rows[key], self.lines[f"connection {key}"] = row, line
+        return rows
+
+    def _values(self, sheet: Sheet, columns: Sequence[_Column]) -> Iterator[tuple[int, dict[str, Value]]]:
+        """Yield the rows with their values; tell of the first fault in each cell."""
+        for line, cells in sheet.rows:
+            if len(cells) != len(columns):
+                message = f"the row has {len(cells)} cells, and the header {len(columns)}"
+                self._error("ragged-row", message, line, "fill each cell, or quote a text that has the separator")
+                continue
+            row = dict[str, Value]()
+            for column, cell in zip(columns, cells, strict=True):
+                try:
+                    row[column.name] = _value(cell, column.type)
+                except ValueError as error:
+                    self._error("bad-cell", f"column `{column.name}`: {error}", line, "correct the cell")
+                    row[column.name] = None
+            yield line, row
+
+    def _error(self, code: str, message: str, line: int, hint: str) -> None:
+        self.findings.append(Diagnostic(Severity.ERROR, code, message, self._file, line, hint=hint))
+
+    def _of_option(self, option: str, message: str, hint: str) -> None:
+        self.of_options.append((option, Diagnostic(Severity.ERROR, "no-column", message, hint=hint)))
+
+
+def _name_and_unit(header: str) -> tuple[str, str]:
+    match = _HEADER.fullmatch(header)
+    return (match["name"], (match["unit"] or "").strip()) if match else (header, "")
+
+
+def _is_number(cell: object) -> bool:
+    if isinstance(cell, str):
+        return _NUMBER.fullmatch(cell.strip()) is not None
+    return isinstance(cell, int | float) and not isinstance(cell, bool)
+
+
+def _value(cell: object, kind: Unit | str) -> Value:
+    """Return the value of a cell in SI; None if it is empty. Raises ValueError."""
+    text = cell.strip() if isinstance(cell, str) else cell
+    if text is None or text == "":
+        return None
+    if isinstance(text, datetime.date | datetime.time):
+        if kind != "text":
+            raise ValueError(f"{text} is a date, not a number")
+        return text.isoformat()
+    if kind == "boolean":
+        if isinstance(text, bool) or str(text).lower() in _TRUTH:
+            return _TRUTH[str(text).lower()]
+        raise ValueError(f"`{text}` is neither true nor false")
+    if kind == "text":
+        if not isinstance(text, str | int | float):
+            raise ValueError(f"`{text}` is neither a text nor a number")
+        return str(text)
+    if not _is_number(text):
+        comma = str(text).replace(",", ".") if str(text).count(",") == 1 else ""
+        more = f": write {comma}" if _NUMBER.fullmatch(comma) else ""
+        raise ValueError(f"`{text}` is no number{more}")
+    number = Decimal(str(text))
+    if isinstance(kind, Unit):
+        value = kind.convert(number)
+        if abs(value) == float("inf"):
+            raise ValueError(f"{text} is too large")
+        return value
+    if number != int(number) or abs(number) >= 2**31:
+        raise ValueError(f"{text} is no integer that Modelica can hold")
+    return int(number)
