@@ -173,8 +173,8 @@ def compare(old: Version, new: Version, domain: Domain, options: Any, matching: 
     if matching is None:
         is_same = old.snapshot == new.snapshot
         matching = Matching() if is_same else match(domain.features(old.snapshot), domain.features(new.snapshot))
-    default = functools.partial(_describe, unit=domain.unit)
-    renames, describe = matching.renames, cast("Describe", domain.describe or default)
+    renames = matching.renames
+    describe = cast("Describe", domain.describe or functools.partial(_describe, unit=domain.unit))
     changes = [
         Change((f"{kind} {name}",), ChangeKind.RENAMED, ChangeClass.STRUCTURAL, name, renamed)
         for (kind, name), renamed in renames.items()
@@ -225,7 +225,7 @@ def _under_new_names(data: Mapping[str, Any], renames: Mapping[ElementKey, str])
         kind = part.removesuffix("s")
         if isinstance(elements, Mapping) and any(of_kind == kind for of_kind, _ in renames):
             kept = {name: value for name, value in elements.items() if (kind, name) not in gone}
-            elements = {renames.get((kind, name), name): value for name, value in kept.items()}  # noqa: PLW2901
+            elements = {renames.get((kind, name), name): value for name, value in kept.items()}
         moved[part] = elements
     return moved
 

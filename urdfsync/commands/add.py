@@ -9,7 +9,15 @@ from pathlib import Path
 from urdfsync import config, registry
 from urdfsync.api import load
 from urdfsync.commands import arguments
-from urdfsync.commands.init import Guess, guess_robots, robot_table, show_guesses, write_errors, write_schema, write_templates
+from urdfsync.commands.init import (
+    Guess,
+    guess_robots,
+    robot_table,
+    show_guesses,
+    write_errors,
+    write_schema,
+    write_templates,
+)
 from urdfsync.diagnostics import ConfigError
 from urdfsync.files import shown
 from urdfsync.output.console import Console

@@ -8,7 +8,7 @@ from types import ModuleType
 from typing import Any
 
 from urdfsync.domain import Artifact, Domain, ElementKey, Features, Import, Order, Reading, Role, Target
-from urdfsync.table.model import FROM, TO, Options, Row, Table
+from urdfsync.table.model import FROM, TO, TYPES, Options, Table, Value
 from urdfsync.table.names import component_name, type_name
 
 _TITLES = {"Records": "Numbers of the elements", "Models": "Models of the elements"}
@@ -74,75 +74,83 @@ class TableDomain(Domain):
         options: Options,
     ) -> Iterator[Artifact | Order]:
         """Yield the files that the options choose; templates decide what is in them."""
-        elements = {key: _element(key, row, options) for key, row in snapshot.elements.items()}
+        elements = {key: _element(snapshot, key, options) for key in snapshot.elements}
         parent = target.package.rpartition(".")[0]
         folders = {folder: role for folder, role, file in _FOLDERS if file in options.files}
-        title = f"Made by urdfsync from the table {target.name}"
-        data = {"within": parent, "name": target.package.rpartition(".")[2], "title": title}
-        data |= {"uses": {} if parent else options.uses}
-        yield Artifact("package.mo", Role.PACKAGE, "package.mo.jinja", data, "table")
+        name, classes = target.package.rpartition(".")[2], tuple(element["class"] for element in elements.values())
+        title, uses = f"Made by urdfsync from the table {target.name}", {} if parent else options.uses
+        yield _package("", {"within": parent, "name": name, "title": title, "uses": uses})
         system = [target.name] if "system" in options.files else []
         yield Order("package.order", (*system, *options.classes, *folders))
+        of_package: dict[str, Any] = {"within": target.package}
         for name in options.classes:
-            data = {"within": target.package, "class": name}
-            yield Artifact(f"{name}.mo", Role.MODEL, f"{name}.mo.jinja", data, "table")
+            yield Artifact(f"{name}.mo", Role.MODEL, f"{name}.mo.jinja", of_package | {"class": name}, "table")
         if system:
             connections = [
-                {"name": key, "start": elements[str(row[FROM])], "end": elements[str(row[TO])], "row": row}
+                {"name": key, "start": elements[str(row[FROM])], "end": elements[str(row[TO])]}
+                | {"row": dict.fromkeys(sorted(snapshot.connection_columns)) | row}
                 for key, row in snapshot.connections.items()
             ]
-            data = {"within": target.package, "class": target.name, "elements": list(elements.values())}
-            data |= {"connections": connections}
+            data = of_package | {"class": target.name, "elements": [*elements.values()], "connections": connections}
             yield Artifact(f"{target.name}.mo", Role.MODEL, "system.mo.jinja", data, "table")
         for folder, role in folders.items():
-            data = {"within": target.package, "name": folder, "title": _TITLES[folder], "uses": {}}
-            yield Artifact(f"{folder}/package.mo", Role.PACKAGE, "package.mo.jinja", data, "table")
-            yield Order(f"{folder}/package.order", tuple(element["class"] for element in elements.values()))
+            yield _package(f"{folder}/", of_package | {"name": folder, "title": _TITLES[folder], "uses": {}})
+            yield Order(f"{folder}/package.order", classes)
             for key, element in elements.items():
                 data = {"within": f"{target.package}.{folder}", "root": target.package, **element}
                 template = "record.mo.jinja"
                 if role is Role.MODEL:
                     template = f"model/{element['kind']}.mo.jinja" if options.kind else "model.mo.jinja"
                 else:
-                    data["columns"] = _columns(element["row"], snapshot.units["elements"])
+                    data["columns"] = _columns(snapshot.elements[key], snapshot.columns)
                 yield Artifact(f"{folder}/{element['class']}.mo", role, template, data, f"element {key}")
 
     def features(self, snapshot: Table) -> Mapping[ElementKey, Features]:
         """Return the cells of elements, and the ends of connections."""
-        features = {("element", key): Features(_contents(row), {}) for key, row in snapshot.elements.items()}
+        features = {("element", key): Features(row, {}) for key, row in snapshot.elements.items()}
         for key, row in snapshot.connections.items():
             ends = {end: ("element", str(row[end])) for end in (FROM, TO)}
             existing = {end: one for end, one in ends.items() if one in features}
-            contents = {column: value for column, value in _contents(row).items() if column not in (FROM, TO)}
+            contents = {column: value for column, value in row.items() if column not in (FROM, TO)}
             features["connection", key] = Features(contents, existing)
         return features
 
     def unit(self, snapshot: Table, path: Sequence[str]) -> str:
         """Return the unit of a value at a path such as `elements`, `motor`, `mass`."""
-        return snapshot.units.get(path[0], {}).get(path[-1], "")
+        columns = {"elements": snapshot.columns, "connections": snapshot.connection_columns}.get(path[0], {})
+        unit = columns.get(path[-1], "")
+        return "" if unit in ("1", *TYPES) else unit
 
 
 _FOLDERS = (("Records", Role.RECORD, "record"), ("Models", Role.MODEL, "model"))
 
 
-def _element(key: str, row: Row, options: Options) -> dict[str, Any]:
-    kind = row[options.kind] if options.kind else ""
-    return {"name": key, "class": type_name(key), "component": component_name(key), "kind": kind, "row": row}
+def _package(folder: str, data: Mapping[str, Any]) -> Artifact:
+    return Artifact(f"{folder}package.mo", Role.PACKAGE, "package.mo.jinja", data, "table")
 
 
-def _columns(row: Row, units: Mapping[str, str]) -> list[dict[str, Any]]:
-    """Return the filled cells of a row as a record declares them."""
-    types = {bool: "Boolean", int: "Integer", float: "Real", str: "String"}
+def _element(snapshot: Table, key: str, options: Options) -> dict[str, Any]:
+    """Return an element as templates have it; an empty cell is None in its row."""
+    row = snapshot.elements[key]
+    names = {"name": key, "class": type_name(key), "component": component_name(key)}
+    return {**names, "kind": row.get(options.kind, ""), "row": dict.fromkeys(sorted(snapshot.columns)) | row}
+
+
+def _columns(row: Mapping[str, Value], types: Mapping[str, str]) -> list[dict[str, Any]]:
+    """Return the filled cells of a row as a record declares them, sorted by column."""
     return [
-        {"name": component_name(column, "column"), "title": column, "type": types[type(value)], "value": value}
-        | {"unit": units.get(column, "")}
-        for column, value in row.items()
-        if value is not None
+        {
+            "name": component_name(column, "column"),
+            "title": column,
+            "type": _MODELICA.get(types[column], "Real"),
+            "unit": types[column],
+            "value": value,
+        }
+        for column, value in sorted(row.items())
     ]
 
 
-def _contents(row: Row) -> dict[str, Any]:
-    return {column: value for column, value in row.items() if value is not None}
+_MODELICA = {"text": "String", "integer": "Integer", "boolean": "Boolean"}
 
 
 DOMAIN = TableDomain()

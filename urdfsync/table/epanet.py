@@ -18,7 +18,14 @@ _COLUMNS = (
     "name kind elevation[m] demand[m3/s] head[m] level[m] diameter[m] length[m] roughness[1] minor_loss[1] "
     "status setting[1] shutoff_head[m] head_loss[1] exponent[1]"
 ).split()
-_KINDS = {"junction": "JUNCTIONS", "reservoir": "RESERVOIRS", "tank": "TANKS", "pipe": "PIPES", "pump": "PUMPS", "valve": "VALVES"}
+_KINDS = {
+    "junction": "JUNCTIONS",
+    "reservoir": "RESERVOIRS",
+    "tank": "TANKS",
+    "pipe": "PIPES",
+    "pump": "PUMPS",
+    "valve": "VALVES",
+}
 """Kinds of elements, and the sections of the file that list them."""
 
 
@@ -79,7 +86,11 @@ def _elements(network: Any) -> list[tuple[str, dict[str, Any]]]:
 
 
 def _kind(element: Any) -> str:
-    return "valve" if element.__class__.__name__.endswith("Valve") else str(element.__class__.__name__).lower().removeprefix("head").removeprefix("power")
+    return (
+        "valve"
+        if element.__class__.__name__.endswith("Valve")
+        else str(element.__class__.__name__).lower().removeprefix("head").removeprefix("power")
+    )
 
 
 def _lines(text: str) -> Mapping[tuple[str, str], int]:

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import csv
 import io
-import json
-import tomllib
 import warnings
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import PurePath
 from typing import Any, NamedTuple
+
+import msgspec
+import msgspec.toml
+import msgspec.yaml
 
 from urdfsync.diagnostics import SourceError
 from urdfsync.extras import install_command
@@ -34,12 +36,16 @@ def read_sheets(content: bytes, file: str) -> tuple[Sheet, Sheet]:
     content, _, beside = content.partition(MARK)
     suffix = PurePath(file).suffix.lower()
     if suffix not in _READERS:
-        hint = f"use one of {', '.join(sorted(_READERS))}"
+        hint = f"use one of {', '.join(sorted(filter(None, _READERS)))}"
         raise SourceError.of("table-format", f"`{suffix}` is no format of tables", file, hint=hint)
     elements, connections = _READERS[suffix](content, file)
     if beside:
         first = content.count(b"\n") + MARK.count(b"\n")
         connections = _read_csv(beside, file, first)[0]
+    if not elements.rows:
+        raise SourceError.of(
+            "table-file", "the table has no rows", file, hint="write a header and a row for each element"
+        )
     return elements, connections
 
 
@@ -66,33 +72,15 @@ def _read_csv(content: bytes, file: str, first: int = 0) -> tuple[Sheet, Sheet]:
     return (Sheet([str(cell) for cell in rows[0][1]], rows[1:]) if rows else NOTHING), NOTHING
 
 
-def _read_toml(content: bytes, file: str) -> tuple[Sheet, Sheet]:
+def _read_data(content: bytes, file: str) -> tuple[Sheet, Sheet]:
+    """Read TOML, JSON or YAML."""
+    name = {".json": "JSON", ".toml": "TOML"}.get(PurePath(file).suffix.lower(), "YAML")
     text = _decode(content, file)
     try:
-        return _from_data(tomllib.loads(text), text, file)
-    except tomllib.TOMLDecodeError as error:
-        raise SourceError.of("table-file", f"this is no TOML: {error}", file, hint="correct it") from None
-
-
-def _read_json(content: bytes, file: str) -> tuple[Sheet, Sheet]:
-    text = _decode(content, file)
-    try:
-        return _from_data(json.loads(text), text, file)
-    except (json.JSONDecodeError, RecursionError) as error:
-        line, message = getattr(error, "lineno", 0), getattr(error, "msg", "it is nested too deeply")
-        raise SourceError.of("table-file", f"this is no JSON: {message}", file, line, hint="correct it") from None
-
-
-def _read_yaml(content: bytes, file: str) -> tuple[Sheet, Sheet]:
-    import yaml
-
-    text = _decode(content, file)
-    try:
-        return _from_data(yaml.load(text, getattr(yaml, "CSafeLoader", yaml.SafeLoader)), text, file)  # noqa: S506 - safe
-    except (yaml.YAMLError, ValueError, RecursionError) as error:
-        mark, problem = getattr(error, "problem_mark", None), getattr(error, "problem", None) or str(error)
-        message, line = f"this is no YAML: {problem}", mark.line + 1 if mark else 0
-        raise SourceError.of("table-file", message, file, line, hint="correct it") from None
+        data = {"JSON": msgspec.json, "TOML": msgspec.toml, "YAML": msgspec.yaml}[name].decode(text)
+    except (msgspec.DecodeError, ValueError, RecursionError) as error:
+        raise SourceError.of("table-file", f"this is no {name}: {error}", file, hint="correct it") from None
+    return _from_data(data, text, file)
 
 
 def _from_data(data: object, text: str, file: str) -> tuple[Sheet, Sheet]:
@@ -102,7 +90,10 @@ def _from_data(data: object, text: str, file: str) -> tuple[Sheet, Sheet]:
     """
     lists = data if isinstance(data, Mapping) else {"elements": data}
     if "elements" not in lists:
-        lists = {CONNECTIONS: lists.get(CONNECTIONS, []), "elements": {k: v for k, v in lists.items() if k != CONNECTIONS}}
+        lists = {
+            CONNECTIONS: lists.get(CONNECTIONS, []),
+            "elements": {k: v for k, v in lists.items() if k != CONNECTIONS},
+        }
     if unknown := lists.keys() - {"elements", CONNECTIONS}:
         hint = f"a table has `elements` and `{CONNECTIONS}`"
         raise SourceError.of("table-file", f"`{min(map(str, unknown))}` is unknown", file, hint=hint)
@@ -132,7 +123,9 @@ def _read_xlsx(content: bytes, file: str) -> tuple[Sheet, Sheet]:
         import openpyxl
     except ImportError:
         hint = install_command("table")
-        raise SourceError.of("no-openpyxl", "a workbook needs openpyxl, which is not installed", file, hint=hint) from None
+        raise SourceError.of(
+            "no-openpyxl", "a workbook needs openpyxl, which is not installed", file, hint=hint
+        ) from None
     books = []
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # openpyxl warns of what it leaves out, such as conditional formats
@@ -168,7 +161,10 @@ def _from_worksheet(values: Any, formulas: Any, file: str) -> Sheet:
     width = len(header)
     return Sheet(
         ["" if cell is None else str(cell) for cell in header],
-        [(line, _without_end(cells) if any(c is not None for c in cells[width:]) else cells[:width]) for line, cells in rows[1:]],
+        [
+            (line, _without_end(cells) if any(c is not None for c in cells[width:]) else cells[:width])
+            for line, cells in rows[1:]
+        ],
     )
 
 
@@ -194,12 +190,13 @@ def _decode(content: bytes, file: str, first: int = 0) -> str:
 
 
 _READERS = {
+    "": _read_csv,
     ".csv": _read_csv,
     ".inp": _read_epanet,
-    ".json": _read_json,
-    ".toml": _read_toml,
+    ".json": _read_data,
+    ".toml": _read_data,
     ".tsv": _read_csv,
     ".xlsx": _read_xlsx,
-    ".yaml": _read_yaml,
-    ".yml": _read_yaml,
+    ".yaml": _read_data,
+    ".yml": _read_data,
 }

@@ -7,10 +7,10 @@ from typing import Literal, TypeAlias
 
 import msgspec
 
-Value: TypeAlias = float | int | bool | str | None
-"""A cell: a number in SI units, a truth value, a text, or None for an empty cell."""
-Row: TypeAlias = Mapping[str, Value]
-"""The cells of one row, by column."""
+Value: TypeAlias = float | int | bool | str
+"""A filled cell: a number in SI units, a truth value or a text."""
+TYPES = "text", "integer", "boolean"
+"""The types of columns without a unit."""
 File: TypeAlias = Literal["record", "model", "system"]
 
 FROM, TO = "from", "to"
@@ -37,9 +37,11 @@ class Options(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 class Table(msgspec.Struct, frozen=True):
     """All rows of a source, sorted by their keys."""
 
+    columns: dict[str, str]
+    """The columns of elements: the SI unit of numbers as Modelica writes it, or `text`, `integer`, `boolean`."""
     elements: dict[str, dict[str, Value]]
-    """The elements by key; a row has no cell for its key."""
-    connections: dict[str, dict[str, Value]]
-    """The connections by `FROM TO`, with a number if there are several."""
-    units: dict[str, dict[str, str]]
-    """The SI unit of each column of numbers, as Modelica writes it, for `elements` and `connections`."""
+    """The filled cells of each element, by key and column."""
+    connection_columns: dict[str, str] = {}
+    """The columns of connections, likewise."""
+    connections: dict[str, dict[str, Value]] = {}
+    """The filled cells of each connection, by `FROM TO`, with a number if there are several."""

@@ -10,10 +10,10 @@ from typing import NamedTuple
 
 from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.domain import Reading
-from urdfsync.spelling import nearest
+from urdfsync.spelling import counted, nearest
 from urdfsync.table import formats
 from urdfsync.table.formats import Sheet
-from urdfsync.table.model import FROM, TO, Options, Table, Value
+from urdfsync.table.model import FROM, TO, TYPES, Options, Table, Value
 from urdfsync.table.names import find_clashes
 from urdfsync.table.units import Unit, find_unit, is_same_kind
 
@@ -21,7 +21,6 @@ _HEADER = re.compile(r"\s*(?P<name>.*?)\s*(?:\[(?P<unit>[^\[\]]*)\])?\s*", re.DO
 _NUMBER = re.compile(r"[-+]?(\d+(\.\d*)?|\.\d+)([eE][-+]?\d{1,3})?", re.ASCII)
 _KIND = re.compile(r"[A-Za-z0-9_-]+")
 _TRUTH = {"true": True, "false": False}
-_TYPES = ("text", "integer", "boolean")
 
 
 class _Column(NamedTuple):
@@ -58,23 +57,30 @@ class _Reader:
         columns = self._columns(elements, {key, self._options.kind} - {""})
         links = self._columns(connections, {FROM, TO})
         known = {column.name for column in (*columns, *links)}
-        for option, name in [("key", key), ("kind", self._options.kind), *(("columns", n) for n in self._options.columns)]:
+        for option, name in [
+            ("key", key),
+            ("kind", self._options.kind),
+            *(("columns", n) for n in self._options.columns),
+        ]:
             if name and name not in known and elements.header:
                 near = nearest(name, known)
                 hint = f"did you mean `{near}`?" if near else f"the columns are {', '.join(sorted(known))}"
                 self._of_option(option, f"there is no column `{name}`", hint)
         if connections.rows and (lacking := {FROM, TO} - known):
-            self._error("no-column", f"the connections have no column `{min(lacking)}`", 0, "name both elements in each row")
+            self._error(
+                "no-column", f"the connections have no column `{min(lacking)}`", 0, "name both elements in each row"
+            )
             connections = formats.NOTHING
-        rows = self._rows(elements, columns, key)
+        rows = {} if self.of_options else self._rows(elements, columns, key)
         for name, reason in find_clashes(rows):
-            self._error("key-clash", f"the key `{name}` is no name: {reason}", self.lines[f"element {name}"], "rename it")
+            self._error(
+                "key-clash", f"the key `{name}` is no name: {reason}", self.lines[f"element {name}"], "rename it"
+            )
         joined = self._connections(connections, links, rows)
-        units = {
-            kind: {column.name: column.type.si for column in of_kind if isinstance(column.type, Unit)}
-            for kind, of_kind in (("elements", columns), ("connections", links))
-        }
-        return Table(dict(sorted(rows.items())), dict(sorted(joined.items())), units)
+        types, of_links = (
+            {c.name: c.type if isinstance(c.type, str) else c.type.si for c in each} for each in (columns, links)
+        )
+        return Table(types, dict(sorted(rows.items())), of_links, dict(sorted(joined.items())))
 
     def _columns(self, sheet: Sheet, texts: set[str]) -> list[_Column]:
         """Return the columns; those of `texts` have texts."""
@@ -88,7 +94,7 @@ class _Reader:
             column = _Column(name, "text" if name in texts else self._type(name, unit, sheet, number))
             columns.append(column)
         for name, reason in find_clashes([column.name for column in columns if column.name], "column"):
-            if "same name" in reason:
+            if "same name" in reason and f"`{name}`" not in reason:
                 self._error("no-column", f"column `{name}` can't be told apart: {reason}", 1, "rename it")
         return columns
 
@@ -96,10 +102,12 @@ class _Reader:
         """Return the unit or the type of a column, by its header and the configuration."""
         declared = self._options.columns.get(name, "")
         try:
-            if (unit or declared) in _TYPES:
+            if (unit or declared) in TYPES:
                 return unit or declared
             if unit and declared and not is_same_kind(unit, declared):
-                self._error("bad-unit", f"column `{name}` is in {unit}, but the configuration says {declared}", 1, "correct one")
+                self._error(
+                    "bad-unit", f"column `{name}` is in {unit}, but the configuration says {declared}", 1, "correct one"
+                )
             if unit or declared:
                 return find_unit(unit or declared)
         except ValueError as error:
@@ -152,16 +160,16 @@ class _Reader:
         """Yield the rows with their values; tell of the first fault in each cell."""
         for line, cells in sheet.rows:
             if len(cells) != len(columns):
-                message = f"the row has {len(cells)} cells, and the header {len(columns)}"
+                message = f"the row has {counted(len(cells), 'cell')}, and the header {len(columns)}"
                 self._error("ragged-row", message, line, "fill each cell, or quote a text that has the separator")
                 continue
             row = dict[str, Value]()
             for column, cell in zip(columns, cells, strict=True):
                 try:
-                    row[column.name] = _value(cell, column.type)
+                    if (value := _value(cell, column.type)) is not None:
+                        row[column.name] = value
                 except ValueError as error:
                     self._error("bad-cell", f"column `{column.name}`: {error}", line, "correct the cell")
-                    row[column.name] = None
             yield line, row
 
     def _error(self, code: str, message: str, line: int, hint: str) -> None:
@@ -182,7 +190,7 @@ def _is_number(cell: object) -> bool:
     return isinstance(cell, int | float) and not isinstance(cell, bool)
 
 
-def _value(cell: object, kind: Unit | str) -> Value:
+def _value(cell: object, kind: Unit | str) -> Value | None:
     """Return the value of a cell in SI; None if it is empty. Raises ValueError."""
     text = cell.strip() if isinstance(cell, str) else cell
     if text is None or text == "":

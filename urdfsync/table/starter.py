@@ -26,33 +26,37 @@ def option_for(name: str, snapshot: Table, target: Target, options: Any) -> str:
 
 def templates(snapshot: Table) -> Mapping[str, str]:
     """Return templates for the columns of a table, to be edited, by their paths."""
-    columns = dict.fromkeys(column for row in snapshot.elements.values() for column in row)
-    lines = [line for column in columns for line in _declaration(snapshot, column)]
-    record = [*lines, "", "end << class >>;", ""]
-    files = {
-        "record.mo.jinja": '\n'.join(['within << within >>;', '', 'record << class >> << ("Numbers of " ~ name) | string >>', '  extends Modelica.Icons.Record;', *record]),
-        "model.mo.jinja": _MODEL,
-    }
+    declarations = [line for column in snapshot.columns for line in _declare(snapshot, column)]
+    record = "\n".join([_RECORD, *declarations, "", "end << class >>;", ""])
+    files = {"record.mo.jinja": record, "model.mo.jinja": _MODEL}
     return files | ({"system.mo.jinja": _SYSTEM} if snapshot.connections else {})
 
 
-def _declaration(snapshot: Table, column: str) -> list[str]:
-    """Return the lines that declare a column in the record, unless its cell is empty."""
-    name, cell = component_name(column, "column"), f"row[{column!r}]"
-    values = [row[column] for row in snapshot.elements.values() if row[column] is not None]
-    if column in snapshot.units["elements"]:
-        declaration = f'parameter Real {name}(final unit = "{snapshot.units["elements"][column]}") = << {cell} | real >>;'
-    elif values and isinstance(values[0], bool):
-        declaration = f"parameter Boolean {name} = << {cell} | lower >>;"
-    elif values and isinstance(values[0], int):
-        declaration = f"parameter Integer {name} = << {cell} >>;"
-    else:
-        declaration = f"parameter String {name} = << {cell} | string >>;"
-    if len(values) == len(snapshot.elements):
-        return ["", f"  {declaration}"]
-    return [f"<% if {cell} is not none %>", "", f"  {declaration}", "<% endif %>"]
+def _declare(snapshot: Table, column: str) -> list[str]:
+    """Return the lines that declare a column; if elements have an empty cell in it, only for the others."""
+    name, kind = component_name(column, "column"), snapshot.columns[column]
+    cells = [row[column] for row in snapshot.elements.values() if column in row]
+    if not cells:
+        return []
+    cell = f"row.{column}" if column.isidentifier() else f"row[{column!r}]"
+    head, value = _DECLARATIONS.get(kind, (f'Real {name}(unit = "{kind}")', f"{cell} | real"))
+    declaration = f"  parameter {head.format(name)} = << {value.format(cell)} >>;"
+    if len(cells) == len(snapshot.elements):
+        return ["", declaration]
+    return [f"<% if {cell} is not none %>", "", declaration, "<% endif %>"]
 
 
+_DECLARATIONS = {
+    "text": ("String {}", "{} | string"),
+    "integer": ("Integer {}", "{}"),
+    "boolean": ("Boolean {}", "{} | lower"),
+}
+"""Types without a unit: declaration, and value."""
+_RECORD = """\
+within << within >>;
+
+record << class >> << ("Numbers of " ~ name) | string >>
+  extends Modelica.Icons.Record;"""
 _MODEL = """\
 within << within >>;
 

@@ -21,14 +21,11 @@ class Unit(NamedTuple):
     factor: Decimal
     offset: Decimal
     si: str
-    """As Modelica writes it, for example `kg.m2/s2`; empty for a number without unit."""
+    """As Modelica writes it, for example `kg.m2/s2`; `1` for a number without unit."""
 
     def convert(self, number: Decimal) -> float:
         """Return a number in SI."""
         return float(number * self.factor + self.offset)
-
-
-PLAIN = Unit(Decimal(1), Decimal(0), "")
 
 
 @functools.lru_cache(maxsize=256)
@@ -37,11 +34,9 @@ def find_unit(text: str) -> Unit:
 
     Raises ValueError for an unknown one, SourceError without pint.
     """
-    if text == "1":
-        return PLAIN
-    if _is_coherent(text):
+    if text == "1" or _is_coherent(text):
         return Unit(Decimal(1), Decimal(0), text)
-    registry = _registry(text)
+    registry = _load_registry(text)
     one, zero = (_quantity(registry, number, text).to_base_units() for number in (1, 0))
     return Unit(one.magnitude - zero.magnitude, zero.magnitude, _as_modelica(one.unit_items(), registry))
 
@@ -50,7 +45,7 @@ def is_same_kind(text: str, other: str) -> bool:
     """Whether numbers in one unit can be converted to the other one. Raises as `find_unit`."""
     if text == other:
         return True
-    registry = _registry(text)
+    registry = _load_registry(text)
     return bool(_quantity(registry, 1, text).is_compatible_with(_quantity(registry, 1, other)))
 
 
@@ -60,14 +55,21 @@ def _is_coherent(text: str) -> bool:
     return all((term := _TERM.fullmatch(part)) and term[1] in _COHERENT for part in terms)
 
 
-@functools.lru_cache(maxsize=1)
-def _registry(text: str) -> Any:
+def _load_registry(text: str) -> Any:
     try:
-        import pint
+        return _registry()
     except ImportError:
         hint = install_command("table")
         raise SourceError.of("no-pint", f"the unit `{text}` needs pint, which is not installed", hint=hint) from None
-    registry = pint.UnitRegistry(non_int_type=Decimal, cache_folder=None)
+
+
+@functools.lru_cache(maxsize=1)
+def _registry() -> Any:
+    import pint
+    import platformdirs
+
+    cache = platformdirs.user_cache_path("urdfsync", appauthor=False) / "units"  # saves 0.3 s of 0.8
+    registry: Any = pint.UnitRegistry(non_int_type=Decimal, cache_folder=cache)
     registry.define("Ohm = ohm")
     return registry
 
@@ -81,10 +83,10 @@ def _quantity(registry: Any, number: int, text: str) -> Any:
 
 
 def _as_modelica(units: Any, registry: Any) -> str:
-    """Return base units as Modelica writes them, for example `kg.m2/(s2.K)`; empty for none."""
+    """Return base units as Modelica writes them, for example `kg.m2/(s2.K)`; `1` for none."""
     powers = [(registry.get_symbol(name), power) for name, power in units]
     above = [f"{symbol}{power if power != 1 else ''}" for symbol, power in powers if power > 0]
     below = [f"{symbol}{-power if power != -1 else ''}" for symbol, power in powers if power < 0]
     if not below:
-        return ".".join(above)
+        return ".".join(above) or "1"
     return f"{'.'.join(above) or '1'}/{below[0] if len(below) == 1 else '(' + '.'.join(below) + ')'}"
