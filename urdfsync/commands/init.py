@@ -43,6 +43,8 @@ NamedSource: TypeAlias = tuple[Path, Mapping[str, str]]
 class Guess(msgspec.Struct, frozen=True):
     """The table of one robot, proposed or there."""
 
+    KEYS = ("robot", "source", "arguments", "package", "options")
+
     robot: str
     source: str
     arguments: Mapping[str, str]

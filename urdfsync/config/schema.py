@@ -15,7 +15,7 @@ import msgspec
 from urdfsync import registry
 from urdfsync.config.names import CLASS_PATTERN, LAST_PATTERN, PACKAGE_PATTERN, ROBOT_PATTERN
 from urdfsync.config.paths import explained
-from urdfsync.config.settings import DEFAULT_OUTPUT, OWN_KEYS, CheckConfig, Keys
+from urdfsync.config.settings import DEFAULT_DOMAIN, DEFAULT_OUTPUT, OWN_KEYS, CheckConfig, Keys
 from urdfsync.diagnostics import IGNORABLE
 
 DRAFT = "https://json-schema.org/draft/2020-12/schema"
@@ -46,7 +46,8 @@ def config_schema() -> dict[str, Any]:
     for name, own in zip(domains, options, strict=True):
         robots[name] = _robot({**keys, "domain": keys["domain"] | {"enum": [name]}, **own})
     inherited = {key: described for own in (keys, *options) for key, described in own.items() if key not in OWN_KEYS}
-    tables = [{"$ref": f"#/$defs/{name}"} for name in domains]
+    others = [name for name in domains if name != DEFAULT_DOMAIN]
+    named = {"properties": {"domain": {"enum": others}}, "required": ["domain"]}
     schema = {
         "$schema": DRAFT,
         "title": "urdfsync.toml",
@@ -57,8 +58,12 @@ def config_schema() -> dict[str, Any]:
             "robots": {
                 "type": "object",
                 "propertyNames": {"pattern": ROBOT_PATTERN},
-                # with one schema of a table, editors show the faulty key; with several, they show only that none fits
-                "additionalProperties": tables[0] if len(tables) == 1 else {"anyOf": tables},
+                # by conditions editors show the faulty key; of alternatives they show only that none fits
+                "additionalProperties": {
+                    "if": named,
+                    "then": {"anyOf": [{"$ref": f"#/$defs/{name}"} for name in others]},
+                    "else": {"$ref": f"#/$defs/{DEFAULT_DOMAIN}"},
+                },
             },
         },
         "additionalProperties": False,

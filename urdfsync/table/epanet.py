@@ -12,7 +12,7 @@ from typing import Any
 
 from urdfsync.diagnostics import SourceError
 from urdfsync.extras import install_command
-from urdfsync.table.formats import Sheet
+from urdfsync.table.model import Sheet
 
 _COLUMNS = (
     "name kind elevation[m] demand[m3/s] head[m] level[m] diameter[m] length[m] roughness[1] minor_loss[1] "

@@ -7,7 +7,7 @@ import io
 import warnings
 from collections.abc import Mapping, Sequence
 from pathlib import PurePath
-from typing import Any, NamedTuple
+from typing import Any
 
 import msgspec
 import msgspec.toml
@@ -15,20 +15,11 @@ import msgspec.yaml
 
 from urdfsync.diagnostics import SourceError
 from urdfsync.extras import install_command
+from urdfsync.table.model import NOTHING, Sheet
 
 CONNECTIONS = "connections"
 MARK = b"\n\0connections\0\n"
 """Stands between a source and the connections in the CSV beside it."""
-
-
-class Sheet(NamedTuple):
-    """A table as it was written: the header, and each row with its line."""
-
-    header: Sequence[str]
-    rows: Sequence[tuple[int, Sequence[object]]]
-
-
-NOTHING = Sheet((), ())
 
 
 def read_sheets(content: bytes, file: str) -> tuple[Sheet, Sheet]:

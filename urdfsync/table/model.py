@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Literal, TypeAlias
+from collections.abc import Mapping, Sequence
+from typing import Literal, NamedTuple, TypeAlias
 
 import msgspec
 
@@ -15,6 +15,16 @@ File: TypeAlias = Literal["record", "model", "system"]
 
 FROM, TO = "from", "to"
 """The columns of a connection that name its elements."""
+
+
+class Sheet(NamedTuple):
+    """A table as it was written: the header, and each row with its line."""
+
+    header: Sequence[str]
+    rows: Sequence[tuple[int, Sequence[object]]]
+
+
+NOTHING = Sheet((), ())
 
 
 class Options(msgspec.Struct, frozen=True, forbid_unknown_fields=True):

@@ -12,8 +12,7 @@ from urdfsync.diagnostics import Diagnostic, Severity, SourceError
 from urdfsync.domain import Reading
 from urdfsync.spelling import counted, nearest
 from urdfsync.table import formats
-from urdfsync.table.formats import Sheet
-from urdfsync.table.model import FROM, TO, TYPES, Options, Table, Value
+from urdfsync.table.model import FROM, NOTHING, TO, TYPES, Options, Sheet, Table, Value
 from urdfsync.table.names import find_clashes
 from urdfsync.table.units import Unit, find_unit, is_same_kind
 
@@ -70,7 +69,7 @@ class _Reader:
             self._error(
                 "no-column", f"the connections have no column `{min(lacking)}`", 0, "name both elements in each row"
             )
-            connections = formats.NOTHING
+            connections = NOTHING
         rows = {} if self.of_options else self._rows(elements, columns, key)
         for name, reason in find_clashes(rows):
             self._error(
@@ -91,8 +90,8 @@ class _Reader:
                 self._error("no-column", f"column {number + 1} has no name", 1, "name it in the header")
             elif name in (column.name for column in columns):
                 self._error("no-column", f"there are two columns `{name}`", 1, "rename one")
-            column = _Column(name, "text" if name in texts else self._type(name, unit, sheet, number))
-            columns.append(column)
+            is_text = name in texts or not name
+            columns.append(_Column(name, "text" if is_text else self._type(name, unit, sheet, number)))
         for name, reason in find_clashes([column.name for column in columns if column.name], "column"):
             if "same name" in reason and f"`{name}`" not in reason:
                 self._error("no-column", f"column `{name}` can't be told apart: {reason}", 1, "rename it")

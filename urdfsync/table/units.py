@@ -12,6 +12,7 @@ from urdfsync.extras import install_command
 
 _COHERENT = frozenset("m kg s A K mol cd rad sr Hz N Pa J W C V F Ohm S Wb T H lm lx Bq Gy kat".split())
 """The SI units without a prefix: most tables have no others, and pint takes longer to load than a whole build."""
+_UNIT = re.compile(r"(?=.)(?!.*[.*/^]{2})(1/)?[^\W\d_%°]*[%°]?[\w.*/()^-]*")
 _TERM = re.compile(r"([A-Za-z]+)(-?[1-9])?")
 
 
@@ -75,11 +76,11 @@ def _registry() -> Any:
 
 
 def _quantity(registry: Any, number: int, text: str) -> Any:
-    product = re.sub(r"(?<=[\w%°)])\.(?=[A-Za-z(])", "*", text)
+    product = re.sub(r"(?<=[\w%°)])\.(?=[^\W\d(])", "*", text) if _UNIT.fullmatch(text) else "no unit"
     try:
-        return registry.Quantity(Decimal(number), re.sub(r"(?<=[A-Za-z])(-?\d)", r"**\1", product))
-    except Exception as error:  # noqa: BLE001 - pint parses any text, and raises errors of many kinds
-        raise ValueError(str(error)) from None
+        return registry.Quantity(Decimal(number), re.sub(r"(?<=[^\W\d])(-?[1-9])", r"**\1", product))
+    except Exception:  # noqa: BLE001 - pint parses any text, and raises errors of many kinds
+        raise ValueError(f"`{text}` is no unit") from None
 
 
 def _as_modelica(units: Any, registry: Any) -> str:

@@ -1,0 +1,109 @@
+"""Tables in projects: what users do, and what follows."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from support.commands import Execute
+from support.networks import edit
+
+from urdfsync.engine.result import Exit
+from urdfsync.table.domain import DOMAIN
+from urdfsync.table.model import Options, Table
+
+MOTORS = "name,torque [N.cm],inertia [g.cm2],maker\nMX-64,600,12.5,Robotis\nXM 430,410,3,\n"
+MODEL = """\
+within << within >>;
+
+model << class >> << name | string >>
+
+  Records.<< class >> parameters;
+
+  parameter Boolean strong = << (row.torque > 5) | lower >>;
+
+end << class >>;
+"""
+
+
+@pytest.fixture
+def project(folder: Path, execute: Execute) -> Path:
+    """A project with a table of motors, its templates, and a first build; one model depends on a number."""
+    Path("motors.csv").write_text(MOTORS)
+    execute("init", "--domain", "table", "motors.csv")
+    Path("templates/motors/model.mo.jinja").write_text(MODEL)
+    assert "10 files written" in execute("build").out
+    return folder
+
+
+def test_init_writes_templates_for_the_columns(project: Path) -> None:
+    record = Path("templates/motors/record.mo.jinja").read_text()
+    assert 'parameter Real torque(unit = "kg.m2/s2") = << row.torque | real >>;' in record
+    assert "<% if row.maker is not none %>" in record
+    assert 'parameter String maker = "Robotis";' in Path("modelica/Motors/Records/MX_64.mo").read_text()
+    assert "maker" not in Path("modelica/Motors/Records/XM_430.mo").read_text()
+
+
+def test_init_keeps_templates_that_are_there(project: Path, execute: Execute) -> None:
+    Path("urdfsync.toml").unlink()
+    found = execute("init", "--domain", "table", "motors.csv", code=Exit.ERROR)
+    assert "templates/motors/record.mo.jinja: error: the template exists already; move it away" in found.words
+    assert not Path("urdfsync.toml").exists()
+
+
+def test_a_number_of_records_is_a_parameter(project: Path, execute: Execute) -> None:
+    edit(Path("motors.csv"), "12.5", "12.6")
+    found = execute("build").out
+    assert "1 file written" in found
+    assert "element MX-64: inertia 1.25e-06 → 1.26e-06 kg.m2" in found
+
+
+def test_a_number_that_a_model_follows_is_structure(project: Path, execute: Execute) -> None:
+    edit(Path("motors.csv"), "600", "700")
+    assert "1 parameter change" in execute("diff", code=Exit.OUT_OF_STEP).out
+    edit(Path("motors.csv"), "700", "300")
+    found = execute("diff", code=Exit.OUT_OF_STEP).out
+    assert "1 structural change" in found
+    assert "update     modelica/Motors/Models/MX_64.mo" in found
+
+
+def test_an_edit_follows_an_element_with_another_key(project: Path, execute: Execute) -> None:
+    edit(Path("modelica/Motors/Models/XM_430.mo"), "  parameter Boolean", "  Real mine = 1;\n\n  parameter Boolean")
+    edit(Path("motors.csv"), "XM 430", "MX-64 mk2")
+    edit(Path("motors.csv"), "MX-64,", "XM 430,")
+    assert "element XM 430: is now MX-64 mk2" in execute("build").out
+    assert "Real mine = 1;" in Path("modelica/Motors/Models/MX_64_mk2.mo").read_text()
+    assert "Real mine" not in Path("modelica/Motors/Models/XM_430.mo").read_text()
+
+
+def test_two_sides_conflict(project: Path, execute: Execute) -> None:
+    edit(Path("modelica/Motors/Records/MX_64.mo"), "= 6;", "= 6.5;")
+    edit(Path("motors.csv"), "600", "700")
+    assert "1 conflict" in execute("build", code=Exit.CONFLICT).out
+    assert "= 6.5;" in Path("modelica/Motors/Records/MX_64.mo").read_text()
+
+
+def test_a_fault_in_the_connections_is_told_in_their_file(project: Path, execute: Execute) -> None:
+    Path("motors.connections.csv").write_text("from,to\nMX-64,XM 430\nMX-64,gone\n")
+    found = execute("build", code=Exit.ERROR)
+    assert "motors.connections.csv:3: error: there is no element `gone`" in found.words
+
+
+def test_a_template_with_an_absent_column_is_told(project: Path, execute: Execute) -> None:
+    edit(Path("templates/motors/model.mo.jinja"), "row.torque", "row.speed")
+    found = execute("build", code=Exit.ERROR)
+    assert "templates/motors/model.mo.jinja:7: error: the template can't be rendered" in found.words
+
+
+def test_templates_are_needed_for_each_kind(project: Path, execute: Execute) -> None:
+    with Path("urdfsync.toml").open("a") as file:
+        file.write('kind = "maker"\n')
+    edit(Path("motors.csv"), "410,3,", "410,3,Acme")
+    assert "there is no template `model/" in execute("build", code=Exit.ERROR).words
+
+
+def test_the_record_of_a_domain_without_templates_has_all_columns() -> None:
+    table = DOMAIN.read(MOTORS.encode(), "motors.csv", Options()).snapshot
+    assert isinstance(table, Table)
+    assert DOMAIN.unit(table, ["elements", "MX-64", "inertia"]) == "kg.m2"
+    assert DOMAIN.unit(table, ["elements", "MX-64", "maker"]) == ""

@@ -1,0 +1,176 @@
+"""Tables as they are read: the values in SI, and one finding for each fault."""
+
+from __future__ import annotations
+
+import datetime
+import io
+from collections.abc import Callable
+from typing import Any
+
+import openpyxl
+import pytest
+
+from urdfsync.domain import Reading
+from urdfsync.table.formats import MARK
+from urdfsync.table.model import Options, Table
+from urdfsync.table.reading import read
+
+HEADER = "name,mass [kg]\n"
+
+
+def reading(content: str | bytes, file: str = "parts.csv", **options: Any) -> Reading:
+    return read(content.encode() if isinstance(content, str) else content, file, Options(**options))
+
+
+def table(content: str | bytes, file: str = "parts.csv", **options: Any) -> Table:
+    found = reading(content, file, **options)
+    assert isinstance(found.snapshot, Table), list(map(str, found.diagnostics))
+    return found.snapshot
+
+
+def workbook(fill: Callable[[Any, Any], object]) -> bytes:
+    book, content = openpyxl.Workbook(), io.BytesIO()
+    fill(book.active, book)
+    book.save(content)
+    return content.getvalue()
+
+
+def rows(*rows: list[Any]) -> bytes:
+    return workbook(lambda sheet, _: [sheet.append(row) for row in rows])
+
+
+@pytest.mark.parametrize(
+    ("file", "content"),
+    [
+        ("a.csv", "name,mass [g],made\nM2,250,yes\nM1,1500,\n"),
+        ("a.csv", "\ufeffname;mass [g];made\r\nM2;250;yes\r\n\r\nM1;1500;\r\n"),
+        ("a.tsv", "name\tmass [g]\tmade\nM2\t2.5e2\tyes\nM1\t1500\t\n"),
+        ("a.toml", '[M2]\n"mass [g]" = 250\nmade = "yes"\n[M1]\n"mass [g]" = 1500.0\n'),
+        ("a.json", '{"elements": [{"name": "M2", "mass [g]": 250, "made": "yes"}, {"name": "M1", "mass [g]": 1500}]}'),
+        ("a.yaml", "- {name: M2, 'mass [g]': 250, made: 'yes'}\n- {name: M1, 'mass [g]': 1500}\n"),
+        ("a.xlsx", rows(["name", "mass [g]", "made"], ["M2", 250, "yes"], [], ["M1", 1500.0])),
+    ],
+)
+def test_each_format_gives_the_same_table(file: str, content: str | bytes) -> None:
+    found = table(content, file)
+    assert found.elements == {"M1": {"mass": 1.5}, "M2": {"mass": 0.25, "made": "yes"}}
+    assert found.columns == {"name": "text", "mass": "kg", "made": "text"}
+
+
+def test_connections_have_a_list_a_sheet_or_a_file_of_their_own() -> None:
+    def fill(sheet: Any, book: Any) -> None:
+        for row in (["name", "mass [kg]"], ["a", 1], ["b", 2]):
+            sheet.append(row)
+        for row in (["from", "to", "length [mm]"], ["a", "b", 20], ["a", "b", 30]):
+            other = book["Connections"] if "Connections" in book.sheetnames else book.create_sheet("Connections")
+            other.append(row)
+
+    links = "from,to,length [mm]\na,b,20\na,b,30\n"
+    entries = '[{"from": "a", "to": "b", "length [mm]": 20}, {"from": "a", "to": "b", "length [mm]": 30}]'
+    sources: list[tuple[str | bytes, str]] = [
+        ((HEADER + "a,1\nb,2\n").encode() + MARK + links.encode(), "a.csv"),
+        (f'{{"elements": {{"a": {{}}, "b": {{}}}}, "connections": {entries}}}', "a.json"),
+        (workbook(fill), "a.xlsx"),
+    ]
+    for source in sources:
+        assert table(*source).connections == {
+            "a b": {"from": "a", "to": "b", "length": 0.02},
+            "a b 2": {"from": "a", "to": "b", "length": 0.03},
+        }
+
+
+def test_types_and_units_may_stand_in_the_configuration() -> None:
+    columns = {"mass": "g", "poles": "integer", "sealed": "boolean", "maker": "text"}
+    found = table("name,mass,poles,sealed,maker\nM1,250,4,TRUE,12\n", columns=columns)
+    assert found.elements == {"M1": {"mass": 0.25, "poles": 4, "sealed": True, "maker": "12"}}
+
+
+@pytest.mark.parametrize(
+    ("content", "finding"),
+    [
+        (HEADER + "a,1\nb,2\na,3\n", "parts.csv:4: error: the key `a` stands in line 2, too; rename one"),
+        (HEADER + ",1\n", "parts.csv:2: error: the row has no key; fill its column `name`"),
+        (HEADER + "a b,1\na_b,2\n", "parts.csv:3: error: the key `a_b` is no name: in Modelica it has the same"),
+        (HEADER + "time,1\n", "parts.csv:2: error: the key `time` is no name: `time` has a meaning in Modelica"),
+        (HEADER + 'a,"1,5"\n', "parts.csv:2: error: column `mass`: `1,5` is no number: write 1.5"),
+        (HEADER + "a,1e999\n", "parts.csv:2: error: column `mass`: 1e999 is too large"),
+        (HEADER + "a,1,2\n", "parts.csv:2: error: the row has 3 cells, and the header 2"),
+        ("name,mass\na,1\n", "parts.csv:1: error: column `mass` has numbers, and no unit; write `mass [kg]`"),
+        ("name,mass [stone age]\na,1\n", "parts.csv:1: error: column `mass`: `stone age` is no unit; write a unit"),
+        ("name,n [integer]\na,2.5\n", "parts.csv:2: error: column `n`: 2.5 is no integer"),
+        ("name,is [boolean]\na,yes\n", "parts.csv:2: error: column `is`: `yes` is neither true nor false"),
+        ("name,mass [kg],mass [g]\na,1,2\n", "parts.csv:1: error: there are two columns `mass`; rename one"),
+        ("name,\na,1\n", "parts.csv:1: error: column 2 has no name; name it in the header"),
+        (HEADER + '"a,1\n', "parts.csv:2: error: this is no CSV"),
+        (HEADER.encode() + b"\xe4,1\n", "parts.csv:2: error: the file is not UTF-8"),
+        ("", "parts.csv: error: the table has no rows"),
+    ],
+)  # fmt: skip
+def test_one_finding_for_a_fault_at_its_line(content: str | bytes, finding: str) -> None:
+    (found,) = reading(content).diagnostics
+    assert str(found).startswith(finding)
+
+
+@pytest.mark.parametrize(
+    ("cells", "finding"),
+    [
+        (["b", "=B2*2"], "a.xlsx:3: error: the formula in B3 was never computed"),
+        (["b", datetime.date(2026, 1, 5)], "a.xlsx:3: error: column `mass`: 2026-01-05 00:00:00 is a date"),
+        (["b", "1,5"], "a.xlsx:3: error: column `mass`: `1,5` is no number"),
+        (["b", 1, "more"], "a.xlsx:3: error: the row has 3 cells, and the header 2"),
+    ],
+)  # fmt: skip
+def test_cells_of_workbooks(cells: list[Any], finding: str) -> None:
+    (found,) = reading(rows(["name", "mass [kg]"], ["a", 1.5], cells), "a.xlsx").diagnostics
+    assert str(found).startswith(finding)
+
+
+def test_merged_cells_are_refused() -> None:
+    def fill(sheet: Any, _: Any) -> None:
+        sheet.append(["name", "mass [kg]"])
+        sheet.merge_cells("A2:B2")
+
+    assert "sheet `Sheet` has merged cells: A2:B2" in str(reading(workbook(fill), "a.xlsx").diagnostics[0])
+
+
+@pytest.mark.parametrize(
+    ("content", "file", "words"),
+    [
+        ("a: [", "a.yaml", "this is no YAML"),
+        ("a = ", "a.toml", "this is no TOML"),
+        ("{", "a.json", "this is no JSON"),
+        ("[1, 2]", "a.json", "neither a list nor a table of entries"),
+        ('{"elements": [], "x": 1}', "a.json", "`x` is unknown"),
+        (b"PK", "a.xlsx", "this is no workbook"),
+        (b"PK", "a.ods", "`.ods` is no format of tables"),
+    ],
+)
+def test_files_that_are_no_tables(content: str | bytes, file: str, words: str) -> None:
+    (found,) = reading(content, file).diagnostics
+    assert (found.file, words in found.message) == (file, True)
+
+
+@pytest.mark.parametrize(
+    ("links", "words"),
+    [("from,to\na,c\n", "parts.csv:6: error: there is no element `c`"), ("x,y\na,a\n", "have no column `from`")],
+)
+def test_connections_name_elements(links: str, words: str) -> None:
+    assert words in str(reading((HEADER + "a,1\n").encode() + MARK + links.encode()).diagnostics[0])
+
+
+@pytest.mark.parametrize(
+    ("options", "option"), [({"key": "id"}, "key"), ({"kind": "Mass"}, "kind"), ({"columns": {"m": "kg"}}, "columns")]
+)
+def test_options_name_columns(options: dict[str, Any], option: str) -> None:
+    ((found, finding),) = reading(HEADER + "a,1\n", **options).option_findings
+    assert (found, "there is no column" in finding.message) == (option, True)
+
+
+def test_a_unit_of_another_kind_is_refused() -> None:
+    (found,) = reading(HEADER + "a,1\n", columns={"mass": "N"}).diagnostics
+    assert "column `mass` is in kg, but the configuration says N" in found.message
+
+
+def test_a_kind_names_a_template() -> None:
+    (found,) = reading("name,kind\na,../x\n", kind="kind").diagnostics
+    assert "the kind `../x` of `a` can't be a template" in found.message
