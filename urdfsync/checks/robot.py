@@ -165,6 +165,8 @@ def _find_missing(config: Config, options: CheckOptions, needed: Libraries, resu
 def _experiment(package: RobotPackage, options: CheckOptions, result: CheckResult, limits: Limits) -> Experiment | None:
     """Return the experiment for the package; None if there is none, with the reason in the result."""
     robot = package.robot
+    if registry.domain(robot.domain).checks is None:
+        return None
     if not options.physics:
         result.unchecked += ("poses and efforts were not compared; `--physics` compares them",)
         return None

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING, Any
@@ -13,6 +14,7 @@ from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
 from urdfsync.domain import Artifact, Domain, Import, Order, Role, Snapshot, Target
 from urdfsync.files import Templates, digest, normalised, shown, text_digest
 from urdfsync.modelica.files import class_path
+from urdfsync.modelica.literals import without_literals
 
 if TYPE_CHECKING:
     from urdfsync.engine.render import Renderer
@@ -213,16 +215,24 @@ def _render(renderer: Renderer, artifact: Artifact, package: str) -> bytes:
 
 
 def _check_text(renderer: Renderer, artifact: Artifact, package: str, text: str) -> None:
-    """Raise ConfigError if a text from a user's template is not the class of its file."""
+    """Raise ConfigError if a text from a user's template is not the class of its file.
+
+    Texts of one template mostly differ in literals and in the class's own name alone: then one check serves all.
+    """
+    path = PurePosixPath(artifact.path)
+    without_name = re.sub(rf"\b{re.escape(path.stem)}\b", "\0", text)
+    form = artifact.template, str(path.parent), without_literals(without_name)
+    if form in renderer.sound and "\\" not in text:  # a string may have a wrong escape
+        return
     from urdfsync.modelica.layout import check_class_file  # imports the parser: 8 of 220 ms of a build
 
-    path = PurePosixPath(artifact.path)
     findings = check_class_file(text, path, ".".join((package, *class_path(path).parts)))[1]
     for wrong in findings:
         if wrong.severity is Severity.ERROR:
             file, line = renderer.find_origin(artifact.template, artifact.data, text, wrong.line)
             message = f"the text for `{artifact.path}` is wrong: {wrong.message}"
             raise _template_error(renderer.folders, artifact.template, file, line, message)
+    renderer.sound.add(form)
 
 
 def _template_error(folders: Sequence[Path], template: str, file: str, line: int, message: str) -> ConfigError:

@@ -192,6 +192,8 @@ class Renderer:
     def __init__(self, folders: Sequence[Path], *, is_trusted: bool = False) -> None:
         """Untrusted templates run in a sandbox, with limits."""
         self.folders = tuple(folders)
+        self.sound = set[tuple[str, ...]]()
+        """Forms of texts that `generate` has checked."""
         own = [(folder, path) for folder in folders[:-1] for path in folder.rglob("*")]
         self._users_names = {path.relative_to(folder).as_posix() for folder, path in own}
         kind = _Environment if is_trusted else _Sandbox

@@ -72,8 +72,9 @@ def capitalize_first(value: str) -> str:
 
 def numbers_only(old: str, new: str) -> bool:
     """Whether two texts differ at most in the values of number and string literals."""
-    return _shape(old) == _shape(new)
+    return without_literals(old) == without_literals(new)
 
 
-def _shape(text: str) -> str:
+def without_literals(text: str) -> str:
+    """Return a text with `""` for each string, and `0` for each number."""
     return re.sub(_LITERAL, lambda match: '""' if match[0].startswith('"') else "0", text.replace("\r\n", "\n"))

@@ -44,7 +44,7 @@ class TableDomain(Domain):
     model = Table
     options = Options
     beside = _Connections()
-    advice = _Module("starter")
+    advice, simulation = _Module("starter"), _Module("benches")
 
     def starter(self, snapshot: Table) -> Mapping[str, str]:
         """Return templates for the columns of a table, to be edited."""

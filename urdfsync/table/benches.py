@@ -1,0 +1,12 @@
+"""The model by which a package of a table is simulated: `urdfsync.simulation.bench.Benches` describes the function."""
+
+from __future__ import annotations
+
+from urdfsync.domain import Target
+from urdfsync.simulation.bench import Bench
+from urdfsync.table.model import Options, Table
+
+
+def bench(snapshot: Table, target: Target, options: Options) -> Bench | None:  # noqa: ARG001 - see `Benches`
+    """Return the model of the whole system, if there is one."""
+    return Bench(target.name, "", ()) if "system" in options.files else None
