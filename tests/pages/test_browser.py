@@ -36,7 +36,7 @@ frames = [{{ link = "coupler", xyz = [{length}, 0, -0.025] }}, {{ link = "rocker
 """
 MOVED = "(move('joint crank_pivot', {}), Object.fromEntries(page.positions))"
 Report = Callable[..., Path]
-READY = "page.ready.then(() => true)"
+READY = "page.complete.then(() => true)"
 PAINTED = "page.now.bodies.get({!r}).layers.visual[0].material.{}.getHex()"
 
 

@@ -33,7 +33,7 @@ from urdfsync.urdf.scene import scene
 
 
 def picture(*links: Link, joints: tuple[Joint, ...] = ()) -> Scene:
-    return scene(Robot("bot", links, joints), {}, Target("Bot", "Bot"), Options())
+    return scene(Robot("bot", links, joints), {}, Target("Bot", "Bot"), Options())[0]
 
 
 def test_shapes_have_their_sizes_places_and_colours() -> None:
@@ -56,7 +56,7 @@ def test_shapes_have_their_sizes_places_and_colours() -> None:
 
 def test_collisions_are_shown_whatever_the_package_has() -> None:
     robot = Robot("bot", (Link("base", collisions=(Collision(Sphere(1.0)),)),))
-    shown = scene(robot, {}, Target("Bot", "Bot"), Options(collisions=False))
+    shown, _ = scene(robot, {}, Target("Bot", "Bot"), Options(collisions=False))
     assert len(shown.bodies[0].shapes) == 1
 
 
@@ -107,7 +107,7 @@ def test_components_are_those_of_the_diagram() -> None:
 
 
 def test_a_loop_has_its_ends_and_equations_and_its_robot_starts_closed() -> None:
-    shown = scene(FOUR_BAR, {}, Target("Bot", "Bot"), Options())
+    shown, _ = scene(FOUR_BAR, {}, Target("Bot", "Bot"), Options())
     assert [hinge.element for hinge in shown.hinges if hinge.is_dependent] == ["joint crank_pin", "joint rocker_pivot"]
     assert [hinge.start for hinge in shown.hinges] != [joint.start for joint in FOUR_BAR.joints]
     (loop,) = shown.loops

@@ -11,7 +11,7 @@ for (const old of data.before?.bodies || []) { // the content of a mesh may have
   if (body && looks(body) !== looks(old)) data.statuses[old.element] ??= "changed";
 }
 
-/* The state of the page; tests read it. `ready` is a promise that ends when the picture is there. */
+/* The state of the page; tests read it. `ready` is a promise that ends with the first picture, `complete` one with all meshes. */
 const page = {
   selected: null,
   layers: { visual: true, collision: false, frame: data.now.missing.length > 0 || !data.now.bodies.some((body) => body.shapes.length), mass: false, inertia: false },
@@ -23,18 +23,24 @@ const page = {
   player: null,
   isLit: null,
   ready: null,
+  complete: null,
 };
 
 const element = (id) => document.getElementById(id);
-const stage = { renderer: null, scene: null, orbit: null, waiting: false, lamp: null, isSlow: false, timer: 0 };
+const stage = { renderer: null, scene: null, orbit: null, waiting: false, lamp: null, isSlow: false, isFilling: true, timer: 0 };
 const SOFTWARE = /swiftshader|llvmpipe|software|basic render/i;
+const REDRAWN = 1500; // milliseconds between slow pictures while meshes come
 const REST = 300; // milliseconds without a change, after which a slow picture gets all its pixels
 
-/* Returns whether no graphics card draws: then a picture takes a second, most of it for its pixels. */
-function isDrawnBySoftware() {
-  const context = document.createElement("canvas").getContext("webgl");
+/* Makes what draws. Without a graphics card a picture takes a second, most of it for its pixels: it gets fewer. */
+function startDrawing(canvas) {
+  const attributes = { alpha: true, depth: true, preserveDrawingBuffer: true }; // else the picture is not printed
+  const quick = canvas.getContext("webgl2", { ...attributes, antialias: true, failIfMajorPerformanceCaveat: true });
+  const context = quick || canvas.getContext("webgl2", { ...attributes, antialias: false }) || undefined;
+  stage.renderer = new THREE.WebGLRenderer({ canvas, context, ...attributes });
   const info = context?.getExtension("WEBGL_debug_renderer_info");
-  return Boolean(info) && SOFTWARE.test(context.getParameter(info.UNMASKED_RENDERER_WEBGL));
+  stage.isSlow = !quick || SOFTWARE.test(info ? context.getParameter(info.UNMASKED_RENDERER_WEBGL) : "");
+  stage.renderer.outputEncoding = THREE.sRGBEncoding;
 }
 
 function draw() {
@@ -44,10 +50,15 @@ function draw() {
     stage.waiting = false;
     if (stage.isSlow) {
       clearTimeout(stage.timer);
+      if (stage.isFilling) return render(ratioOf());
       stage.timer = setTimeout(() => render(1), REST);
     }
-    render(stage.isSlow ? 0.4 : Math.min(devicePixelRatio, 2));
+    render(ratioOf());
   });
+}
+
+function ratioOf() {
+  return stage.isSlow ? 0.4 : Math.min(devicePixelRatio, 2);
 }
 
 function render(ratio) {
@@ -194,21 +205,18 @@ function setUpMotion() {
 
 async function show() {
   const canvas = element("view");
-  stage.isSlow = isDrawnBySoftware();
   try {
-    stage.renderer = new THREE.WebGLRenderer({ canvas, antialias: !stage.isSlow, alpha: true, preserveDrawingBuffer: true }); // else the picture is not printed
+    startDrawing(canvas);
   } catch (error) {
     throw new Error("This browser shows no 3D: WebGL is not there, or switched off. All else on the page works.", { cause: error });
   }
-  stage.renderer.outputEncoding = THREE.sRGBEncoding;
-  const meshes = await loadMeshes(element("meshes").textContent, data.meshes);
-  page.now = new RobotView(data.now, meshes);
+  page.now = new RobotView(data.now, data.meshes);
   stage.scene = new THREE.Scene();
   stage.lamp = new THREE.DirectionalLight(0xffffff, 0.55);
   stage.scene.add(page.now.root, new THREE.HemisphereLight(0xffffff, 0x8a8f99, 0.75), stage.lamp);
   const box = page.now.bounds();
   if (data.before) {
-    page.before = new RobotView(data.before, meshes);
+    page.before = new RobotView(data.before, data.meshes);
     stage.scene.add(page.before.root);
     box.union(page.before.bounds());
   }
@@ -224,12 +232,28 @@ async function show() {
   stage.orbit.fit(box);
   setTheme(document.documentElement.dataset.theme);
   setUpMotion();
+  render(ratioOf());
+  performance.mark("first picture");
+}
+
+/* Fills in the meshes, once all of the page is there. A slow picture is drawn anew about once a second. */
+async function fillIn() {
+  if (document.readyState === "loading") await new Promise((go) => addEventListener("DOMContentLoaded", go, { once: true }));
+  let drawn = 0;
+  await loadMeshes(data.meshes, (name, geometry) => {
+    const isSeen = [page.now, page.before].filter((view) => view?.fill(name, geometry)).length > 0;
+    if (!isSeen || performance.now() < drawn + (stage.isSlow ? REDRAWN : 0)) return;
+    drawn = performance.now();
+    draw();
+  });
+  stage.isFilling = false;
+  draw();
 }
 
 if (data.curves.length) fillCurves(element("curves"), data.curves, select);
 const showPositions = fillAxes(element("axes"), data, move, select);
 const markTree = fillTree(element("tree"), data, select);
-const markDiagram = drawDiagram(element("drawing"), data, select);
+let markDiagram = () => {}; // its layout takes as long as the picture
 showPositions(page.positions);
 if (page.positions.size) element("axes").prepend(make("button", { type: "button", id: "reset", title: "All axes as they start (r)" }, "Reset", { click: reset }));
 
@@ -284,4 +308,10 @@ setTheme(matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
 page.ready = show().catch((error) => {
   element("trouble").hidden = false;
   element("trouble").textContent = error.message;
+});
+page.complete = page.ready.then(async () => {
+  await new Promise((go) => setTimeout(go)); // the first picture is shown
+  markDiagram = drawDiagram(element("drawing"), data, select);
+  markDiagram(page.selected);
+  if (page.now) await fillIn();
 });

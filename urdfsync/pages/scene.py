@@ -29,7 +29,7 @@ class Shape(msgspec.Struct, frozen=True):
     color: tuple[float, ...]
     """Red, green, blue and opacity, from 0 to 1."""
     mesh: str = ""
-    """The import's `target`."""
+    """The name of its mesh, whose scale is in `pose`."""
 
 
 class Body(msgspec.Struct, frozen=True):
@@ -116,23 +116,28 @@ class Triangles(msgspec.Struct, frozen=True):
     """Three numbers of single precision for each point, in metres, then three points for each face: little-endian."""
     total: int
     """Number of triangles of the file itself."""
-    is_simplified: bool
-    """Whether vertices at different places in the file were merged."""
+    box: tuple[float, ...]
+    """The least and the greatest x, y and z of the points."""
+    cells: int
+    """Corners were merged in so many cells along the longest edge; 0 if all were kept."""
 
 
 class Pictures(Protocol):
     """Gives pages the picture of a model; a domain's attribute `pictures`."""
 
-    def scene(self, snapshot: Snapshot, imports: Mapping[str, Import], target: Target, options: Any) -> Scene:
-        """Return the model as a picture whose joints can be moved. Pure.
+    def scene(
+        self, snapshot: Snapshot, imports: Mapping[str, Import], target: Target, options: Any
+    ) -> tuple[Scene, Mapping[str, str]]:
+        """Return the model as a picture whose joints can be moved, and the import of each mesh by its name. Pure.
 
-        An import without facts is a file that is too large for the package.
+        Meshes of one file have one name, also if the model scales or mirrors them. An import without facts is a file
+        that is too large for the package.
         """
         ...
 
     def triangles(self, path: str, content: bytes, key: str, most: int) -> Triangles | str:
-        """Return about `most` triangles of a mesh, or fewer; or a text that says why there are none.
+        """Return about `most` triangles of a mesh without the model's scale, or a text that says why there are none.
 
-        The mesh is the imported file at `path`, or the file of the dependency `key` if that is too large to import.
+        The mesh is the imported file at `path`, or, without a path, the file of the dependency `key`.
         """
         ...

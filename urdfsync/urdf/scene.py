@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 import msgspec
@@ -25,20 +25,32 @@ _NO_FACTS = {"bounds": (), "hull": ()}
 """Facts of a mesh that is too large for the package: a picture needs none."""
 
 
-def scene(robot: Robot, imports: Mapping[str, Import], target: Target, options: Options) -> Scene:
-    """Return the picture of a robot. Shapes whose mesh is not imported are named as missing."""
+def scene(
+    robot: Robot, imports: Mapping[str, Import], target: Target, options: Options
+) -> tuple[Scene, Mapping[str, str]]:
+    """Return the picture of a robot, and the keys of its meshes. Shapes whose mesh is not imported are missing."""
     imports = {
         key: file if file.facts else msgspec.structs.replace(file, facts=_NO_FACTS) for key, file in imports.items()
     }
+    shown = msgspec.structs.replace(options, collisions=True)
     closed = assembly(KinematicTree.of(robot, (target.name,)), options)
     tree = closed.tree
     starts = poses.start_positions(tree)
-    bodies = tuple(_body(tree, link, imports, target, options) for link in tree.links)
+    names = {key: _mesh_name(key, file, imports) for key, file in imports.items()}
+    meshes = {f"modelica://{target.package}/{file.target}": names[key] for key, file in imports.items()}
+    bodies = tuple(_body(tree, link, link_shapes(link, imports, target.package, shown), meshes) for link in tree.links)
     hinges = tuple(
         _hinge(tree, joint, starts[joint.name], joint.name in closed.dependent) for joint in tree.leaders_first()
     )
     loops = tuple(_loop(tree, loop, closed.closures[loop.name]) for loop in tree.loops)
-    return Scene(bodies, hinges, tuple(_missing(tree, imports)), loops)
+    return Scene(bodies, hinges, tuple(_missing(tree, imports)), loops), names
+
+
+def _mesh_name(key: str, file: Import, imports: Mapping[str, Import]) -> str:
+    """Return a name that depends only on the content of the source, and on which part of it this file is."""
+    whole = lookup.key(lookup.mesh(key))
+    is_split = whole in imports and lookup.PARTS in imports[whole].facts
+    return f"{file.source_hash}{key.removeprefix(whole)}{' part' if is_split else ''}"
 
 
 def _loop(tree: KinematicTree, loop: Loop, closure: Closure) -> scenes.Loop:
@@ -54,10 +66,10 @@ def _loop(tree: KinematicTree, loop: Loop, closure: Closure) -> scenes.Loop:
     )
 
 
-def _body(tree: KinematicTree, link: Link, imports: Mapping[str, Import], target: Target, options: Options) -> Body:
-    shown = msgspec.structs.replace(options, collisions=True)
-    visuals, collisions = link_shapes(link, imports, target.package, shown)
-    shapes = [_shape(data, target) for data in (*visuals, *collisions)]
+def _body(
+    tree: KinematicTree, link: Link, data: Iterable[Sequence[Mapping[str, Any]]], meshes: Mapping[str, str]
+) -> Body:
+    shapes = [_shape(shape, meshes) for of_kind in data for shape in of_kind]
     body = Body(f"link {link.name}", tree.link(link.name).component, tuple(_facts(link)), tuple(shapes))
     inertial = link.inertial
     if inertial is None or not inertial.mass > 0:
@@ -66,19 +78,21 @@ def _body(tree: KinematicTree, link: Link, imports: Mapping[str, Import], target
     return msgspec.structs.replace(body, mass=inertial.mass, center=center, inertia=inertia)
 
 
-def _shape(data: Mapping[str, Any], target: Target) -> Shape:
+def _shape(data: Mapping[str, Any], meshes: Mapping[str, str]) -> Shape:
     """Return a shape from the data of templates."""
-    geometry = data["geometry"]
-    size: tuple[float, ...] = ()
-    if not isinstance(geometry, Mesh):
+    geometry, pose, size = data["geometry"], _matrix(poses.pose(data["origin"])), ()
+    if isinstance(geometry, Mesh):
+        scale = (*geometry.scale, 1.0)
+        pose = tuple(number * scale[place // 4] for place, number in enumerate(pose))
+    else:
         size = tuple(geometry.size) if data["type"] == "Box" else (geometry.radius, getattr(geometry, "length", 0.0))
     return Shape(
         "collision" if data["is_collision"] else "visual",
         data["type"].lower(),
         size,
-        _matrix(poses.pose(data["origin"])),
+        pose,
         (*(part / 255 for part in data["color"]), data["opacity"]),
-        data["uri"].removeprefix(f"modelica://{target.package}/"),
+        meshes.get(data["uri"], ""),
     )
 
 
