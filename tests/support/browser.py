@@ -81,6 +81,19 @@ class Page:
         for kind in ("mousePressed", "mouseReleased"):
             self._call("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", clickCount=1)
 
+    def drag(self, *places: tuple[float, float]) -> None:
+        """Press the mouse at the first place of the window, move it over the others, and release it at the last."""
+        kinds = ["mousePressed", *["mouseMoved"] * (len(places) - 1), "mouseReleased"]
+        for kind, (x, y) in zip(kinds, (*places, places[-1]), strict=True):
+            self._call("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", buttons=1, clickCount=1)
+
+    def press(self, key: str) -> None:
+        """Press and release a key where the focus is."""
+        for kind in ("keyDown", "keyUp"):
+            self._call(
+                "Input.dispatchKeyEvent", type=kind, key=key, text=key if kind == "keyDown" and len(key) == 1 else ""
+            )
+
     def picture(self, file: Path, *, whole: bool = False) -> None:
         """Save what is to be seen as PNG."""
         answer = self._call("Page.captureScreenshot", format="png", captureBeyondViewport=whole)

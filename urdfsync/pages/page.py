@@ -32,7 +32,10 @@ from urdfsync.pages.scene import Triangles
 from urdfsync.simulation.files import check_file, not_writable
 from urdfsync.simulation.results import SimulateResult
 
-SCRIPTS = ("robot.js", "meshes.js", "loops.js", "orbit.js", "panels.js", "motion.js", "page.js")
+SCRIPTS = (
+    *("robot.js", "meshes.js", "loops.js", "orbit.js", "panels.js", "motion.js"),
+    *("poses.js", "drag.js", "stage.js", "marks.js", "page.js"),
+)
 """Our own scripts, in their order: each may use declarations of those before it."""
 FOLLOWER = "follow.js"
 """The last script of a page that a daemon serves."""
@@ -74,6 +77,7 @@ def page(
         "robot": content.robot.name,
         "now": picture.now,
         "before": picture.before,
+        "poses": picture.poses,
         "meshes": {name: [mesh.points, mesh.faces, *mesh.box] for name, mesh in picture.meshes.items()},
         "motion": simulation and _motion(simulation),
         "curves": curves,

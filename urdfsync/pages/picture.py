@@ -35,8 +35,10 @@ class Picture(msgspec.Struct, frozen=True):
     """None if nothing changed, or there is no older version."""
     meshes: Mapping[str, Triangles]
     """The meshes of both versions by their names, those that are seen first before the others."""
+    poses: Mapping[str, Mapping[str, float]]
+    """Named poses of files beside the source: positions by hinges."""
     notes: Sequence[str]
-    """Missing meshes, each in words, then those that have lost something visible."""
+    """What is missing, each in words, then the meshes that have lost something visible."""
 
 
 class _File(NamedTuple):
@@ -84,7 +86,8 @@ def picture(generation: Generation, older: Contents | None) -> Picture:
         cache.trim()
     notes = (f"{files[name].path} can't be shown: {mesh}" for name, mesh in meshes.items() if isinstance(mesh, str))
     shown_meshes = {name: mesh for name, mesh in meshes.items() if isinstance(mesh, Triangles)}
-    return Picture(now, before, shown_meshes, (*now.missing, *notes, *_coarse(shown_meshes, files)))
+    poses, faults = pictures.named_poses(robot.source, generation.now.snapshot)
+    return Picture(now, before, shown_meshes, poses, (*now.missing, *faults, *notes, *_coarse(shown_meshes, files)))
 
 
 def _by_name(

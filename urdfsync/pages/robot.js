@@ -22,6 +22,17 @@ function waysOf(hinge) {
   return [way("x", x.toArray(), false), way("y", normal.clone().cross(x).toArray(), false), way("turn", hinge.axis, true)];
 }
 
+/* Returns whether an axis moves by itself: it follows no other, neither directly nor through loops. */
+function isFree(hinge) {
+  return Boolean(hinge.motion) && !hinge.leader && !hinge.is_dependent;
+}
+
+/* Returns the ends of a way; without limits those that a slider has. */
+function endsOfWay(hinge, way) {
+  const reach = way.turns ? Math.PI : 1;
+  return [hinge.lower ?? Math.min(-reach, hinge.start), hinge.upper ?? Math.max(reach, hinge.start)];
+}
+
 function startPositions(scene) {
   return new Map(scene.hinges.flatMap((hinge) => [{ name: hinge.element }, ...waysOf(hinge)].map(({ name }) => [name, hinge.start])));
 }
@@ -116,6 +127,7 @@ class RobotView {
       const material = new THREE.MeshStandardMaterial({ color, roughness: 0.65, metalness: 0.1, opacity, transparent: opacity < 1, side: THREE.DoubleSide });
       const mesh = new THREE.Mesh(geometry, material);
       mesh.matrixAutoUpdate = false;
+      mesh.castShadow = shape.kind === "visual";
       mesh.matrix.fromArray(shape.pose);
       mesh.userData = { element: data.element, color, opacity, name: shape.mesh };
       this.#add(body, shape.kind, mesh);
@@ -129,9 +141,13 @@ class RobotView {
     body.group.add(object);
   }
 
+  shapes() {
+    return [...this.bodies.values()].flatMap(({ layers }) => [...layers.visual, ...layers.collision]);
+  }
+
   /* Gives all shapes of a mesh their geometry. Returns whether one of them is to be seen. */
   fill(name, geometry) {
-    const meshes = [...this.bodies.values()].flatMap(({ layers }) => [...layers.visual, ...layers.collision]).filter(({ userData }) => userData.name === name);
+    const meshes = this.shapes().filter(({ userData }) => userData.name === name);
     for (const mesh of meshes) mesh.geometry = geometry;
     return meshes.some((mesh) => mesh.visible);
   }
@@ -190,16 +206,17 @@ class RobotView {
     return box;
   }
 
-  /* Sets the position of one axis; those that follow it move, too. */
-  move(name, position) {
-    if (!this.positions.has(name)) return;
-    if (this.scene.loops.length) moveClosed(this, name, position);
-    else this.positions.set(name, position);
+  /* Moves axes; those that follow them move, too. Returns whether all are at their positions: a loop may stop them. */
+  move(targets) {
+    const known = [...targets].filter(([name]) => this.positions.has(name));
+    const isThere = !this.scene.loops.length || moveClosed(this, known);
+    if (!this.scene.loops.length) for (const [name, position] of known) this.positions.set(name, position);
     this.place();
+    return isThere;
   }
 
-  /* Sets the positions of many axes; `renamed` has the new names of joints. */
-  moveAll(positions, renamed) {
+  /* Sets all positions, loops as they are; `renamed` has the new names of joints. */
+  put(positions, renamed) {
     for (const hinge of this.scene.hinges) for (const { name } of waysOf(hinge)) {
       const position = positions.get(name.replace(hinge.element, renamed[hinge.element] || hinge.element));
       if (position !== undefined) this.positions.set(name, position);

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any, Protocol, TypeAlias
 
 import msgspec
@@ -62,6 +63,8 @@ class Hinge(msgspec.Struct, frozen=True):
     motion: str = ""
     """`rotational` or `translational` along `axis`, `planar` with it as normal, `floating`, `ball`; empty if fixed."""
     start: float = 0.0
+    way: float = 0.0
+    """How far a test moves it from the start and back, along a cosine."""
     lower: float | None = None
     upper: float | None = None
     """None for no limit."""
@@ -105,6 +108,8 @@ class Scene(msgspec.Struct, frozen=True):
     missing: tuple[str, ...] = ()
     """Shapes that can't be shown, with reasons, in words."""
     loops: tuple[Loop, ...] = ()
+    height: float | None = None
+    """The height of the root above the ground when the robot stands there at its start; None if its base is fixed."""
 
 
 class Triangles(msgspec.Struct, frozen=True):
@@ -133,6 +138,10 @@ class Pictures(Protocol):
         Meshes of one file have one name, also if the model scales or mirrors them. An import without facts is a file
         that is too large for the package.
         """
+        ...
+
+    def named_poses(self, source: Path, snapshot: Snapshot) -> tuple[Mapping[str, Mapping[str, float]], Sequence[str]]:
+        """Return the poses that files beside a source define, as positions of hinges, and faults of them in words."""
         ...
 
     def triangles(self, path: str, content: bytes, key: str, most: int) -> Triangles | str:

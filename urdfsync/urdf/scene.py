@@ -13,11 +13,12 @@ from urdfsync.pages import scene as scenes
 from urdfsync.pages.scene import Body, End, Hinge, Pose, Scene, Shape
 from urdfsync.urdf.drives import assembly
 from urdfsync.urdf.kinematics import poses
-from urdfsync.urdf.kinematics.loops import Closure
+from urdfsync.urdf.kinematics.loops import Assembly, Closure
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.meshes import lookup
 from urdfsync.urdf.meshes.convert import triangles as triangles
-from urdfsync.urdf.model.shapes import link_shapes
+from urdfsync.urdf.model.shapes import link_shapes, standing_height
+from urdfsync.urdf.named_poses import named_poses as named_poses
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS, Joint, Link, Loop, Mesh, Robot, Unit
 
@@ -39,11 +40,10 @@ def scene(
     names = {key: _mesh_name(key, file, imports) for key, file in imports.items()}
     meshes = {f"modelica://{target.package}/{file.target}": names[key] for key, file in imports.items()}
     bodies = tuple(_body(tree, link, link_shapes(link, imports, target.package, shown), meshes) for link in tree.links)
-    hinges = tuple(
-        _hinge(tree, joint, starts[joint.name], joint.name in closed.dependent) for joint in tree.leaders_first()
-    )
+    hinges = tuple(_hinge(closed, joint, starts[joint.name]) for joint in tree.leaders_first())
     loops = tuple(_loop(tree, loop, closed.closures[loop.name]) for loop in tree.loops)
-    return Scene(bodies, hinges, tuple(_missing(tree, imports)), loops), names
+    height = standing_height(tree, imports) if options.base == "floating" else None
+    return Scene(bodies, hinges, tuple(_missing(tree, imports)), loops, height), names
 
 
 def _mesh_name(key: str, file: Import, imports: Mapping[str, Import]) -> str:
@@ -106,12 +106,15 @@ def _missing(tree: KinematicTree, imports: Mapping[str, Import]) -> Iterator[str
                     yield f"link {link.name}, {kind} {number}: mesh `{geometry.filename}` is not in the package"
 
 
-def _hinge(tree: KinematicTree, joint: Joint, start: float, is_dependent: bool) -> Hinge:
-    lower, upper = (limit if math.isfinite(limit) else None for limit in poses.own_range(joint))
-    moves = MOTION_KINDS.get(joint.type)
+def _hinge(closed: Assembly, joint: Joint, start: float) -> Hinge:
+    limits, moves = poses.own_range(joint), MOTION_KINDS.get(joint.type)
+    lower, upper = (limit if math.isfinite(limit) else None for limit in limits)
+    way = 0.0
+    if moves and joint.name in closed.driven:
+        way = poses.sweep_way(joint, start, closed.reach.get(joint.name, poses.SWEEP[moves]), limits)
     return Hinge(
         element=f"joint {joint.name}",
-        component=tree.joint(joint.name).component,
+        component=closed.tree.joint(joint.name).component,
         facts=tuple(_facts(joint, joint)),
         parent=f"link {joint.parent}",
         child=f"link {joint.child}",
@@ -119,12 +122,13 @@ def _hinge(tree: KinematicTree, joint: Joint, start: float, is_dependent: bool) 
         axis=joint.axis,
         motion=moves or ("" if joint.type == "fixed" else joint.type),
         start=start,
+        way=way,
         lower=lower if moves else None,
         upper=upper if moves else None,
         leader=f"joint {joint.mimic.joint}" if joint.mimic else "",
         multiplier=joint.mimic.multiplier if joint.mimic else 1.0,
         offset=joint.mimic.offset if joint.mimic else 0.0,
-        is_dependent=is_dependent,
+        is_dependent=joint.name in closed.dependent,
     )
 
 

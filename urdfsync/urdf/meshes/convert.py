@@ -10,7 +10,6 @@ from urdfsync.domain import Conversion, Dependency
 from urdfsync.pages.scene import Triangles
 from urdfsync.urdf.meshes import lookup
 from urdfsync.urdf.meshes.process import MeshError, MeshProcess, Request
-from urdfsync.urdf.robot import Mesh
 
 _FORMATS = (".dae", ".glb", ".gltf", ".obj", ".off", ".ply", ".stl")
 
@@ -55,7 +54,9 @@ def triangles(path: str, content: bytes, key: str, most: int) -> Triangles | str
     mesh = lookup.mesh(key)
     scale = [1 / factor if path and factor else 1.0 for factor in mesh.scale]
     try:
-        request = Request(lookup.suffix(path or mesh.filename), (scale[0], scale[1], scale[2]), False, most=most)
+        request = Request(
+            lookup.suffix(path or mesh.filename), (scale[0], scale[1], scale[2]), with_hull=False, most=most
+        )
         ((packed, facts),) = _process.read(request, content)
     except MeshError as error:
         return str(error)
