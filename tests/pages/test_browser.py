@@ -348,6 +348,16 @@ def test_a_planar_joint_and_a_ball_have_three_sliders_and_a_floating_one_six(rep
     # x of the frame is in the plane, y is the cross product of the normal with it
     assert page.run("page.pose('link cart').slice(12, 15)") == pytest.approx([2, 0, 1 - 3])
     assert page.run("page.pose('link cart').slice(0, 3)") == pytest.approx([math.cos(0.3), 0, -math.sin(0.3)])
+    sliders = "document.querySelectorAll('[data-axis^=\"joint look\"] input[type=range]')"
+    turns = page.run(
+        f"[...{sliders}].map((slider, place) => {{"
+        " slider.value = 0.4 + place; slider.dispatchEvent(new Event('input')); return Number(slider.value); })"
+    )
+    yaw_pitch_roll = [page.run(f"page.positions.get('joint look: {way}')") for way in ("yaw", "pitch", "roll")]
+    assert yaw_pitch_roll == turns
+    eye, drone = (np.array(page.run(f"page.pose('link {name}')")).reshape(4, 4).T for name in ("eye", "drone"))
+    rotation = pytest.importorskip("pinocchio").rpy.rpyToMatrix(*reversed(turns))
+    assert np.abs((drone[:3, :3].T @ eye[:3, :3]) - rotation).max() < 1e-12
     page.run("page.positions.forEach((_, name) => move(name, 0)), move('joint fly: z', 1)")
     page.run("move('joint fly: roll', 0.1), move('joint fly: pitch', 0.2), move('joint fly: yaw', 0.3)")
     pose = np.array(page.run("page.pose('link drone')")).reshape(4, 4).T
@@ -363,6 +373,31 @@ def test_atlas_without_its_meshes_is_a_skeleton(corpus: Path, report: Report, ch
     assert page.run("document.querySelectorAll('[data-link]').length") == page.run("page.now.bodies.size")
     assert "is not in the package" in page.run("document.body.textContent")
     assert page.problems == []
+
+
+NO_WEBGL = "HTMLCanvasElement.prototype.getContext = () => null"
+
+
+def test_without_webgl_one_line_says_so_and_all_else_works(report: Report, chromium: Page) -> None:
+    bare = "".join(f'<link name="{name}"/>' for name in "abc")
+    joints = "".join(
+        f'<joint name="{child}" type="continuous"><parent link="{parent}"/><child link="{child}"/></joint>'
+        for parent, child in ("ab", "bc")
+    )
+    file = report(f'<robot name="bare">{bare}{joints}</robot>')
+    page = opened(chromium, file)
+    assert page.run("element('told').textContent") == "This robot has no shapes: its frames are shown."
+    assert "no limit" in page.run("document.querySelector('[data-axis=\"joint b\"]').textContent")
+    page.run("page.player.seek(5)")
+    assert page.run("[...page.positions.values()]") == pytest.approx([1, 1])
+    chromium.open(file, ready=READY, first=NO_WEBGL)
+    (line,) = page.run("[...document.querySelectorAll('#trouble:not([hidden])')].map((each) => each.textContent)")
+    assert line.startswith("This browser cannot draw in 3D: WebGL is missing, or switched off.")
+    page.run("page.player.seek(5), document.querySelector('[data-pose=Random]').click()")
+    assert page.run("page.positions.get('joint b')") != 1
+    assert page.run("[element('tools').hidden, element('player').hidden]") == [True, False]
+    page.run("select('link c'), document.querySelector('[role=tab]:not([aria-selected=true])').click()")
+    assert not [problem for problem in page.problems if "Error creating WebGL context" not in problem]
 
 
 SCRIPT = "</script><script>alert(1)</script><img src=x onerror=\"alert(2)\"> 'quoted' & <!-- `"

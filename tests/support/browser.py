@@ -55,17 +55,29 @@ class Page:
             self._call(f"{domain}.enable")
 
     def open(
-        self, place: Path | str, *, width: int = 1280, height: int = 900, dark: bool = False, ready: str = ""
+        self,
+        place: Path | str,
+        *,
+        width: int = 1280,
+        height: int = 900,
+        dark: bool = False,
+        ready: str = "",
+        first: str = "",
     ) -> None:
-        """Open a file, or an address, in a window of this size, and wait for the promise `ready` of the page."""
+        """Open a file, or an address, in a window of this size, and wait for the promise `ready` of the page.
+
+        The script `first` runs before those of the page.
+        """
         metrics = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False}
         self._call("Emulation.setDeviceMetricsOverride", **metrics)
         feature = {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}
         self._call("Emulation.setEmulatedMedia", features=[feature])
+        script = self._call("Page.addScriptToEvaluateOnNewDocument", source=first)
         self._seen.discard("Page.loadEventFired")
         self._call("Page.navigate", url=place if isinstance(place, str) else place.resolve().as_uri())
         while "Page.loadEventFired" not in self._seen:
             self._read()
+        self._call("Page.removeScriptToEvaluateOnNewDocument", **script)
         if ready:
             self.run(ready)
 

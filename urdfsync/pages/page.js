@@ -71,7 +71,8 @@ function refresh() {
 
 /* Says something beside the picture; without words, what is measured or selected. */
 function say(words) {
-  element("told").textContent = words || page.ruler?.words() || page.selected || "";
+  const bare = data.now.bodies.some((body) => body.shapes.length) ? "" : "This robot has no shapes: its frames are shown.";
+  element("told").textContent = words || page.ruler?.words() || page.selected || bare;
 }
 
 function select(name) {
@@ -276,6 +277,7 @@ const showPositions = fillAxes(element("axes"), element("units"), data, move, se
 const markTree = fillTree(element("tree"), data, select);
 let markDiagram = () => {}; // its layout takes as long as the picture
 showPositions(page.positions);
+say("");
 if (page.positions.size) {
   fillPoses(element("pose-list"), data, pose);
   element("poses").hidden = false;
@@ -340,6 +342,7 @@ document.addEventListener("keydown", (event) => {
 
 setTheme(matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
 page.ready = new Promise((go) => go(show())).catch((error) => {
+  for (const id of ["tools", "versions", "legend"]) element(id).hidden = true;
   element("trouble").hidden = false;
   element("trouble").textContent = error.message;
 }).then(setUpMotion);

@@ -6,14 +6,15 @@ const SOFTWARE = /swiftshader|llvmpipe|software|basic render/i;
 const COARSE = 0.4; // share of the pixels, along each side, of a slow picture that moves
 const REST = 300; // milliseconds without a change, after which a slow picture gets all its pixels and its shadow
 
-/* Makes what draws. Without a graphics card a picture takes a second, most of it for its pixels: it gets fewer. */
+/* Returns whether no graphics card draws: then a picture takes a second, most of it for its pixels. */
+function isDrawnBySoftware() {
+  const context = document.createElement("canvas").getContext("webgl"), info = context?.getExtension("WEBGL_debug_renderer_info");
+  return Boolean(info) && SOFTWARE.test(context.getParameter(info.UNMASKED_RENDERER_WEBGL));
+}
+
 function startDrawing(canvas) {
-  const attributes = { alpha: true, depth: true, preserveDrawingBuffer: true }; // else the picture is not printed
-  const quick = canvas.getContext("webgl2", { ...attributes, antialias: true, failIfMajorPerformanceCaveat: true });
-  const context = quick || canvas.getContext("webgl2", { ...attributes, antialias: false }) || undefined;
-  stage.renderer = new THREE.WebGLRenderer({ canvas, context, ...attributes });
-  const info = context?.getExtension("WEBGL_debug_renderer_info");
-  stage.isSlow = !quick || SOFTWARE.test(info ? context.getParameter(info.UNMASKED_RENDERER_WEBGL) : "");
+  stage.isSlow = isDrawnBySoftware();
+  stage.renderer = new THREE.WebGLRenderer({ canvas, antialias: !stage.isSlow, alpha: true, preserveDrawingBuffer: true }); // else the picture is not printed
   stage.renderer.outputEncoding = THREE.sRGBEncoding;
   Object.assign(stage.renderer.shadowMap, { enabled: true, autoUpdate: false, type: THREE.PCFSoftShadowMap });
 }
