@@ -330,8 +330,8 @@ def test_a_check_is_drawn_beside_its_reference_with_the_error_on_a_log_scale(
     assert page.problems == []
 
 
-PLANAR = """<robot name="cart"><link name="floor"/><link name="cart"/><link name="drone"/><link name="eye"/>
-<joint name="look" type="ball"><parent link="drone"/><child link="eye"/></joint>
+PLANAR = """<robot name="cart"><link name="floor"/><link name="cart"/><link name="drone"/><link name="eye"><visual><origin xyz="0.5 0 0"/>
+<geometry><sphere radius="0.2"/></geometry></visual></link><joint name="look" type="ball"><parent link="drone"/><child link="eye"/></joint>
 <joint name="drive" type="planar"><parent link="floor"/><child link="cart"/><origin xyz="0 0 1"/><axis xyz="{0}"/>
 </joint><joint name="fly" type="floating"><parent link="cart"/><child link="drone"/></joint></robot>"""
 
@@ -358,6 +358,13 @@ def test_a_planar_joint_and_a_ball_have_three_sliders_and_a_floating_one_six(rep
     eye, drone = (np.array(page.run(f"page.pose('link {name}')")).reshape(4, 4).T for name in ("eye", "drone"))
     rotation = pytest.importorskip("pinocchio").rpy.rpyToMatrix(*reversed(turns))
     assert np.abs((drone[:3, :3].T @ eye[:3, :3]) - rotation).max() < 1e-12
+    page.run("page.positions.forEach((_, name) => move(name, 0))")
+    x, y = place_of(page, "link eye")
+    page.run(f"var taken = hitAt(placeOf({{ clientX: {x}, clientY: {y} }}), page.now).point")
+    page.run("taken.applyMatrix4(page.now.bodies.get('link eye').group.matrixWorld.clone().invert())")
+    page.drag((x, y), (x + 10, y), (x + 30, y + 20))  # all three turn, and what was taken stays under the pointer
+    spot = page.run("project(taken.clone().applyMatrix4(page.now.bodies.get('link eye').group.matrixWorld))")
+    assert spot[:2] == pytest.approx(page.run(f"placeOf({{ clientX: {x + 30}, clientY: {y + 20} }})"), abs=0.1)
     page.run("page.positions.forEach((_, name) => move(name, 0)), move('joint fly: z', 1)")
     page.run("move('joint fly: roll', 0.1), move('joint fly: pitch', 0.2), move('joint fly: yaw', 0.3)")
     pose = np.array(page.run("page.pose('link drone')")).reshape(4, 4).T

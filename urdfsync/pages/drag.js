@@ -3,6 +3,7 @@
 
 const TRIED = 1e-5; // step of an axis for derivatives, in rad or m
 const ROUNDS = 8; // of Newton's method for one move of the pointer
+const LEAST_STEP = 1e-7;
 const LONGEST = 0.2; // step of an axis in one round, in rad, or in sizes of the robot
 
 /* Returns the nearest joint towards the root that moves by itself; a follower stands for its leader. Undefined if there is none. */
@@ -40,7 +41,9 @@ function take(view, hinge, element, point, project) {
         view.place();
         return [(there[0] - here[0]) / TRIED, (there[1] - here[1]) / TRIED];
       });
-      const steps = stepsTo(columns, gap), targets = new Map(ways.map((way, k) => {
+      const steps = stepsTo(columns, gap);
+      if (steps.every((step) => Math.abs(step) < LEAST_STEP)) break; // it is as near as it comes
+      const targets = new Map(ways.map((way, k) => {
         const most = LONGEST * (way.turns ? 1 : view.size), [low, high] = [hinge.lower ?? -Infinity, hinge.upper ?? Infinity];
         const position = before.get(way.name) + Math.min(Math.max(steps[k], -most), most);
         return [way.name, Math.min(Math.max(position, Math.min(low, before.get(way.name))), Math.max(high, before.get(way.name)))];

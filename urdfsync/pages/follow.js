@@ -19,7 +19,7 @@ function restore() {
   if (kept.build === null) return;
   setTheme(kept.theme);
   chooseTab(element(kept.tab));
-  [...element("units").children].find((button) => button.textContent === kept.unit).click();
+  [...element("units").children].find((button) => button.textContent === kept.unit)?.click();
   moveAxes(new Map(kept.positions));
   for (const layer of Object.keys(SWITCHES)) if (page.layers[layer] !== kept.layers[layer]) toggle(layer);
   select([...data.now.bodies, ...data.now.hinges].some((each) => each.element === kept.selected) ? kept.selected : null);
