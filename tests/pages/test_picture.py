@@ -26,48 +26,34 @@ def test_a_mesh_that_is_missing_is_named(arm: Path, report: Report) -> None:
     assert "is not in the package" in page.words
 
 
-def test_a_coarse_mesh_is_made_once_and_the_page_has_one_line_about_all(
-    arm: Path, report: Report, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr("urdfsync.pages.picture._MOST", 2000)
-    page, paths, simplify = report(), list[str](), scene.triangles
-    before = page.read_bytes()
-    told = re.findall(
-        r"(\d) meshes are coarser here .*: Resources/\S* has [\d,]+ of its [\d,]+ triangles", read(page).words
-    )
-    assert len(told) == 1
-
-    def triangles(path: str, *rest: Any) -> Triangles | str:
-        paths.append(path)
-        return simplify(path, *rest)
-
-    monkeypatch.setattr(scene, "triangles", triangles)
-    assert report().read_bytes() == before
-    assert paths
-    assert len(paths) == len({*paths})  # the second, coarse ones are remembered
-
-
-def test_large_meshes_share_what_small_ones_leave_and_those_that_are_seen_come_first(
+@pytest.mark.slow
+def test_large_meshes_share_what_small_ones_leave_and_the_page_has_one_line_about_coarse_ones(
     tmp_path: Path, report: Report, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    shapes = {"visual": (1, 3, 4), "collision": (5,)}  # 80, 1280, 5120 and 20,480 triangles
     texts = list[str]()
-    for kind, sizes in shapes.items():
-        for size in sizes:
-            trimesh.creation.icosphere(size).export(tmp_path / f"{size}.stl")
-            texts.append(f'<{kind}><geometry><mesh filename="{size}.stl"/></geometry></{kind}>')
+    for size, kind in ((1, "visual"), (3, "visual"), (4, "visual"), (5, "collision")):  # 80 to 20,480 triangles
+        trimesh.creation.icosphere(size).export(tmp_path / f"{size}.stl")
+        texts.append(f'<{kind}><geometry><mesh filename="{size}.stl"/></geometry></{kind}>')
     monkeypatch.chdir(tmp_path)
     Path("bot.urdf").write_text(f'<robot name="bot"><link name="base">{"".join(texts)}</link></robot>')
     Path("urdfsync.toml").write_text('[robots.bot]\nsource = "bot.urdf"\npackage = "Bot"\ncollisions = true\n')
-    for most, fewest in (
-        (30_000, (80, 1280, 5120, 20_480)),
-        (10_000, (80, 1280, 5120, 500)),
-        (3000, (80, 300, 1280, 0)),
-    ):
+    for most, fewest in ((10_000, (80, 1280, 5120, 500)), (3000, (80, 300, 1280, 0))):
         monkeypatch.setattr("urdfsync.pages.picture._MOST", most)
-        faces = [*faces_of(report()).values()]
+        faces = [*faces_of(page := report()).values()]
         assert sum(faces) <= most + 200
+        # those that are seen come first
         assert all(number >= least for number, least in zip((*sorted(faces[:3]), faces[3]), fewest, strict=True)), faces
+    before, made = page.read_bytes(), list[int]()
+    assert re.search(r"2 meshes are coarser here than in the file: \S+ has [\d,]+ of its 20,480 tri", read(page).words)
+    simplify = scene.triangles
+
+    def triangles(*arguments: Any) -> Triangles | str:
+        made.append(arguments[-1])
+        return simplify(*arguments)
+
+    monkeypatch.setattr(scene, "triangles", triangles)
+    assert report().read_bytes() == before
+    assert made == [3000] * 2  # two meshes stayed as they are; what was simplified is remembered
 
 
 def test_a_mesh_that_is_mirrored_is_stored_once(tmp_path: Path, report: Report) -> None:
