@@ -6,14 +6,17 @@ const ROUNDS = 8; // of Newton's method for one move of the pointer
 const LEAST_STEP = 1e-7;
 const LONGEST = 0.2; // step of an axis in one round, in rad, or in sizes of the robot
 
-/* Returns the nearest joint towards the root that moves by itself; a follower stands for its leader. Undefined if there is none. */
+/* Returns the joints from a link to the root. */
+function jointsAbove(scene, element) {
+  const above = [];
+  for (let link = element, hinge; (hinge = scene.hinges.find((each) => each.child === link)); link = hinge.parent) above.push(hinge);
+  return above;
+}
+
+/* Returns the nearest joint above a link that moves by itself; a follower stands for its leader. Undefined if there is none. */
 function jointToDrag(scene, element) {
-  for (let link = element, hinge; (hinge = scene.hinges.find((each) => each.child === link)); link = hinge.parent) {
-    let mover = hinge;
-    while (mover.leader) mover = scene.hinges.find((each) => each.element === mover.leader);
-    if (isFree(mover)) return mover;
-  }
-  return undefined;
+  const leaderOf = (hinge) => hinge.leader ? leaderOf(scene.hinges.find((each) => each.element === hinge.leader)) : hinge;
+  return jointsAbove(scene, element).map(leaderOf).find(isFree);
 }
 
 /* Returns the steps of the axes by which a point comes nearer: the least ones, and shorter where the point hardly moves. */

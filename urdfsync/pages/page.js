@@ -97,6 +97,7 @@ function paint() {
   page.now.root.visible = page.version !== "before";
   if (page.before) {
     page.before.root.visible = compares;
+    for (const mesh of page.before.shapes()) mesh.castShadow = page.version === "before";
     page.before.paint((name) => {
       const current = data.renamed[name] || name, status = data.statuses[current];
       const color = data.statuses[name] === "removed" ? colors.removed : page.version === "both" ? colors.accent : status === "changed" ? colors.changed : null;
@@ -173,7 +174,7 @@ function click(event) {
 function grab(event) {
   const hit = page.version === "before" ? null : hitAt(placeOf(event), page.now), hinge = hit && jointToDrag(data.now, hit.element);
   if (!hinge) {
-    if (hit && data.now.hinges.some((each) => each.child === hit.element && each.is_dependent)) say(`Loops move ${nameOf(hit.element)}: drag another link.`);
+    if (hit && jointsAbove(data.now, hit.element).some((each) => each.motion)) say(`Loops move ${nameOf(hit.element)}: drag another link.`);
     return null;
   }
   const pull = take(page.now, hinge, hit.element, hit.point, project);
