@@ -114,3 +114,25 @@ def test_a_loop_has_its_ends_and_equations_and_its_robot_starts_closed() -> None
     assert [(end.body, end.pose[12]) for end in loop.ends] == [("link coupler", 0.6), ("link rocker", 0.4)]
     assert (len(loop.translations), len(loop.rotations)) == (2, 0)
     assert ("kind", "revolute") in loop.facts
+
+
+@pytest.mark.parametrize(
+    ("lower", "upper", "velocity", "way"),
+    [
+        (-2.0, 2.0, 9.0, 1.0),
+        (-0.9, 0.5, 9.0, -0.81),
+        (0.0, 0.5, 0.1, 0.9 * 0.1 * 10 / math.pi),
+        (0.0, 0.0, 9.0, 0.0),
+    ],
+)
+def test_a_driven_joint_has_the_way_that_test_gives_it(lower: float, upper: float, velocity: float, way: float) -> None:
+    limit = Limit(lower=lower, upper=upper, effort=1.0, velocity=velocity)
+    turn = Joint("turn", "revolute", "base", "arm", limit=limit)
+    (hinge,) = picture(Link("base"), Link("arm"), joints=(turn,)).hinges
+    assert hinge.way == pytest.approx(way)
+
+
+def test_a_robot_with_a_free_base_has_the_height_at_which_it_stands() -> None:
+    robot = Robot("bot", (Link("base", collisions=(Collision(Box((1.0, 1.0, 0.6))),)),))
+    heights = [scene(robot, {}, Target("Bot", "Bot"), Options(base=base))[0].height for base in ("fixed", "floating")]
+    assert heights == [None, pytest.approx(0.3)]
