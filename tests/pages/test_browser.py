@@ -163,7 +163,8 @@ DISTANCE = """{{
   }};
 }}"""
 HOME = """<robot name="six_axis_arm"><group_state name="home" group="arm"><joint name="elbow" value="-0.5"/>
-<joint name="tail" value="1"/></group_state></robot>"""
+<joint name="tail" value="1"/></group_state>
+<group_state name="constructor" group="arm"><joint name="elbow" value="0.25"/></group_state></robot>"""
 
 
 def test_the_sweep_of_test_plays_as_pinocchio_says(arm: Path, report: Report, chromium: Page) -> None:
@@ -215,8 +216,9 @@ def test_a_hand_moves_the_arm_by_dragging_typing_and_poses(arm: Path, report: Re
     assert page.run(positions) == moved
     assert page.run("stage.orbit.azimuth") != azimuth
     # poses
-    page.run("document.querySelector('[data-pose=home]').click()")
-    assert page.run("page.positions.get('joint elbow')") == -0.5
+    for name, elbow in (("home", -0.5), ("constructor", 0.25)):
+        page.run(f"document.querySelector('[data-pose={name}]').click()")
+        assert page.run("page.positions.get('joint elbow')") == elbow
     ends = (
         "data.now.hinges.filter(isFree).map((hinge) => [hinge.lower, page.positions.get(hinge.element), hinge.upper])"
     )

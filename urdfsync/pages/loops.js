@@ -52,7 +52,7 @@ function close(view) {
 /* Moves axes towards their positions, all at once, as far as all loops stay closed on the way. Returns whether they are there. */
 function moveClosed(view, targets) {
   const ways = [...targets].map(([name, position]) => [name, position, position - view.positions.get(name)]);
-  const count = Math.min(Math.ceil(Math.max(...ways.map(([, , way]) => Math.abs(way) / FARTHEST))), MOST_STEPS);
+  const count = Math.min(Math.ceil(Math.max(FARTHEST, ...ways.map(([, , way]) => Math.abs(way))) / FARTHEST), MOST_STEPS);
   for (let rest = count - 1; rest >= 0; rest--) {
     const before = new Map(view.positions);
     for (const [name, position, way] of ways) view.positions.set(name, position - way * rest / count);

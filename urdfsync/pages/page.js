@@ -29,6 +29,7 @@ const page = {
   before: data.before && new RobotView(data.before, data.meshes),
   get positions() { return this.now.positions; },
   pose: (element) => page.now.pose(element),
+  poses: posesOf(data),
   floor: 0,
   player: null,
   ruler: null,
@@ -38,6 +39,7 @@ const page = {
 };
 
 const element = (id) => document.getElementById(id);
+
 /* Moves axes, then all that depends on them. Returns whether they are there: a loop may stop them. */
 function moveAxes(targets) {
   const isThere = page.now.move(targets);
@@ -54,7 +56,7 @@ function move(name, position) {
 /* Takes a named pose. */
 function pose(name) {
   page.player?.pause();
-  const targets = posed(data, name), isThere = moveAxes(targets);
+  const isThere = moveAxes(page.poses.get(name)[1]());
   setGround(name === "Stance" ? -data.now.height : page.floor, page.now.size);
   say(isThere ? `Pose: ${name}` : `A loop would open: the robot stops on the way to ${name}.`);
 }
@@ -280,7 +282,9 @@ let markDiagram = () => {}; // its layout takes as long as the picture
 showPositions(page.positions);
 say("");
 if (page.positions.size) {
-  fillPoses(element("pose-list"), data, pose);
+  for (const [name, [purpose]] of page.poses) {
+    element("pose-list").append(make("button", { type: "button", "data-pose": name, title: purpose }, name, { click: () => pose(name) }));
+  }
   element("poses").hidden = false;
   element("poses").open = innerWidth > 860;
 }

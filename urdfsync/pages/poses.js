@@ -9,31 +9,22 @@ function sweepAt(scene, time) {
   return new Map(scene.hinges.filter((hinge) => isFree(hinge) && hinge.motion in ONE_WAY).map((hinge) => [hinge.element, hinge.start + hinge.way * share]));
 }
 
-const POSITIONS = { // of one way of a hinge
-  Zero: () => 0,
-  Start: (hinge) => hinge.start,
-  Stance: (hinge) => hinge.start,
-  Middle: (hinge) => hinge.lower === null || hinge.upper === null ? hinge.start : (hinge.lower + hinge.upper) / 2,
-  Random: (hinge, way) => endsOfWay(hinge, way).reduce((low, high) => low + Math.random() * (high - low)),
-};
-const PURPOSES = {
-  Zero: "All free axes at zero", Start: "All axes where a simulation begins (r)", Stance: "As at the start, on the ground",
-  Middle: "All axes in the middle of their limits", Random: "All axes anywhere between their limits",
+const POSES = { // the purpose, and the position of one way of a hinge
+  Zero: ["All free axes at zero", () => 0],
+  Start: ["All axes where a simulation begins (r)", (hinge) => hinge.start],
+  Stance: ["As at the start, on the ground", (hinge) => hinge.start],
+  Middle: ["All axes in the middle of their limits", ({ lower, upper, start }) => lower === null || upper === null ? start : (lower + upper) / 2],
+  Random: ["All axes anywhere between their limits", (hinge, way) => endsOfWay(hinge, way).reduce((low, high) => low + Math.random() * (high - low))],
 };
 
-/* Returns the names of the poses: those of any robot, then those of its SRDF. A pose of Test stands on the ground. */
-function poseNames(data) {
-  return [...Object.keys(POSITIONS).filter((name) => name !== "Stance" || data.now.height !== null), ...Object.keys(data.poses)];
-}
-
-/* Returns the positions of the axes that a pose moves. */
-function posed(data, name) {
-  if (!(name in POSITIONS)) return new Map(Object.entries(data.poses[name]));
-  return new Map(data.now.hinges.filter(isFree).flatMap((hinge) => waysOf(hinge).map((way) => [way.name, POSITIONS[name](hinge, way)])));
-}
-
-/* Fills in a button for each pose. */
-function fillPoses(place, data, take) {
-  const button = (name) => make("button", { type: "button", "data-pose": name, title: PURPOSES[name] || `${name}, of the SRDF beside the source` }, name, { click: () => take(name) });
-  place.append(...poseNames(data).map(button));
+/* Returns the poses of a robot, then those of its SRDF, by their names: a purpose, and a function that gives the positions of axes. */
+function posesOf(data) {
+  const poses = new Map(), ways = data.now.hinges.filter(isFree).flatMap((hinge) => waysOf(hinge).map((way) => [hinge, way]));
+  for (const [name, [purpose, position]] of Object.entries(POSES)) {
+    if (name !== "Stance" || data.now.height !== null) poses.set(name, [purpose, () => new Map(ways.map(([hinge, way]) => [way.name, position(hinge, way)]))]);
+  }
+  for (const [name, positions] of Object.entries(data.poses)) {
+    poses.set(poses.has(name) ? `${name} (SRDF)` : name, ["Of the SRDF beside the source", () => new Map(Object.entries(positions))]);
+  }
+  return poses;
 }
