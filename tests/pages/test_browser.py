@@ -36,7 +36,7 @@ frames = [{{ link = "coupler", xyz = [{length}, 0, -0.025] }}, {{ link = "rocker
 """
 MOVED = "(move('joint crank_pivot', {}), Object.fromEntries(page.positions))"
 Report = Callable[..., Path]
-READY = "page.ready.then(() => true)"
+READY = "page.complete.then(() => true)"
 PAINTED = "page.now.bodies.get({!r}).layers.visual[0].material.{}.getHex()"
 
 
@@ -68,6 +68,19 @@ def test_a_four_bar_stays_closed_under_its_slider_and_stops_where_it_would_open(
         distance = math.hypot(x, y)
         expected = math.atan2(y, x) - math.acos((distance**2 + 0.4**2 - 0.6**2) / (2 * 0.4 * distance))
         assert math.remainder(rocker - expected, math.tau) == pytest.approx(0, abs=1e-8)
+    page.run("pose('Random')")
+    assert page.run("gapsOf(page.now).every((gap) => Math.abs(gap) < 1e-9)")
+    for time in (5, 10):
+        page.run(f"page.player.seek({time})")
+        assert page.run("gapsOf(page.now).every((gap) => Math.abs(gap) < 1e-9)")
+    assert page.run("page.positions.get('joint crank_pivot')") == pytest.approx(1.2)
+    x, y = place_of(page, "link coupler")
+    page.drag((x, y), (x, y - 8), (x, y - 30))  # the crank turns
+    assert abs(page.run("page.positions.get('joint crank_pivot')") - 1.2) > 0.02
+    assert page.run("gapsOf(page.now).every((gap) => Math.abs(gap) < 1e-9)")
+    x, y = place_of(page, "link rocker")
+    page.drag((x, y), (x, y + 30))
+    assert page.run("element('told').textContent") == "Loops move rocker: drag another link."
     page.run("select('loop rocker_pin')")
     assert "ball" in page.run("element('details').textContent")
     Path("urdfsync.toml").write_text(CLOSED.format(length=0.25), "utf-8")  # the crank locks at 2.29 rad
@@ -76,8 +89,22 @@ def test_a_four_bar_stays_closed_under_its_slider_and_stops_where_it_would_open(
     assert page.run("gapsOf(page.now).every((gap) => Math.abs(gap) < 1e-9)")
 
 
-def test_sliders_move_the_arm_as_pinocchio_does(arm: Path, report: Report, chromium: Page) -> None:
+def assert_poses_are_pinocchios(page: Page, urdf: Path) -> None:
     pinocchio = pytest.importorskip("pinocchio")
+    model = pinocchio.buildModelFromUrdf(str(urdf))
+    said, positions = page.run("Object.fromEntries(page.positions)"), pinocchio.neutral(model)
+    for joint, name in enumerate(model.names):
+        if joint and f"joint {name}" in said:
+            positions[model.joints[joint].idx_q] = said[f"joint {name}"]
+    placed = model.createData()
+    pinocchio.framesForwardKinematics(model, placed, positions)
+    poses = page.run("Object.fromEntries(data.now.bodies.map(({ element }) => [element, page.pose(element)]))")
+    for element, pose in poses.items():
+        expected = placed.oMf[model.getFrameId(element.removeprefix("link "))].homogeneous
+        assert np.abs(np.array(pose).reshape(4, 4).T - expected).max() < 1e-6, element
+
+
+def test_sliders_move_the_arm_as_pinocchio_does(arm: Path, report: Report, chromium: Page) -> None:
     page = opened(chromium, report())
     # the last digit of a slider is its own: what it says is what counts
     said = page.run(
@@ -92,20 +119,8 @@ def test_sliders_move_the_arm_as_pinocchio_does(arm: Path, report: Report, chrom
           return Object.fromEntries(page.positions);
         })()"""
     )
-    model = pinocchio.buildModelFromUrdf(str(arm))
-    positions = pinocchio.neutral(model)
-    for joint, name in enumerate(model.names):
-        if joint and f"joint {name}" in said:
-            positions[model.joints[joint].idx_q] = said[f"joint {name}"]
     assert math.isclose(said["joint finger_coupling"], said["joint gripper_stroke"], abs_tol=1e-12)  # a follower
-    placed = model.createData()
-    pinocchio.framesForwardKinematics(model, placed, positions)
-    links = page.run("data.now.bodies.map((body) => body.element)")
-    assert len(links) > 10
-    for element in links:
-        pose = np.array(page.run(f"page.pose({element!r})")).reshape(4, 4).T
-        expected = placed.oMf[model.getFrameId(element.removeprefix("link "))].homogeneous
-        assert np.abs(pose - expected).max() < 1e-6, element
+    assert_poses_are_pinocchios(page, arm)
     assert page.problems == []
 
 
@@ -124,15 +139,7 @@ def test_a_click_selects_in_picture_tree_diagram_and_details(arm: Path, report: 
     page.run("select(null)")
     assert page.run(glow) == 0
     # a click into the picture, where the link is drawn
-    place = page.run(
-        """(() => {
-          const box = new THREE.Box3().setFromObject(page.now.bodies.get("link upper_arm").layers.visual[0]);
-          const spot = box.getCenter(new THREE.Vector3()).project(stage.orbit.camera);
-          const view = element("view").getBoundingClientRect();
-          return [view.left + (spot.x + 1) / 2 * view.width, view.top + (1 - spot.y) / 2 * view.height];
-        })()"""
-    )
-    page.click(*place)
+    page.click(*place_of(page, "link upper_arm"))
     assert page.run("page.selected") == "link upper_arm"
     page.run(
         "element('drawing').shadowRoot.querySelectorAll('g > title').forEach((title) => {"
@@ -142,12 +149,124 @@ def test_a_click_selects_in_picture_tree_diagram_and_details(arm: Path, report: 
     assert page.problems == []
 
 
+SWEPT = ("turret", "shoulder", "elbow", "forearm_roll", "wrist_pitch", "flange_roll")
+"""Joints that Test moves by 1 rad, which their limits and speeds allow."""
+DISTANCE = """{{
+  const {{ point, element: link }} = hitAt(placeOf({{ clientX: {x}, clientY: {y} }}), page.now);
+  const {{ matrixWorld }} = page.now.bodies.get(link).group, local = point.applyMatrix4(matrixWorld.clone().invert());
+  var distance = (turn) => {{ // between the pointer at the end and the place that it took, if the shoulder turned more
+    const before = page.positions.get("joint shoulder"), pointer = placeOf({{ clientX: {to_x}, clientY: {to_y} }});
+    page.now.move(new Map([["joint shoulder", before + turn]]));
+    const [left, top] = project(local.clone().applyMatrix4(matrixWorld));
+    page.now.move(new Map([["joint shoulder", before]]));
+    return Math.hypot(left - pointer[0], top - pointer[1]);
+  }};
+}}"""
+HOME = """<robot name="six_axis_arm"><group_state name="home" group="arm"><joint name="elbow" value="-0.5"/>
+<joint name="tail" value="1"/></group_state>
+<group_state name="constructor" group="arm"><joint name="elbow" value="0.25"/></group_state></robot>"""
+
+
+def test_the_sweep_of_test_plays_as_pinocchio_says(arm: Path, report: Report, chromium: Page) -> None:
+    page = opened(chromium, report())
+    for time in (2.5, 5.0, 8.0):
+        page.run(f"page.player.seek({time})")
+        said = page.run("Object.fromEntries(page.positions)")
+        share = (1 - math.cos(math.tau * time / 10)) / 2
+        assert [said[f"joint {name}"] for name in SWEPT] == pytest.approx([share] * len(SWEPT))
+        assert said["joint gripper_stroke"] == pytest.approx(0.9 * 0.035 * share)
+        assert_poses_are_pinocchios(page, arm)
+    page.run("element('play').click()")
+    assert page.run("page.player.isPlaying") is True
+    page.run("move('joint elbow', -0.25)")
+    assert page.run("[page.player.isPlaying, page.positions.get('joint elbow')]") == [False, -0.25]
+    assert page.problems == []
+
+
+def place_of(page: Page, link: str) -> tuple[float, float]:
+    """Return where the middle of a link's first shape is in the window."""
+    box = f"new THREE.Box3().setFromObject(page.now.bodies.get({link!r}).layers.visual[0])"
+    x, y = page.run(f"project({box}.getCenter(new THREE.Vector3()))")[:2]
+    left, top = page.run("(({ left, top }) => [left, top])(element('view').getBoundingClientRect())")
+    return left + x, top + y
+
+
+def test_a_hand_moves_the_arm_by_dragging_typing_and_poses(arm: Path, report: Report, chromium: Page) -> None:
+    Path("arm.srdf").write_text(HOME)
+    page = opened(chromium, report())
+    assert "arm.srdf: its poses name 1 joint that this robot lacks, such as tail" in page.run(
+        "element('left-out').textContent"
+    )
+    positions = "[...page.positions.values()]"
+    before, azimuth = page.run(positions), page.run("stage.orbit.azimuth")
+    # a link follows the pointer
+    x, y = place_of(page, "link upper_arm")
+    page.run(DISTANCE.format(x=x, y=y, to_x=x + 60, to_y=y + 10))
+    page.drag((x, y), (x + 20, y), (x + 60, y + 10))
+    moved = page.run(positions)
+    assert len([1 for one, other in zip(before, moved, strict=True) if one != other]) == 1
+    assert abs(page.run("page.positions.get('joint shoulder')")) > 0.1
+    assert_poses_are_pinocchios(page, arm)
+    assert page.run("element('told').textContent").startswith("shoulder ")
+    less, least, more = page.run("[-0.01, 0, 0.01].map(distance)")
+    assert least < min(less, more)  # no turn brings the place that was taken nearer to the pointer
+    assert page.run("stage.orbit.azimuth") == azimuth
+    # the background turns the camera
+    page.drag((700, 650), (720, 650), (760, 650))
+    assert page.run(positions) == moved
+    assert page.run("stage.orbit.azimuth") != azimuth
+    # poses
+    for name, elbow in (("home", -0.5), ("constructor", 0.25)):
+        page.run(f"document.querySelector('[data-pose={name}]').click()")
+        assert page.run("page.positions.get('joint elbow')") == elbow
+    ends = (
+        "data.now.hinges.filter(isFree).map((hinge) => [hinge.lower, page.positions.get(hinge.element), hinge.upper])"
+    )
+    for name in ("Zero", "Middle", "Random"):
+        page.run(f"document.querySelector('[data-pose={name}]').click()")
+        for low, at, high in page.run(ends):
+            assert low <= at <= high
+            expected = {"Zero": 0, "Middle": (low + high) / 2, "Random": at if at else None}[name]
+            assert at == pytest.approx(expected)
+    # angles in degrees
+    page.run("element('units').lastChild.click()")
+    number = "document.querySelector('[data-axis=\"joint elbow\"] input[type=number]')"
+    page.run(f"{number}.value = '-30', {number}.dispatchEvent(new Event('change'))")
+    assert page.run("page.positions.get('joint elbow')") == pytest.approx(-math.pi / 6)
+    assert page.run("document.querySelector('[data-axis=\"joint elbow\"]').textContent").endswith(
+        "°-199.96-0.5236 rad70.015"
+    )
+    page.run("element('units').firstChild.click()")
+    # keys, with the focus on a slider and in a number
+    for focus in ("range", "number"):
+        page.run(f"document.querySelector('[data-axis] input[type={focus}]').focus()")
+        for key in "rfn":
+            page.press(key)
+        assert page.run("page.positions.get('joint elbow')") == 0
+        assert page.run("[page.layers.frame, page.layers.label]") == [focus == "range"] * 2
+    # names, world axes and ruler
+    page.run("toggle('label'), toggle('world'), render(1)")
+    assert {"forearm", "x", "y", "z"} <= {*page.run("[...element('labels').children].map((each) => each.textContent)")}
+    page.press("u")
+    page.click(*place_of(page, "link base_link"))
+    page.click(*place_of(page, "link forearm"))
+    length = page.run("page.ruler.way.length()")
+    assert 0.5 < length < 1.5
+    assert f"{length:.4f} m: x " in page.run("element('told').textContent")
+    page.run("move('joint shoulder', 1)")
+    assert page.run("page.ruler.way.length()") != pytest.approx(length)  # its ends stay on their links
+    page.press("Escape")
+    assert page.run("page.ruler.line.visible") is False
+    assert page.problems == []
+
+
 def test_changed_links_have_the_colour_and_the_old_robot_is_there(arm: Path, report: Report, chromium: Page) -> None:
     assert cli.main(["build", "--quiet"]) == 0
     replace(arm, '<mass value="4.2"/>', '<mass value="5"/>')
     replace(arm, '<origin xyz="0 0 0.44"/>', '<origin xyz="0 0 0.5"/>')
     page = opened(chromium, report())
     color = PAINTED.format("link forearm", "color")
+    assert page.run("[...element('legend').children].map((each) => each.textContent)") == ["changed", "old place"]
     assert page.run(color) == page.run("themeColor('changed').getHex()")
     assert page.run("[page.now, page.before].map((view) => view.root.visible)") == [True, True]
     # the base is where it was, what hangs on the elbow is not
@@ -157,7 +276,7 @@ def test_changed_links_have_the_colour_and_the_old_robot_is_there(arm: Path, rep
     assert math.isclose(heights[0] - heights[1], 0.06, abs_tol=1e-12)
     page.run("chooseVersion('now')")
     assert page.run(color) == page.run("page.now.bodies.get('link forearm').layers.visual[0].userData.color.getHex()")
-    assert page.run("page.before.root.visible") is False
+    assert page.run("[page.before.root.visible, element('legend').hidden]") == [False, True]
     assert page.problems == []
 
 
@@ -212,7 +331,8 @@ def test_a_check_is_drawn_beside_its_reference_with_the_error_on_a_log_scale(
     assert page.problems == []
 
 
-PLANAR = """<robot name="cart"><link name="floor"/><link name="cart"/><link name="drone"/><link name="eye"/>
+PLANAR = """<robot name="cart"><link name="floor"/><link name="cart"/><link name="drone"/>
+<link name="eye"><visual><origin xyz="0.5 0 0"/><geometry><sphere radius="0.2"/></geometry></visual></link>
 <joint name="look" type="ball"><parent link="drone"/><child link="eye"/></joint>
 <joint name="drive" type="planar"><parent link="floor"/><child link="cart"/><origin xyz="0 0 1"/><axis xyz="{0}"/>
 </joint><joint name="fly" type="floating"><parent link="cart"/><child link="drone"/></joint></robot>"""
@@ -230,6 +350,23 @@ def test_a_planar_joint_and_a_ball_have_three_sliders_and_a_floating_one_six(rep
     # x of the frame is in the plane, y is the cross product of the normal with it
     assert page.run("page.pose('link cart').slice(12, 15)") == pytest.approx([2, 0, 1 - 3])
     assert page.run("page.pose('link cart').slice(0, 3)") == pytest.approx([math.cos(0.3), 0, -math.sin(0.3)])
+    sliders = "document.querySelectorAll('[data-axis^=\"joint look\"] input[type=range]')"
+    turns = page.run(
+        f"[...{sliders}].map((slider, place) => {{"
+        " slider.value = 0.4 + place; slider.dispatchEvent(new Event('input')); return Number(slider.value); })"
+    )
+    yaw_pitch_roll = [page.run(f"page.positions.get('joint look: {way}')") for way in ("yaw", "pitch", "roll")]
+    assert yaw_pitch_roll == turns
+    eye, drone = (np.array(page.run(f"page.pose('link {name}')")).reshape(4, 4).T for name in ("eye", "drone"))
+    rotation = pytest.importorskip("pinocchio").rpy.rpyToMatrix(*reversed(turns))
+    assert np.abs((drone[:3, :3].T @ eye[:3, :3]) - rotation).max() < 1e-12
+    page.run("page.positions.forEach((_, name) => move(name, 0))")
+    x, y = place_of(page, "link eye")
+    page.run(f"var taken = hitAt(placeOf({{ clientX: {x}, clientY: {y} }}), page.now).point")
+    page.run("taken.applyMatrix4(page.now.bodies.get('link eye').group.matrixWorld.clone().invert())")
+    page.drag((x, y), (x + 10, y), (x + 30, y + 20))  # all three turn, and what was taken stays under the pointer
+    spot = page.run("project(taken.clone().applyMatrix4(page.now.bodies.get('link eye').group.matrixWorld))")
+    assert spot[:2] == pytest.approx(page.run(f"placeOf({{ clientX: {x + 30}, clientY: {y + 20} }})"), abs=0.1)
     page.run("page.positions.forEach((_, name) => move(name, 0)), move('joint fly: z', 1)")
     page.run("move('joint fly: roll', 0.1), move('joint fly: pitch', 0.2), move('joint fly: yaw', 0.3)")
     pose = np.array(page.run("page.pose('link drone')")).reshape(4, 4).T
@@ -245,6 +382,31 @@ def test_atlas_without_its_meshes_is_a_skeleton(corpus: Path, report: Report, ch
     assert page.run("document.querySelectorAll('[data-link]').length") == page.run("page.now.bodies.size")
     assert "is not in the package" in page.run("document.body.textContent")
     assert page.problems == []
+
+
+NO_WEBGL = "HTMLCanvasElement.prototype.getContext = () => null"
+
+
+def test_without_webgl_one_line_says_so_and_all_else_works(report: Report, chromium: Page) -> None:
+    bare = "".join(f'<link name="{name}"/>' for name in "abc")
+    joints = "".join(
+        f'<joint name="{child}" type="continuous"><parent link="{parent}"/><child link="{child}"/></joint>'
+        for parent, child in ("ab", "bc")
+    )
+    file = report(f'<robot name="bare">{bare}{joints}</robot>')
+    page = opened(chromium, file)
+    assert page.run("element('told').textContent") == "This robot has no shapes: its frames are shown."
+    assert "no limit" in page.run("document.querySelector('[data-axis=\"joint b\"]').textContent")
+    page.run("page.player.seek(5)")
+    assert page.run("[...page.positions.values()]") == pytest.approx([1, 1])
+    chromium.open(file, ready=READY, first=NO_WEBGL)
+    (line,) = page.run("[...document.querySelectorAll('#trouble:not([hidden])')].map((each) => each.textContent)")
+    assert line.startswith("This browser cannot draw in 3D: WebGL is missing, or switched off.")
+    page.run("page.player.seek(5), document.querySelector('[data-pose=Random]').click()")
+    assert page.run("page.positions.get('joint b')") != 1
+    assert page.run("[element('tools').hidden, element('player').hidden]") == [True, False]
+    page.run("select('link c'), document.querySelector('[role=tab]:not([aria-selected=true])').click()")
+    assert not [problem for problem in page.problems if "Error creating WebGL context" not in problem]
 
 
 SCRIPT = "</script><script>alert(1)</script><img src=x onerror=\"alert(2)\"> 'quoted' & <!-- `"
@@ -288,6 +450,7 @@ def test_the_policy_forbids_other_scripts_and_eval(report: Report, chromium: Pag
 def test_a_robot_that_does_not_move_and_has_no_shape(report: Report, chromium: Page) -> None:
     page = opened(chromium, report('<robot name="still"><link name="only"/></robot>'))
     assert page.run("element('axes').textContent") == "This robot has no axis that moves by itself."
+    assert page.run("[element('player').hidden, element('poses').hidden]") == [True, True]
     assert page.problems == []
 
 

@@ -1,16 +1,16 @@
-"""The picture of a robot: which meshes are shown, which are simplified, and what is said of the others."""
+"""The picture of a robot: which meshes are shown, how fine they are, and what the page says of the others."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import pytest
 import trimesh
 from support.commands import Execute
-from support.pages import faces_of, read
+from support.pages import data_of, faces_of, read
 
 from urdfsync.engine.result import Exit
 from urdfsync.pages.scene import Triangles
@@ -26,38 +26,51 @@ def test_a_mesh_that_is_missing_is_named(arm: Path, report: Report) -> None:
     assert "is not in the package" in page.words
 
 
-def test_a_large_mesh_is_simplified_once_and_the_page_says_so(
-    arm: Path, report: Report, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.slow
+def test_large_meshes_share_what_small_ones_leave_and_the_page_has_one_line_about_coarse_ones(
+    tmp_path: Path, report: Report, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("urdfsync.pages.picture._MOST", 200)
-    told = r"Resources/(\S*)\.(?:stl|obj) is simplified for this page: \d+ of its [\d,]+ triangles are left"
-    page, paths, simplify = report(), list[str](), scene.triangles
-    before, large = page.read_bytes(), re.findall(told, read(page).words)
-    assert len(large) > 1
+    texts = list[str]()
+    for size, kind in ((1, "visual"), (3, "visual"), (4, "visual"), (5, "collision")):  # 80 to 20,480 triangles
+        trimesh.creation.icosphere(size).export(tmp_path / f"{size}.stl")
+        texts.append(f'<{kind}><geometry><mesh filename="{size}.stl"/></geometry></{kind}>')
+    monkeypatch.chdir(tmp_path)
+    Path("bot.urdf").write_text(f'<robot name="bot"><link name="base">{"".join(texts)}</link></robot>')
+    Path("urdfsync.toml").write_text('[robots.bot]\nsource = "bot.urdf"\npackage = "Bot"\ncollisions = true\n')
+    for most, fewest in ((10_000, (80, 1280, 5120, 500)), (3000, (80, 300, 1280, 0))):
+        monkeypatch.setattr("urdfsync.pages.picture._MOST", most)
+        faces = [*faces_of(page := report()).values()]
+        assert sum(faces) <= most + 200
+        # those that are seen come first
+        assert all(number >= least for number, least in zip((*sorted(faces[:3]), faces[3]), fewest, strict=True)), faces
+    before, made = page.read_bytes(), list[int]()
+    assert re.search(r"2 meshes are coarser here than in the file: \S+ has [\d,]+ of its 20,480 tri", read(page).words)
+    simplify = scene.triangles
 
-    def triangles(path: str, *rest: Any) -> Triangles | str:
-        paths.append(path)
-        return simplify(path, *rest)
+    def triangles(*arguments: Any) -> Triangles | str:
+        made.append(arguments[-1])
+        return simplify(*arguments)
 
     monkeypatch.setattr(scene, "triangles", triangles)
     assert report().read_bytes() == before
-    assert paths
-    assert not any(name in path for path in paths for name in large)
+    assert made == [3000] * 2  # two meshes stayed as they are; what was simplified is remembered
 
 
-def test_meshes_have_equal_shares_of_what_the_page_may_have(
-    arm: Path, report: Report, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    whole = faces_of(report())
-    monkeypatch.setattr("urdfsync.pages.picture._MOST_IN_ALL", 700 * len(whole))
-    shared = faces_of(report())
-    for name, faces in whole.items():
-        assert shared[name] == faces if faces <= 700 else 200 < shared[name] <= 700
-    assert max(whole.values()) > 700
+def test_a_mesh_that_is_mirrored_is_stored_once(tmp_path: Path, report: Report) -> None:
+    trimesh.creation.box((1, 2, 3)).export(tmp_path / "foot.stl")
+    feet = (
+        f'<visual><origin xyz="0 {y} 0"/><geometry><mesh filename="foot.stl" scale="2 {y} 1"/></geometry></visual>'
+        for y in (1, -1)
+    )
+    page = report(f'<robot name="bot"><link name="base">{"".join(feet)}</link></robot>')
+    (name,) = faces_of(page)
+    scene_ = cast(Any, data_of(read(page))["now"])
+    shapes = scene_["bodies"][0]["shapes"]
+    assert [(shape["mesh"], shape["pose"][0], shape["pose"][5]) for shape in shapes] == [(name, 2, 1), (name, 2, -1)]
 
 
 @pytest.mark.slow
-def test_a_mesh_that_is_too_large_for_the_package_is_simplified_and_one_that_is_damaged_is_not_shown(
+def test_a_mesh_that_is_too_large_for_the_package_is_shown_and_one_that_is_damaged_is_not_shown(
     tmp_path: Path, report: Report
 ) -> None:
     ball = trimesh.creation.icosphere(8)  # 1.3 million triangles
@@ -70,12 +83,10 @@ def test_a_mesh_that_is_too_large_for_the_package_is_simplified_and_one_that_is_
     file = report(f'<robot name="ball"><link name="base">{"".join(shapes)}</link></robot>')
     page = read(file)
     assert "it has more than 1,000,000 triangles; left out" in page.words
-    assert re.search(
-        r"ball\S*\.stl is simplified for this page: [\d,]+ of its 1,310,720 triangles are left", page.words
-    )
     assert re.search(r"damaged\S*\.stl can't be shown: it", page.words)
     (faces,) = faces_of(file).values()
-    assert 10_000 < faces <= 60_000
+    assert 200_000 < faces <= 500_000
+    assert "coarser" not in page.words  # nothing visible is lost
 
 
 def test_a_domain_without_a_picture_says_so(project: Path, execute: Execute) -> None:

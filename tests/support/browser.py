@@ -55,17 +55,29 @@ class Page:
             self._call(f"{domain}.enable")
 
     def open(
-        self, place: Path | str, *, width: int = 1280, height: int = 900, dark: bool = False, ready: str = ""
+        self,
+        place: Path | str,
+        *,
+        width: int = 1280,
+        height: int = 900,
+        dark: bool = False,
+        ready: str = "",
+        first: str = "",
     ) -> None:
-        """Open a file, or an address, in a window of this size, and wait for the promise `ready` of the page."""
+        """Open a file, or an address, in a window of this size, and wait for the promise `ready` of the page.
+
+        The script `first` runs before those of the page.
+        """
         metrics = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False}
         self._call("Emulation.setDeviceMetricsOverride", **metrics)
         feature = {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}
         self._call("Emulation.setEmulatedMedia", features=[feature])
+        script = self._call("Page.addScriptToEvaluateOnNewDocument", source=first)
         self._seen.discard("Page.loadEventFired")
         self._call("Page.navigate", url=place if isinstance(place, str) else place.resolve().as_uri())
         while "Page.loadEventFired" not in self._seen:
             self._read()
+        self._call("Page.removeScriptToEvaluateOnNewDocument", **script)
         if ready:
             self.run(ready)
 
@@ -80,6 +92,19 @@ class Page:
         """Press and release the mouse at a place of the window."""
         for kind in ("mousePressed", "mouseReleased"):
             self._call("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", clickCount=1)
+
+    def drag(self, *places: tuple[float, float]) -> None:
+        """Press the mouse at the first place of the window, move it over the others, and release it at the last."""
+        kinds = ["mousePressed", *["mouseMoved"] * (len(places) - 1), "mouseReleased"]
+        for kind, (x, y) in zip(kinds, (*places, places[-1]), strict=True):
+            self._call("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", buttons=1, clickCount=1)
+
+    def press(self, key: str) -> None:
+        """Press and release a key where the focus is."""
+        for kind in ("keyDown", "keyUp"):
+            self._call(
+                "Input.dispatchKeyEvent", type=kind, key=key, text=key if kind == "keyDown" and len(key) == 1 else ""
+            )
 
     def picture(self, file: Path, *, whole: bool = False) -> None:
         """Save what is to be seen as PNG."""

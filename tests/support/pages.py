@@ -47,4 +47,4 @@ def data_of(page: Elements) -> dict[str, object]:
 def faces_of(file: Path) -> dict[str, int]:
     """Return the number of triangles of each mesh."""
     meshes = cast(Mapping[str, list[int]], data_of(read(file))["meshes"])
-    return {name: faces for name, (_, faces) in meshes.items()}
+    return {name: faces for name, (_, faces, *_) in meshes.items()}

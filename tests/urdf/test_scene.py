@@ -33,7 +33,7 @@ from urdfsync.urdf.scene import scene
 
 
 def picture(*links: Link, joints: tuple[Joint, ...] = ()) -> Scene:
-    return scene(Robot("bot", links, joints), {}, Target("Bot", "Bot"), Options())
+    return scene(Robot("bot", links, joints), {}, Target("Bot", "Bot"), Options())[0]
 
 
 def test_shapes_have_their_sizes_places_and_colours() -> None:
@@ -56,7 +56,7 @@ def test_shapes_have_their_sizes_places_and_colours() -> None:
 
 def test_collisions_are_shown_whatever_the_package_has() -> None:
     robot = Robot("bot", (Link("base", collisions=(Collision(Sphere(1.0)),)),))
-    shown = scene(robot, {}, Target("Bot", "Bot"), Options(collisions=False))
+    shown, _ = scene(robot, {}, Target("Bot", "Bot"), Options(collisions=False))
     assert len(shown.bodies[0].shapes) == 1
 
 
@@ -107,10 +107,32 @@ def test_components_are_those_of_the_diagram() -> None:
 
 
 def test_a_loop_has_its_ends_and_equations_and_its_robot_starts_closed() -> None:
-    shown = scene(FOUR_BAR, {}, Target("Bot", "Bot"), Options())
+    shown, _ = scene(FOUR_BAR, {}, Target("Bot", "Bot"), Options())
     assert [hinge.element for hinge in shown.hinges if hinge.is_dependent] == ["joint crank_pin", "joint rocker_pivot"]
     assert [hinge.start for hinge in shown.hinges] != [joint.start for joint in FOUR_BAR.joints]
     (loop,) = shown.loops
     assert [(end.body, end.pose[12]) for end in loop.ends] == [("link coupler", 0.6), ("link rocker", 0.4)]
     assert (len(loop.translations), len(loop.rotations)) == (2, 0)
     assert ("kind", "revolute") in loop.facts
+
+
+@pytest.mark.parametrize(
+    ("lower", "upper", "velocity", "way"),
+    [
+        (-2.0, 2.0, 9.0, 1.0),
+        (-0.9, 0.5, 9.0, -0.81),
+        (0.0, 0.5, 0.1, 0.9 * 0.1 * 10 / math.pi),
+        (0.0, 0.0, 9.0, 0.0),
+    ],
+)
+def test_a_driven_joint_has_the_way_that_test_gives_it(lower: float, upper: float, velocity: float, way: float) -> None:
+    limit = Limit(lower=lower, upper=upper, effort=1.0, velocity=velocity)
+    turn = Joint("turn", "revolute", "base", "arm", limit=limit)
+    (hinge,) = picture(Link("base"), Link("arm"), joints=(turn,)).hinges
+    assert hinge.way == pytest.approx(way)
+
+
+def test_a_robot_with_a_free_base_has_the_height_at_which_it_stands() -> None:
+    robot = Robot("bot", (Link("base", collisions=(Collision(Box((1.0, 1.0, 0.6))),)),))
+    heights = [scene(robot, {}, Target("Bot", "Bot"), Options(base=base))[0].height for base in ("fixed", "floating")]
+    assert heights == [None, pytest.approx(0.3)]

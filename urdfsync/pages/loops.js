@@ -3,6 +3,7 @@
 
 const CLOSED = 1e-9, SHIFT = 1e-6; // gap of a closed loop in m, and the step for numerical derivatives
 const FARTHEST = 0.05; // longest step of an axis, in rad or m: a longer one may assemble the robot in another way
+const MOST_STEPS = 1000;
 
 /* Returns the errors of the equations of all loops. */
 function gapsOf(view) {
@@ -48,12 +49,16 @@ function close(view) {
   return false;
 }
 
-/* Moves an axis towards a position, as far as all loops stay closed on the way. */
-function moveClosed(view, name, position) {
-  const start = view.positions.get(name), count = Math.ceil(Math.abs(position - start) / FARTHEST) || 1;
-  for (let step = 1; step <= count; step++) {
+/* Moves axes towards their positions, all at once, as far as all loops stay closed on the way. Returns whether they are there. */
+function moveClosed(view, targets) {
+  const ways = [...targets].map(([name, position]) => [name, position, position - view.positions.get(name)]);
+  const count = Math.min(Math.ceil(Math.max(FARTHEST, ...ways.map(([, , way]) => Math.abs(way))) / FARTHEST), MOST_STEPS);
+  for (let rest = count - 1; rest >= 0; rest--) {
     const before = new Map(view.positions);
-    view.positions.set(name, start + (position - start) * step / count);
-    if (!close(view)) return void (view.positions = before);
+    for (const [name, position, way] of ways) view.positions.set(name, position - way * rest / count);
+    if (close(view)) continue;
+    view.positions = before;
+    return false;
   }
+  return true;
 }

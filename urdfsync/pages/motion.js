@@ -109,10 +109,9 @@ function fillCurves(place, curves, select) {
   }
 }
 
-/* Plays from the present time on, in real time, until the end; `show` is called with each time. */
+/* Plays from the present time on, in real time, until the end; `show` is called with each state, and whether its time is another one. */
 class Player {
-  constructor(motion, show) {
-    const times = motion.series.time;
+  constructor(times, show) {
     this.begin = times[0];
     this.end = times[times.length - 1];
     this.time = this.begin;
@@ -122,7 +121,11 @@ class Player {
 
   seek(time) {
     this.time = Math.min(Math.max(time, this.begin), this.end);
-    this.show(this);
+    this.show(this, true);
+  }
+
+  pause() {
+    if (this.isPlaying) this.toggle();
   }
 
   toggle() {
@@ -138,6 +141,6 @@ class Player {
       requestAnimationFrame(step);
     };
     if (this.isPlaying) requestAnimationFrame(step);
-    this.show(this);
+    this.show(this, false);
   }
 }

@@ -1,11 +1,13 @@
 "use strict";
-/* A camera that goes round the robot: by pointer, wheel and keys. */
+/* A camera that goes round the robot, by pointer, wheel and keys; a pointer on a link may move that instead. */
 
 class Orbit {
   #pointers = new Map();
   #moved = 0;
+  #held = null; // moves a link
 
-  constructor(canvas, changed, clicked) {
+  /* `grab` is called where a pointer goes down; it may return a function for the moves of that pointer. */
+  constructor(canvas, changed, clicked, grab) {
     this.camera = new THREE.PerspectiveCamera(35, 1, 0.01, 100);
     this.camera.up.set(0, 0, 1);
     this.target = new THREE.Vector3();
@@ -15,13 +17,16 @@ class Orbit {
     canvas.addEventListener("pointerdown", (event) => {
       canvas.setPointerCapture(event.pointerId);
       this.#pointers.set(event.pointerId, [event.clientX, event.clientY]);
-      this.#moved = this.#pointers.size > 1 ? Infinity : 0;
+      const isAlone = this.#pointers.size === 1;
+      this.#moved = isAlone ? 0 : Infinity;
+      this.#held = isAlone && event.button === 0 && !event.shiftKey ? grab(event) : null;
     });
     canvas.addEventListener("pointermove", (event) => this.#drag(event));
     for (const kind of ["pointerup", "pointercancel"]) {
       canvas.addEventListener(kind, (event) => {
         if (kind === "pointerup" && this.#moved < 5) clicked(event);
         this.#pointers.delete(event.pointerId);
+        this.#held = null;
       });
     }
     canvas.addEventListener("contextmenu", (event) => event.preventDefault());
@@ -37,7 +42,9 @@ class Orbit {
     if (!before) return;
     const x = event.clientX - before[0], y = event.clientY - before[1];
     this.#moved += Math.abs(x) + Math.abs(y);
-    if (this.#pointers.size > 1) {
+    if (this.#held) {
+      if (this.#moved >= 5) this.#held(event);
+    } else if (this.#pointers.size > 1) {
       const [other] = [...this.#pointers].filter(([id]) => id !== event.pointerId).map(([, place]) => place);
       const apart = (place) => Math.hypot(place[0] - other[0], place[1] - other[1]) || 1;
       this.#zoom(apart(before) / apart([event.clientX, event.clientY]));

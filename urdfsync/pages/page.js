@@ -2,8 +2,14 @@
 /* Brings the page to life: picture, switches, keys, and one selection for all parts. */
 
 const data = JSON.parse(document.getElementById("data").textContent);
-const SWITCHES = { visual: ["Visuals", "v"], collision: ["Collisions", "c"], frame: ["Frames", "f"], mass: ["Centres of mass", "m"], inertia: ["Inertia boxes", "i"] };
-const VERSIONS = { now: "Now", both: "Both", before: "Before" };
+const SWITCHES = {
+  visual: ["Visuals", "v"], collision: ["Collisions", "c"], frame: ["Frames", "f"], label: ["Names", "n"], mass: ["Centres of mass", "m"],
+  inertia: ["Inertia boxes", "i"], world: ["World axes", "w"], shadow: ["Shadow", "s"],
+};
+const VERSIONS = { now: "New", both: "Both", before: "Old" };
+const LEGEND = { changed: "changed", renamed: "changed", added: "new", removed: "removed" };
+const REDRAWN = 1500; // milliseconds between slow pictures while meshes come
+const HOVER = 60; // milliseconds between looks at what is under the pointer
 
 const looks = (body) => JSON.stringify(body.shapes.map(({ kind, form, mesh }) => [kind, form, mesh]));
 for (const old of data.before?.bodies || []) { // the content of a mesh may have changed
@@ -11,74 +17,64 @@ for (const old of data.before?.bodies || []) { // the content of a mesh may have
   if (body && looks(body) !== looks(old)) data.statuses[old.element] ??= "changed";
 }
 
-/* The state of the page; tests read it. `ready` is a promise that ends when the picture is there. */
+/* The state of the page; tests read it. `ready` is a promise that ends with the first picture, `complete` one with all meshes. */
 const page = {
   selected: null,
-  layers: { visual: true, collision: false, frame: data.now.missing.length > 0 || !data.now.bodies.some((body) => body.shapes.length), mass: false, inertia: false },
+  layers: {
+    visual: true, frame: data.now.missing.length > 0 || !data.now.bodies.some((body) => body.shapes.length),
+    collision: false, label: false, mass: false, inertia: false, world: false, shadow: true,
+  },
   version: data.before ? "both" : "now",
-  positions: startPositions(data.now),
-  now: null,
-  before: null,
+  now: new RobotView(data.now, data.meshes),
+  before: data.before && new RobotView(data.before, data.meshes),
+  get positions() { return this.now.positions; },
   pose: (element) => page.now.pose(element),
+  poses: posesOf(data),
+  floor: 0,
   player: null,
-  isLit: null,
+  ruler: null,
+  light: 0,
   ready: null,
+  complete: null,
 };
 
 const element = (id) => document.getElementById(id);
-const stage = { renderer: null, scene: null, orbit: null, waiting: false, lamp: null, isSlow: false, timer: 0 };
-const SOFTWARE = /swiftshader|llvmpipe|software|basic render/i;
-const REST = 300; // milliseconds without a change, after which a slow picture gets all its pixels
 
-/* Returns whether no graphics card draws: then a picture takes a second, most of it for its pixels. */
-function isDrawnBySoftware() {
-  const context = document.createElement("canvas").getContext("webgl");
-  const info = context?.getExtension("WEBGL_debug_renderer_info");
-  return Boolean(info) && SOFTWARE.test(context.getParameter(info.UNMASKED_RENDERER_WEBGL));
+/* Moves axes, then all that depends on them. Returns whether they are there: a loop may stop them. */
+function moveAxes(targets) {
+  const isThere = page.now.move(targets);
+  refresh();
+  return isThere;
 }
 
-function draw() {
-  if (!stage.renderer || stage.waiting) return;
-  stage.waiting = true;
-  requestAnimationFrame(() => {
-    stage.waiting = false;
-    if (stage.isSlow) {
-      clearTimeout(stage.timer);
-      stage.timer = setTimeout(() => render(1), REST);
-    }
-    render(stage.isSlow ? 0.4 : Math.min(devicePixelRatio, 2));
-  });
-}
-
-function render(ratio) {
-  if (stage.renderer.getPixelRatio() !== ratio) stage.renderer.setPixelRatio(ratio);
-  stage.lamp.position.copy(stage.orbit.camera.position);
-  stage.renderer.render(stage.scene, stage.orbit.camera);
-}
-
+/* Moves an axis by hand: what plays stops. */
 function move(name, position) {
-  page.positions.set(name, position);
-  if (page.now) {
-    page.now.move(name, position);
-    for (const [each, value] of page.now.positions) page.positions.set(each, value);
-  } else {
-    for (const hinge of data.now.hinges) {
-      if (hinge.leader) page.positions.set(hinge.element, hinge.multiplier * page.positions.get(hinge.leader) + hinge.offset);
-    }
-  }
-  page.before?.moveAll(page.positions, data.renamed);
+  page.player?.pause();
+  say(moveAxes(new Map([[name, position]])) ? "" : `A loop would open: ${nameOf(name)} stops here.`);
+}
+
+/* Takes a named pose. */
+function pose(name) {
+  page.player?.pause();
+  const isThere = moveAxes(page.poses.get(name)[1]());
+  setGround(name === "Stance" ? -data.now.height : page.floor, page.now.size);
+  say(isThere ? `Pose: ${name}` : `A loop would open: the robot stops on the way to ${name}.`);
+}
+
+/* Shows the positions of the axes everywhere. */
+function refresh() {
+  page.before?.put(page.positions, data.renamed);
+  page.ruler?.update();
   hideSame();
   showPositions(page.positions);
+  say("");
   draw();
 }
 
-/* Sets many positions at once. */
-function moveAll(positions) {
-  for (const view of [page.now, page.before]) view?.moveAll(positions, view === page.before ? data.renamed : {});
-  for (const [name, position] of positions) page.positions.set(name, position);
-  hideSame();
-  showPositions(page.positions);
-  draw();
+/* Says something beside the picture; without words, what is measured or selected. */
+function say(words) {
+  const bare = data.now.bodies.some((body) => body.shapes.length) ? "" : "This robot has no shapes: its frames are shown.";
+  element("told").textContent = words || page.ruler?.words() || page.selected || bare;
 }
 
 function select(name) {
@@ -86,24 +82,24 @@ function select(name) {
   markTree(name);
   markDiagram(name);
   fillDetails(element("details"), data, name, select);
-  element("told").textContent = name || "";
+  say("");
   paint();
 }
 
 /* Colours the picture: the selection glows, changed links have their colours, the older version is faint. */
 function paint() {
-  if (!page.now) return;
   const colors = Object.fromEntries(["changed", "added", "removed", "accent"].map((name) => [name, themeColor(name)]));
   const hinge = data.now.hinges.find((each) => each.element === page.selected), selected = hinge ? hinge.child : page.selected;
   const compares = page.version !== "now";
   page.now.paint((name) => {
     const status = data.statuses[name] === "renamed" ? "changed" : data.statuses[name];
-    const light = name === selected ? colors.accent : page.isLit && status ? colors[status] : null;
-    return { color: compares && status ? colors[status] : null, opacity: 1, glow: light && light.clone().multiplyScalar(0.55) };
+    const light = name === selected ? colors.accent : page.light && status ? colors[status] : null;
+    return { color: compares && status ? colors[status] : null, opacity: 1, glow: light && light.clone().multiplyScalar(name === selected ? 0.55 : page.light) };
   });
   page.now.root.visible = page.version !== "before";
   if (page.before) {
     page.before.root.visible = compares;
+    for (const mesh of page.before.shapes()) mesh.castShadow = page.version === "before";
     page.before.paint((name) => {
       const current = data.renamed[name] || name, status = data.statuses[current];
       const color = data.statuses[name] === "removed" ? colors.removed : page.version === "both" ? colors.accent : status === "changed" ? colors.changed : null;
@@ -112,8 +108,21 @@ function paint() {
     });
   }
   for (const layer of LAYERS) page.now.show(layer, page.layers[layer]);
+  if (stage.scene) paintStage();
   hideSame();
   draw();
+}
+
+/* Shows what stands around the robot. */
+function paintStage() {
+  const { labels, shade, axes } = stage, isDark = document.documentElement.dataset.theme === "dark";
+  stage.grid.material.color.copy(themeColor("line"));
+  Object.assign(shade, { visible: page.layers.shadow });
+  shade.material.opacity = isDark ? 0.5 : 0.22;
+  axes.visible = page.layers.world;
+  ["x", "y", "z"].forEach((name, place) => labels.set(`world ${name}`, name, axes.visible && (() => new THREE.Vector3().setComponent(place, 1.06 * axes.userData.length)), `axis-${name}`));
+  const origin = (name) => () => new THREE.Vector3().setFromMatrixPosition(page.now.bodies.get(name).group.matrixWorld);
+  for (const name of page.now.bodies.keys()) labels.set(name, nameOf(name), page.layers.label && origin(name));
 }
 
 /* Hides the bodies of the older version, laid over the new one, that are the same and in the same place. */
@@ -132,14 +141,12 @@ function toggle(layer) {
 function chooseVersion(version) {
   page.version = version;
   for (const name of Object.keys(VERSIONS)) element(`version-${name}`)?.setAttribute("aria-pressed", String(name === version));
+  element("legend").hidden = version === "now";
   paint();
 }
 
 function setTheme(theme) {
   document.documentElement.dataset.theme = theme;
-  if (stage.scene) {
-    stage.grid.material.color.copy(themeColor("line"));
-  }
   paint();
 }
 
@@ -153,99 +160,154 @@ function chooseTab(tab) {
   markTree(page.selected);
 }
 
-function pick(event) {
-  const { left, top, width, height } = stage.renderer.domElement.getBoundingClientRect();
-  const ray = new THREE.Raycaster();
-  ray.setFromCamera(new THREE.Vector2(2 * (event.clientX - left) / width - 1, 1 - 2 * (event.clientY - top) / height), stage.orbit.camera);
-  const view = page.version === "before" ? page.before : page.now;
-  const shapes = [...view.bodies.values()].flatMap((body) => [...body.layers.visual, ...body.layers.collision]).filter((mesh) => mesh.visible);
-  const [hit] = ray.intersectObjects(shapes, false);
-  const name = hit ? hit.object.userData.element : null;
-  select(name && page.version === "before" ? data.renamed[name] || name : name);
+/* A click measures, or selects the link there. */
+function click(event) {
+  const hit = hitAt(placeOf(event), page.version === "before" ? page.before : page.now);
+  if (page.ruler.isOn && hit && page.version !== "before") {
+    page.ruler.add(hit.element, hit.point);
+    say("");
+    draw();
+    return;
+  }
+  select(hit && page.version === "before" ? data.renamed[hit.element] || hit.element : hit?.element ?? null);
 }
 
-function resize() {
-  const { clientWidth: width, clientHeight: height } = element("stage");
-  if (!stage.renderer || width === 0 || height === 0) return;
-  stage.renderer.setSize(width, height, false);
-  stage.orbit.camera.aspect = width / height;
-  stage.orbit.update();
+/* Returns a function that a dragged pointer calls; null where nothing moves: then the camera turns. */
+function grab(event) {
+  const hit = page.version === "before" ? null : hitAt(placeOf(event), page.now), hinge = hit && jointToDrag(data.now, hit.element);
+  if (!hinge) {
+    if (hit && jointsAbove(data.now, hit.element).some((each) => each.motion)) say(`Loops move ${nameOf(hit.element)}: drag another link.`);
+    return null;
+  }
+  const pull = take(page.now, hinge, hit.element, hit.point, project);
+  return (moved) => {
+    page.player?.pause();
+    const isThere = pull(...placeOf(moved));
+    refresh();
+    const words = waysOf(hinge).map((way) => `${nameOf(way.name)} ${inUnits(page.positions.get(way.name), way.turns)}`);
+    say(isThere ? words.join(", ") : `A loop would open: ${nameOf(hinge.element)} stops here.`);
+  };
 }
 
-/* Sets up the simulation, if the page has one: it moves the robot. An axis that is moved by hand stays there until the simulation goes on. */
+/* Returns a position in words. */
+function inUnits(position, turns) {
+  return turns ? `${(position * DEGREES).toFixed(1)}° (${position.toFixed(3)} rad)` : `${(1000 * position).toFixed(1)} mm`;
+}
+
+/* Shows by the pointer's shape whether a link can be dragged. */
+function hover(event) {
+  const now = performance.now();
+  if (event.buttons || now < hover.next) return;
+  hover.next = now + HOVER;
+  const hit = hitAt(placeOf(event), page.now);
+  element("view").style.cursor = page.ruler.isOn ? "crosshair" : hit && jointToDrag(data.now, hit.element) ? "grab" : "";
+}
+hover.next = 0;
+
+function measure() {
+  page.ruler.toggle();
+  element("ruler").setAttribute("aria-pressed", String(page.ruler.isOn));
+  say("");
+  draw();
+}
+
+/* Sets up what plays: the simulation, if the page has one, else the motion of Test. An axis that is moved by hand stops it. */
 function setUpMotion() {
-  const { motion } = data;
-  if (!motion || motion.series.time.length < 2) return;
-  const moveCursors = fillCharts(element("charts"), motion, (time) => page.player.seek(time), select);
-  const button = make("button", { type: "button", id: "play", title: "Play or pause (space)" }, "▶", { click: () => page.player.toggle() });
-  const slider = make("input", { type: "range", step: "any", min: motion.series.time[0], max: motion.series.time[motion.series.time.length - 1], "aria-label": "Time" }, [], { input: () => page.player.seek(Number(slider.value)) });
-  const told = make("output", {}, "");
+  const isSimulation = data.motion?.series.time.length > 1;
+  if (!isSimulation && !data.now.hinges.some((hinge) => hinge.way)) return;
+  const { time: times } = isSimulation ? data.motion.series : { time: [0, PERIOD] };
+  const moveCursors = isSimulation ? fillCharts(element("charts"), data.motion, (time) => page.player.seek(time), select) : () => {};
+  const words = isSimulation ? "the simulation" : "the motion of Test: each driven joint goes towards the roomier end of its range, and back";
+  const button = make("button", { type: "button", id: "play", title: `Play ${words} (space)` }, "▶ Play", { click: () => page.player.toggle() });
+  const slider = make("input", { type: "range", step: "any", min: times[0], max: times[times.length - 1], value: times[0], "aria-label": "Time" }, [], { input: () => page.player.seek(Number(slider.value)) });
+  const told = make("output", {}, "0.00 s");
   element("player").append(button, slider, told);
   element("player").hidden = false;
-  page.player = new Player(motion, (player) => {
-    button.textContent = player.isPlaying ? "⏸" : "▶";
+  page.player = new Player(times, (player, isMoved) => {
+    button.textContent = player.isPlaying ? "⏸ Pause" : "▶ Play";
     slider.value = player.time;
     told.textContent = `${player.time.toFixed(2)} s`;
+    if (!isMoved) return;
     moveCursors(player.time);
-    moveAll(positionsAt(motion, player.time));
+    if (!isSimulation) return void moveAxes(sweepAt(data.now, player.time));
+    page.now.put(positionsAt(data.motion, player.time), {});
+    refresh();
   });
-  page.player.seek(page.player.begin);
+  if (isSimulation) page.player.seek(page.player.begin);
 }
 
-async function show() {
-  const canvas = element("view");
-  stage.isSlow = isDrawnBySoftware();
+/* Shows the first picture, in which meshes are boxes. */
+function show() {
+  const canvas = element("view"), box = page.now.bounds(), views = [page.now, ...(page.before ? [page.before] : [])];
+  if (page.before) box.union(page.before.bounds());
+  page.floor = Math.min(0, box.min.z);
   try {
-    stage.renderer = new THREE.WebGLRenderer({ canvas, antialias: !stage.isSlow, alpha: true, preserveDrawingBuffer: true }); // else the picture is not printed
+    startDrawing(canvas);
   } catch (error) {
-    throw new Error("This browser shows no 3D: WebGL is not there, or switched off. All else on the page works.", { cause: error });
+    throw new Error("This browser cannot draw in 3D: WebGL is missing, or switched off. Switch on its hardware acceleration, or open the page in another browser. The rest of the page works.", { cause: error });
   }
-  stage.renderer.outputEncoding = THREE.sRGBEncoding;
-  const meshes = await loadMeshes(element("meshes").textContent, data.meshes);
-  page.now = new RobotView(data.now, meshes);
-  stage.scene = new THREE.Scene();
-  stage.lamp = new THREE.DirectionalLight(0xffffff, 0.55);
-  stage.scene.add(page.now.root, new THREE.HemisphereLight(0xffffff, 0x8a8f99, 0.75), stage.lamp);
-  const box = page.now.bounds();
-  if (data.before) {
-    page.before = new RobotView(data.before, meshes);
-    stage.scene.add(page.before.root);
-    box.union(page.before.bounds());
-  }
-  const decade = 10 ** Math.floor(Math.log10(page.now.size / 8)), cell = decade * [5, 2, 1].find((step) => step * decade <= page.now.size / 8);
-  stage.grid = new THREE.GridHelper(20 * cell, 20, 0xffffff, 0xffffff);
-  Object.assign(stage.grid.material, { transparent: true, opacity: 0.9, vertexColors: false });
-  stage.grid.rotateX(Math.PI / 2);
-  stage.grid.position.z = Math.min(0, box.min.z) - 1e-4 * page.now.size;
-  stage.scene.add(stage.grid);
-  stage.orbit = new Orbit(canvas, draw, pick);
-  new ResizeObserver(resize).observe(element("stage"));
+  stage.labels = new Labels(element("labels"));
+  page.ruler = new Ruler(page.now, stage.labels);
+  setStage(views.map((view) => view.root), box, page.now.size, new Orbit(canvas, () => draw(false), click, grab));
+  stage.axes = worldAxes(0.25 * page.now.size);
+  stage.axes.userData.length = 0.25 * page.now.size;
+  stage.scene.add(stage.axes, page.ruler.line);
+  canvas.addEventListener("pointermove", hover);
+  new ResizeObserver(resize).observe(canvas);
   resize();
   stage.orbit.fit(box);
-  setTheme(document.documentElement.dataset.theme);
-  setUpMotion();
+  paint();
+  render(stage.isSlow ? COARSE : Math.min(devicePixelRatio, 2));
+  performance.mark("first picture");
+}
+
+/* Fills in the meshes, once all of the page is there. A slow picture is drawn anew only now and then. */
+async function fillIn() {
+  if (document.readyState === "loading") await new Promise((go) => addEventListener("DOMContentLoaded", go, { once: true }));
+  let drawn = performance.now();
+  await loadMeshes(data.meshes, (name, geometry) => {
+    const isSeen = [page.now, page.before].filter((view) => view?.fill(name, geometry)).length > 0;
+    if (!isSeen || performance.now() < drawn + (stage.isSlow ? REDRAWN : 0)) return;
+    drawn = performance.now();
+    draw();
+  });
+  stage.isFilling = false;
+  draw();
 }
 
 if (data.curves.length) fillCurves(element("curves"), data.curves, select);
-const showPositions = fillAxes(element("axes"), data, move, select);
+const showPositions = fillAxes(element("axes"), element("units"), data, move, select);
 const markTree = fillTree(element("tree"), data, select);
-const markDiagram = drawDiagram(element("drawing"), data, select);
+let markDiagram = () => {}; // its layout takes as long as the picture
 showPositions(page.positions);
-if (page.positions.size) element("axes").prepend(make("button", { type: "button", id: "reset", title: "All axes as they start (r)" }, "Reset", { click: reset }));
-
-function reset() {
-  moveAll(startPositions(data.now));
+say("");
+if (page.positions.size) {
+  for (const [name, [purpose]] of page.poses) {
+    element("pose-list").append(make("button", { type: "button", "data-pose": name, title: purpose }, name, { click: () => pose(name) }));
+  }
+  element("poses").hidden = false;
+  element("poses").open = innerWidth > 860;
 }
 
 for (const [layer, [label, key]] of Object.entries(SWITCHES)) {
   element("switches").append(make("button", { type: "button", id: `switch-${layer}`, "aria-pressed": String(page.layers[layer]), title: `${label} (${key})` }, label, { click: () => toggle(layer) }));
 }
+element("ruler").addEventListener("click", measure);
+addEventListener("pointerdown", (event) => { // a click elsewhere closes the menu
+  const menu = document.querySelector("#tools details");
+  if (!menu.contains(event.target)) menu.open = false;
+});
 if (data.before) {
-  element("versions").hidden = false;
+  for (const id of ["versions", "legend"]) element(id).hidden = false;
+  const titles = { before: `Only the old robot: ${data.against}`, both: "Old and new robot in one picture (b)", now: "Only the new robot" };
   for (const [name, label] of Object.entries(VERSIONS)) {
-    const title = name === "before" ? data.against : name === "both" ? "Both over each other (b)" : "The source as it is";
-    element("versions").append(make("button", { type: "button", id: `version-${name}`, "aria-pressed": String(name === page.version), title }, label, { click: () => chooseVersion(name) }));
+    element("versions").append(make("button", { type: "button", id: `version-${name}`, "aria-pressed": String(name === page.version), title: titles[name] }, label, { click: () => chooseVersion(name) }));
   }
+  const links = [...data.now.bodies, ...data.before.bodies].map((body) => data.statuses[body.element]);
+  for (const words of new Set(Object.keys(LEGEND).filter((status) => links.includes(status)).map((status) => LEGEND[status]))) {
+    element("legend").append(make("li", { class: { new: "added" }[words] || words }, words));
+  }
+  element("legend").append(make("li", { class: "old" }, "old place"));
 }
 for (const tab of element("tabs").children) tab.addEventListener("click", () => chooseTab(tab));
 element("tabs").addEventListener("keydown", (event) => {
@@ -266,22 +328,32 @@ addEventListener("afterprint", () => setTheme(theme));
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", (event) => setTheme(event.matches ? "dark" : "light"));
 
 document.addEventListener("keydown", (event) => {
-  if (event.ctrlKey || event.metaKey || event.altKey || event.target.matches("input, select")) return;
+  if (event.ctrlKey || event.metaKey || event.altKey || event.target.matches("[type=search]")) return;
   const layer = Object.keys(SWITCHES).find((name) => SWITCHES[name][1] === event.key);
   const versions = Object.keys(VERSIONS);
   if (layer) toggle(layer);
   else if (event.key === "b" && data.before) chooseVersion(versions[(versions.indexOf(page.version) + 1) % versions.length]);
-  else if (event.key === "r") reset();
-  else if (event.key === " " && page.player && !event.target.matches("button, a, summary, [role=treeitem]")) {
-    page.player.toggle();
-    event.preventDefault();
-  }
+  else if (event.key === "r") pose("Start");
+  else if (event.key === "u" && page.ruler) measure();
+  else if (event.key === " " && page.player && !event.target.matches("button, a, summary, [role=treeitem]")) page.player.toggle();
   else if (event.key === "d") element("theme").click();
-  else if (event.key === "Escape") select(null);
+  else if (event.key === "Escape") {
+    if (page.ruler?.isOn) measure();
+    select(null);
+  }
+  else return;
+  event.preventDefault(); // a number's input would take it
 });
 
 setTheme(matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
-page.ready = show().catch((error) => {
+page.ready = new Promise((go) => go(show())).catch((error) => {
+  for (const id of ["tools", "versions", "legend"]) element(id).hidden = true;
   element("trouble").hidden = false;
   element("trouble").textContent = error.message;
+}).then(setUpMotion);
+page.complete = page.ready.then(async () => {
+  await new Promise((go) => setTimeout(go)); // the first picture is shown
+  markDiagram = drawDiagram(element("drawing"), data, select);
+  markDiagram(page.selected);
+  if (stage.scene) await fillIn();
 });

@@ -10,7 +10,7 @@ import gzip
 import hashlib
 import math
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -32,7 +32,10 @@ from urdfsync.pages.scene import Triangles
 from urdfsync.simulation.files import check_file, not_writable
 from urdfsync.simulation.results import SimulateResult
 
-SCRIPTS = ("robot.js", "loops.js", "orbit.js", "panels.js", "motion.js", "page.js")
+SCRIPTS = (
+    *("robot.js", "meshes.js", "loops.js", "orbit.js", "panels.js", "motion.js"),
+    *("poses.js", "drag.js", "stage.js", "marks.js", "page.js"),
+)
 """Our own scripts, in their order: each may use declarations of those before it."""
 FOLLOWER = "follow.js"
 """The last script of a page that a daemon serves."""
@@ -74,7 +77,8 @@ def page(
         "robot": content.robot.name,
         "now": picture.now,
         "before": picture.before,
-        "meshes": {name: [mesh.points, mesh.faces] for name, mesh in picture.meshes.items()},
+        "poses": picture.poses,
+        "meshes": {name: [mesh.points, mesh.faces, *mesh.box] for name, mesh in picture.meshes.items()},
         "motion": simulation and _motion(simulation),
         "curves": curves,
         "build": build,
@@ -85,7 +89,7 @@ def page(
         style=markupsafe.Markup(style),  # noqa: S704 - our own
         scripts=[markupsafe.Markup(script) for script in scripts],  # noqa: S704 - our own, and those of trimesh
         data=markupsafe.Markup(_json(data)),  # noqa: S704 - escaped for a script element
-        meshes=_packed(picture.meshes.values()),
+        meshes={name: _packed(mesh) for name, mesh in picture.meshes.items()},
         content=content,
         edits=edits_section(content.edits),
         motion=simulation,
@@ -130,10 +134,9 @@ def _json(values: Any) -> str:
     return msgspec.json.encode(values).decode().translate(_ESCAPES)
 
 
-def _packed(meshes: Iterable[Triangles]) -> str:
-    """Return the contents of meshes, one after the other; the page's data tell how many points and faces each has."""
-    content = b"".join(mesh.content for mesh in meshes)
-    return base64.b64encode(gzip.compress(content, 6, mtime=0)).decode()
+def _packed(mesh: Triangles) -> str:
+    """Return the content of a mesh; the page's data tell how many points and faces it has."""
+    return base64.b64encode(gzip.compress(mesh.content, 6, mtime=0)).decode()
 
 
 # --- a simulation ---------------------------------------------------------------------------------------------------

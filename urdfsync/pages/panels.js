@@ -3,6 +3,7 @@
 
 const SYMBOLS = { rotational: "⟳", translational: "↔", planar: "⬔", floating: "✥", ball: "◉", "": "─" };
 const DEGREES = 180 / Math.PI;
+const HINT = "Click a link to see its numbers, changes and files. Drag it to move its joint.";
 
 /* Returns a new HTML element with attributes, a text or children, and listeners. */
 function make(tag, attributes = {}, content = [], listeners = {}) {
@@ -29,43 +30,63 @@ function mark(statuses, element) {
   return status ? [" ", make("span", { class: `mark ${status}` }, status)] : [];
 }
 
-/* Fills the panel of axes. `move` is called with an element and a position. Returns a function that shows all positions. */
-function fillAxes(panel, data, move, select) {
+/* Fills the panel of axes. `move` is called with an element and a position, `units` has a button for each unit of angles.
+   Returns a function that shows all positions. */
+function fillAxes(panel, units, data, move, select) {
   const follows = (hinge) => hinge.leader ? `follows ${nameOf(hinge.leader)}` : hinge.is_dependent ? "follows through loops" : "";
-  const free = data.now.hinges.filter((hinge) => hinge.motion && !follows(hinge));
+  const free = data.now.hinges.filter(isFree);
   const followers = data.now.hinges.filter((hinge) => hinge.motion && follows(hinge));
   if (free.length === 0) panel.append(make("p", { class: "quiet" }, "This robot has no axis that moves by itself."));
   const shown = new Map();
+  let unit = "rad", latest = new Map();
+  const scaleOf = (turns) => turns && unit === "°" ? DEGREES : 1;
+  const show = (positions) => {
+    latest = positions;
+    for (const [name, one] of shown) one(positions.get(name));
+  };
+  for (const name of ["rad", "°"]) {
+    units.append(make("button", { type: "button", "aria-pressed": String(name === unit), title: `Angles in ${name === "°" ? "degrees" : "radians"}` }, name, {
+      click: () => {
+        unit = name;
+        for (const each of units.children) each.setAttribute("aria-pressed", String(each.textContent === unit));
+        show(latest);
+      },
+    }));
+  }
   const order = new Map(data.now.bodies.map((body, place) => [body.element, place]));
   free.sort((one, other) => order.get(one.child) - order.get(other.child));
   for (const [hinge, way] of [...free, ...followers].flatMap((each) => waysOf(each).map((way) => [each, way]))) {
     const { turns } = way, name = nameOf(way.name);
     const label = make("button", { type: "button", class: "name" }, [`${SYMBOLS[hinge.motion]} ${name}`, ...mark(data.statuses, hinge.element)],
       { click: () => select(hinge.element) });
-    const unit = make("span", { class: "unit" }, turns ? "rad" : "m");
+    const unitShown = make("span", { class: "unit" }, "");
     if (follows(hinge)) {
       const value = make("output", {}, "");
-      panel.append(make("div", { class: "axis", "data-axis": hinge.element }, make("div", { class: "top" }, [label, make("span", { class: "quiet" }, follows(hinge)), value, unit])));
-      shown.set(way.name, (position) => { value.textContent = position.toFixed(4); });
+      panel.append(make("div", { class: "axis", "data-axis": hinge.element }, make("div", { class: "top" }, [label, make("span", { class: "quiet" }, follows(hinge)), value, unitShown])));
+      shown.set(way.name, (position) => {
+        value.textContent = (position * scaleOf(turns)).toFixed(scaleOf(turns) === 1 ? 4 : 2);
+        unitShown.textContent = turns ? unit : "m";
+      });
       continue;
     }
-    const reach = turns ? Math.PI : 1;
-    const low = hinge.lower ?? Math.min(-reach, hinge.start), high = hinge.upper ?? Math.max(reach, hinge.start);
-    const set = (text) => { if (text !== "" && Number.isFinite(Number(text))) move(way.name, Number(text)); };
-    const slider = make("input", { type: "range", min: low, max: high, step: "any", "aria-label": `Position of ${name}` }, [], { input: () => set(slider.value) });
-    const number = make("input", { type: "number", step: "any", "aria-label": `Position of ${name} in ${turns ? "rad" : "m"}` }, [], { change: () => set(number.value) });
-    const degrees = make("span", {}, "");
-    const ends = make("div", { class: "ends" }, [
-      make("span", {}, hinge.lower === null ? "no limit" : rounded(low)), degrees,
-      make("span", {}, hinge.upper === null ? "no limit" : rounded(high))]);
-    panel.append(make("div", { class: "axis", "data-axis": way.name }, [make("div", { class: "top" }, [label, number, unit]), slider, ends]));
+    const [low, high] = endsOfWay(hinge, way);
+    const set = (text, scale) => { if (text !== "" && Number.isFinite(Number(text))) move(way.name, Number(text) / scale); };
+    const slider = make("input", { type: "range", min: low, max: high, step: "any", "aria-label": `Position of ${name}` }, [], { input: () => set(slider.value, 1) });
+    const number = make("input", { type: "number", step: "any" }, [], { change: () => set(number.value, scaleOf(turns)) });
+    const ends = [make("span"), make("span"), make("span")];
+    panel.append(make("div", { class: "axis", "data-axis": way.name }, [make("div", { class: "top" }, [label, number, unitShown]), slider, make("div", { class: "ends" }, ends)]));
     shown.set(way.name, (position) => {
+      const scale = scaleOf(turns);
       slider.value = position;
-      if (document.activeElement !== number) number.value = Number(position.toFixed(6));
-      degrees.textContent = turns ? `${(position * DEGREES).toFixed(1)}°` : `${(position * 1000).toFixed(1)} mm`;
+      if (document.activeElement !== number) number.value = Number((position * scale).toFixed(scale === 1 ? 6 : 4));
+      unitShown.textContent = turns ? unit : "m";
+      number.setAttribute("aria-label", `Position of ${name} in ${unitShown.textContent}`);
+      const other = !turns ? `${(position * 1000).toFixed(1)} mm` : scale === 1 ? `${(position * DEGREES).toFixed(1)}°` : `${position.toFixed(4)} rad`;
+      const limits = [hinge.lower, hinge.upper].map((limit) => limit === null ? "no limit" : rounded(limit * scale));
+      [limits[0], other, limits[1]].forEach((words, place) => { ends[place].textContent = words; });
     });
   }
-  return (positions) => { for (const [name, show] of shown) show(positions.get(name)); };
+  return show;
 }
 
 /* Fills the panel with the tree of links. Returns a function that marks an element in it. */
@@ -121,7 +142,7 @@ function fillDetails(panel, data, element, select) {
   const find = (scene) => [...scene.bodies, ...scene.hinges, ...scene.loops].find((each) => each.element === element);
   const item = element && (find(data.now) || find(old));
   if (!item) {
-    panel.replaceChildren(make("p", { class: "quiet" }, "Click on a link, here, in the tree or in the diagram."));
+    panel.replaceChildren(make("p", { class: "quiet" }, HINT));
     return;
   }
   const link = (name) => make("button", { type: "button", class: "name" }, name, { click: () => select(name) });

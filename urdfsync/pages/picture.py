@@ -19,90 +19,114 @@ from urdfsync.files import digest, shown
 from urdfsync.pages.scene import Pictures, Scene, Triangles
 from urdfsync.versions.comparison import Contents
 
-_MOST, _MOST_IN_ALL = 60_000, 500_000
-"""The most triangles of one mesh, and of all meshes, which share these equally. A triangle takes some 13 bytes."""
+_MOST, _LEAST = 500_000, 200
+"""The most triangles of a page, and the least share of one mesh. A triangle takes some 13 bytes."""
+_FINE = 200
+"""A mesh loses something visible if its corners were merged in fewer cells along its longest edge."""
 _MOST_REFUSED = 4
 """The most files that are read for the picture although they are too large for the package: each may take 16 s."""
 
 
 class Picture(msgspec.Struct, frozen=True):
-    """A robot, and its older version. Their shapes name meshes by the hashes of their contents."""
+    """A robot, and its older version."""
 
     now: Scene
     before: Scene | None
     """None if nothing changed, or there is no older version."""
     meshes: Mapping[str, Triangles]
-    """The meshes of both versions."""
+    """The meshes of both versions by their names, those that are seen first before the others."""
+    poses: Mapping[str, Mapping[str, float]]
+    """Named poses of files beside the source: positions by hinges."""
     notes: Sequence[str]
-    """Missing and simplified meshes, in words."""
+    """What is missing, each in words, then the meshes that have lost something visible."""
 
 
 class _File(NamedTuple):
-    """A mesh file; `key` is the key of a dependency that is too large for the package, empty for an imported file."""
+    """A file with a mesh, which was imported, or is too large for the package: then it is the `source`."""
 
     path: str
     content: bytes
-    key: str = ""
+    key: str
+    is_source: bool = False
 
 
 def picture(generation: Generation, older: Contents | None) -> Picture:
     """Return the picture of a robot, beside an older version. Raises UrdfsyncError for a domain without pictures."""
-    robot, refused = generation.inputs.robot, generation.imported.refused
-    imports, files = _by_hash((generation.now, generation.imported.contents))
-    for dependency, file in refused[:_MOST_REFUSED]:
-        if dependency.key not in imports:  # else an earlier build's copy is used
-            with contextlib.suppress(OSError):
-                content = read_file(file)
-                name = f"{digest(content)} {dependency.key}"
-                imports[dependency.key] = Import(name, "", "", {})
-                files[name] = _File(dependency.target, content, dependency.key)
+    robot, imported = generation.inputs.robot, generation.imported
     pictures: Pictures | None = generation.inputs.domain.pictures
     if pictures is None:
         message = f"packages of the domain `{robot.domain}` have no picture"
         raise UrdfsyncError.of("no-picture", message, shown(robot.source))
-    now, before = pictures.scene(generation.now.snapshot, imports, robot.target, robot.options), None
+    imports, sources = dict(generation.now.imports or {}), dict[str, _File]()
+    for dependency, file in imported.refused[:_MOST_REFUSED]:
+        if dependency.key not in imports:  # else an earlier build's copy is used
+            with contextlib.suppress(OSError):
+                content = read_file(file)
+                imports[dependency.key] = Import(dependency.target, digest(content), "", {})
+                sources[dependency.key] = _File(dependency.target, content, dependency.key, is_source=True)
+    now, names = pictures.scene(generation.now.snapshot, imports, robot.target, robot.options)
+    before, files = None, _by_name(names, imports, imported.contents, sources)
     if older:
-        version, (imports, files_before) = older[0], _by_hash(older)
+        version, contents = older
         with contextlib.suppress(*NO_MODEL):  # the recorded model may be invalid
-            before = pictures.scene(version.snapshot, imports, robot.target, version.options or robot.options)
-        files |= files_before
-    used = {shape.mesh for scene in (now, before) if scene for body in scene.bodies for shape in body.shapes}
-    names = sorted(used & files.keys())
-    most, code = min(_MOST, _MOST_IN_ALL // max(1, len(names))), program(robot.domain)
-    cache = caches.UserCache.default()
-    meshes = {name: _read(pictures, cache, name, files[name], most, code) for name in names}
-    if any(isinstance(mesh, Triangles) and mesh.is_simplified for mesh in meshes.values()):
+            options = version.options or robot.options
+            before, names = pictures.scene(version.snapshot, version.imports or {}, robot.target, options)
+            files |= _by_name(names, version.imports or {}, contents, {})
+    shapes = [shape for scene in (now, before) if scene for body in scene.bodies for shape in body.shapes]
+    seen = sorted(files.keys() & {shape.mesh for shape in shapes if shape.kind == "visual"})
+    others = sorted(files.keys() & {shape.mesh for shape in shapes} - {*seen})
+    cache, code, most, meshes = caches.UserCache.default(), program(robot.domain), _MOST, dict[str, Triangles | str]()
+    for group in (seen, others):
+        read = {name: _read(pictures, cache, files[name], _MOST, code) for name in group}
+        shares = _shares({name: mesh.faces for name, mesh in read.items() if isinstance(mesh, Triangles)}, most)
+        read |= {name: _read(pictures, cache, files[name], share, code) for name, share in shares.items()}
+        most -= sum(mesh.faces for mesh in read.values() if isinstance(mesh, Triangles))
+        meshes |= read
+    if any(isinstance(mesh, Triangles) and mesh.cells for mesh in meshes.values()):
         cache.trim()
-    notes = (f"{files[name].path} {note}" for name, mesh in meshes.items() if (note := _note(mesh)))
+    notes = (f"{files[name].path} can't be shown: {mesh}" for name, mesh in meshes.items() if isinstance(mesh, str))
     shown_meshes = {name: mesh for name, mesh in meshes.items() if isinstance(mesh, Triangles)}
-    return Picture(now, before, shown_meshes, (*now.missing, *notes))
+    poses, faults = pictures.named_poses(robot.source, generation.now.snapshot)
+    return Picture(now, before, shown_meshes, poses, (*now.missing, *faults, *notes, *_coarse(shown_meshes, files)))
 
 
-def _by_hash(version: Contents) -> tuple[dict[str, Import], dict[str, _File]]:
-    """Return the imports of a version with hashes in place of paths, and their files by these hashes."""
-    imports, contents = version[0].imports or {}, version[1]
-    present = [entry for entry in imports.values() if entry.target in contents]
-    files = {entry.target_hash: _File(entry.target, contents[entry.target]) for entry in present}
-    return {key: msgspec.structs.replace(entry, target=entry.target_hash) for key, entry in imports.items()}, files
+def _by_name(
+    names: Mapping[str, str], imports: Mapping[str, Import], contents: Mapping[str, bytes], sources: Mapping[str, _File]
+) -> dict[str, _File]:
+    """Return the available file of each mesh."""
+    present = {key: file.target for key, file in imports.items() if file.target in contents}
+    files = {**{key: _File(target, contents[target], key) for key, target in present.items()}, **sources}
+    return {names[key]: files[key] for key in sorted(files, reverse=True)}
+
+
+def _shares(faces: Mapping[str, int], most: int) -> dict[str, int]:
+    """Return the triangles of each mesh that has to be simplified; small meshes leave their rest to the others."""
+    shares = dict[str, int]()
+    for number, name in enumerate(sorted(faces, key=faces.__getitem__)):
+        share = max(_LEAST, most // (len(faces) - number))
+        if faces[name] > share:
+            shares[name] = share
+        most -= min(faces[name], share)
+    return shares
 
 
 def _read(
-    pictures: Pictures, cache: caches.UserCache, name: str, file: _File, most: int, code: Iterable[object]
+    pictures: Pictures, cache: caches.UserCache, file: _File, most: int, code: Iterable[object]
 ) -> Triangles | str:
     """Return the triangles of a mesh, or why it can't be shown."""
-    key = caches.digest(name, file.path, most, *code)
+    key = caches.digest(digest(file.content), file.path, file.key, most, *code)
     if known := cache.load(key, Triangles):
         return known
-    mesh = pictures.triangles(*file, most)
-    if isinstance(mesh, Triangles) and mesh.is_simplified:  # simplifying takes up to 16 s
+    mesh = pictures.triangles("" if file.is_source else file.path, file.content, file.key, most)
+    if isinstance(mesh, Triangles) and mesh.cells:  # simplifying takes up to 16 s
         cache.save(key, mesh)
     return mesh
 
 
-def _note(mesh: Triangles | str) -> str:
-    """Return the note about a missing or simplified mesh."""
-    if isinstance(mesh, str):
-        return f"can't be shown: {mesh}"
-    # triangles without area are never drawn
-    told = f"is simplified for this page: {mesh.faces:,} of its {mesh.total:,} triangles are left"
-    return told if mesh.is_simplified else ""
+def _coarse(meshes: Mapping[str, Triangles], files: Mapping[str, _File]) -> Iterable[str]:
+    """Yield one line about all meshes that have lost something visible, if there are any."""
+    coarse = sorted((mesh.faces / mesh.total, name) for name, mesh in meshes.items() if 0 < mesh.cells < _FINE)
+    if coarse:
+        (_, worst), count = coarse[0], len(coarse)
+        example = f"{files[worst].path} has {meshes[worst].faces:,} of its {meshes[worst].total:,} triangles"
+        yield f"{count} {'mesh is' if count == 1 else 'meshes are'} coarser here than in the file: {example}"

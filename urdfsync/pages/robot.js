@@ -2,9 +2,7 @@
 /* Builds, moves and colours a robot of the page's data in three.js. Metres and radians; z is up. */
 
 const LAYERS = ["visual", "collision", "frame", "mass", "inertia"];
-const CREASE = Math.cos(35 * Math.PI / 180); // edges that are sharper are shown as edges
 const NO_EDGE = 1e-12; // square of an edge, in m², that counts as no edge: rounding gives those of thin bodies either sign
-const MOST_AROUND = 48; // most faces at one point that count for its normals: a fan has thousands
 
 const ONE_WAY = { rotational: true, translational: false }; // whether the motion turns
 const ALONG = { x: [1, 0, 0], y: [0, 1, 0], z: [0, 0, 1] };
@@ -24,6 +22,17 @@ function waysOf(hinge) {
   return [way("x", x.toArray(), false), way("y", normal.clone().cross(x).toArray(), false), way("turn", hinge.axis, true)];
 }
 
+/* Returns whether an axis moves by itself: it follows no other, neither directly nor through loops. */
+function isFree(hinge) {
+  return Boolean(hinge.motion) && !hinge.leader && !hinge.is_dependent;
+}
+
+/* Returns the ends of a way; without limits those that a slider has. */
+function endsOfWay(hinge, way) {
+  const reach = way.turns ? Math.PI : 1;
+  return [hinge.lower ?? Math.min(-reach, hinge.start), hinge.upper ?? Math.max(reach, hinge.start)];
+}
+
 function startPositions(scene) {
   return new Map(scene.hinges.flatMap((hinge) => [{ name: hinge.element }, ...waysOf(hinge)].map(({ name }) => [name, hinge.start])));
 }
@@ -31,64 +40,6 @@ function startPositions(scene) {
 /* Returns the colour of the page's style sheet by its name. */
 function themeColor(name) {
   return new THREE.Color(getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim()).convertSRGBToLinear();
-}
-
-/* Returns a geometry of triangles with smooth normals, except at edges. Corners at one point with one normal share a vertex. */
-function creased(points, faces) {
-  const corners = faces.length, count = points.length / 3;
-  const flat = new Float32Array(corners), areas = new Float32Array(corners / 3); // of each face: its unit normal, and twice its area
-  const begin = new Uint32Array(count + 1), around = new Uint32Array(corners);
-  for (let corner = 0; corner < corners; corner++) begin[faces[corner] + 1]++;
-  for (let point = 1; point <= count; point++) begin[point] += begin[point - 1];
-  const next = begin.slice();
-  for (let corner = 0; corner < corners; corner++) around[next[faces[corner]]++] = corner / 3 | 0;
-  const a = new THREE.Vector3(), b = new THREE.Vector3(), c = new THREE.Vector3();
-  for (let face = 0; face < corners / 3; face++) {
-    a.fromArray(points, 3 * faces[3 * face]), b.fromArray(points, 3 * faces[3 * face + 1]), c.fromArray(points, 3 * faces[3 * face + 2]);
-    b.sub(a).cross(c.sub(a));
-    areas[face] = b.length();
-    b.normalize().toArray(flat, 3 * face);
-  }
-  const positions = [], normals = [], index = new Uint32Array(corners), previous = [];
-  const last = new Int32Array(count).fill(-1); // the last vertex at each point; `previous` leads to those before it
-  for (let corner = 0; corner < corners; corner++) {
-    const point = faces[corner], own = 3 * (corner / 3 | 0), end = Math.min(begin[point + 1], begin[point] + MOST_AROUND);
-    a.set(flat[own], flat[own + 1], flat[own + 2]).multiplyScalar(areas[own / 3]);
-    for (let place = begin[point]; place < end; place++) {
-      const other = 3 * around[place];
-      const cosine = flat[own] * flat[other] + flat[own + 1] * flat[other + 1] + flat[own + 2] * flat[other + 2];
-      if (other !== own && cosine > CREASE) a.addScaledVector(b.fromArray(flat, other), areas[other / 3]);
-    }
-    a.normalize();
-    let vertex = last[point];
-    while (vertex >= 0 && a.dot(b.fromArray(normals, 3 * vertex)) < 0.9999) vertex = previous[vertex];
-    if (vertex < 0) {
-      vertex = previous.push(last[point]) - 1;
-      last[point] = vertex;
-      positions.push(points[3 * point], points[3 * point + 1], points[3 * point + 2]);
-      normals.push(a.x, a.y, a.z);
-    }
-    index[corner] = vertex;
-  }
-  const geometry = new THREE.BufferGeometry();
-  geometry.setAttribute("position", new THREE.Float32BufferAttribute(positions, 3));
-  geometry.setAttribute("normal", new THREE.Float32BufferAttribute(normals, 3));
-  geometry.setIndex(new THREE.BufferAttribute(index, 1));
-  return geometry;
-}
-
-/* Returns the geometries of the page's meshes by their names; `sizes` has the numbers of their points and faces. */
-async function loadMeshes(text, sizes) {
-  const packed = Uint8Array.from(atob(text), (char) => char.charCodeAt(0));
-  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
-  const buffer = await new Response(stream).arrayBuffer(), meshes = new Map();
-  let place = 0;
-  for (const [name, [points, faces]] of Object.entries(sizes)) {
-    const corners = new Float32Array(buffer, place, 3 * points);
-    meshes.set(name, creased(corners, new Uint32Array(buffer, place + 12 * points, 3 * faces)));
-    place += 12 * (points + faces);
-  }
-  return meshes;
 }
 
 /* Returns the homogeneous box that has the mass and inertia of a body: its edges, and its axes in the body's `center`. Null if there is none. */
@@ -117,15 +68,21 @@ function boxOf({ mass, inertia: [xx, xy, xz, yy, yz, zz] }) {
   return { edges, axes: new THREE.Matrix4().makeBasis(...axes.map((axis) => new THREE.Vector3().fromArray(axis))) };
 }
 
-function shapeGeometry(shape, mesh) {
+/* Returns the geometry of a shape; for a mesh, until it has come, its box. Null for a mesh that can't be shown. */
+function shapeGeometry(shape, meshes) {
   const [x, y] = shape.size;
   switch (shape.form) {
     case "box": return new THREE.BoxGeometry(...shape.size);
     case "sphere": return new THREE.SphereGeometry(x, 32, 20);
     case "cylinder": return new THREE.CylinderGeometry(x, x, y, 40).rotateX(Math.PI / 2);
     case "capsule": return new THREE.CapsuleGeometry(x, y, 12, 32).rotateX(Math.PI / 2);
-    default: return mesh;
+    default: return meshes[shape.mesh] ? boxGeometry(meshes[shape.mesh].slice(2)) : null;
   }
+}
+
+function boxGeometry([left, front, bottom, right, back, top]) {
+  const geometry = new THREE.BoxGeometry(right - left, back - front, top - bottom);
+  return geometry.translate((left + right) / 2, (front + back) / 2, (bottom + top) / 2);
 }
 
 /* Returns lines that stay visible in front of all shapes. */
@@ -163,15 +120,16 @@ class RobotView {
     const body = { data, group: new THREE.Group(), layers: Object.fromEntries(LAYERS.map((layer) => [layer, []])) };
     body.group.matrixAutoUpdate = false;
     for (const shape of data.shapes) {
-      const geometry = shapeGeometry(shape, meshes.get(shape.mesh));
+      const geometry = shapeGeometry(shape, meshes);
       if (!geometry) continue; // a mesh that can't be shown
       const [red, green, blue, opacity] = shape.color;
       const color = new THREE.Color(red, green, blue).convertSRGBToLinear();
       const material = new THREE.MeshStandardMaterial({ color, roughness: 0.65, metalness: 0.1, opacity, transparent: opacity < 1, side: THREE.DoubleSide });
       const mesh = new THREE.Mesh(geometry, material);
       mesh.matrixAutoUpdate = false;
+      mesh.castShadow = shape.kind === "visual";
       mesh.matrix.fromArray(shape.pose);
-      mesh.userData = { element: data.element, color, opacity };
+      mesh.userData = { element: data.element, color, opacity, name: shape.mesh };
       this.#add(body, shape.kind, mesh);
     }
     return body;
@@ -181,6 +139,17 @@ class RobotView {
     object.visible = false;
     body.layers[layer].push(object);
     body.group.add(object);
+  }
+
+  shapes() {
+    return [...this.bodies.values()].flatMap(({ layers }) => [...layers.visual, ...layers.collision]);
+  }
+
+  /* Gives all shapes of a mesh their geometry. Returns whether one of them is to be seen. */
+  fill(name, geometry) {
+    const meshes = this.shapes().filter(({ userData }) => userData.name === name);
+    for (const mesh of meshes) mesh.geometry = geometry;
+    return meshes.some((mesh) => mesh.visible);
   }
 
   /* Adds the frame, the centre of mass and the inertia box of a body. The size of the first two depends on the robot's. */
@@ -237,16 +206,17 @@ class RobotView {
     return box;
   }
 
-  /* Sets the position of one axis; those that follow it move, too. */
-  move(name, position) {
-    if (!this.positions.has(name)) return;
-    if (this.scene.loops.length) moveClosed(this, name, position);
-    else this.positions.set(name, position);
+  /* Moves axes; those that follow them move, too. Returns whether all are at their positions: a loop may stop them. */
+  move(targets) {
+    const known = [...targets].filter(([name]) => this.positions.has(name));
+    const isThere = !this.scene.loops.length || moveClosed(this, known);
+    if (!this.scene.loops.length) for (const [name, position] of known) this.positions.set(name, position);
     this.place();
+    return isThere;
   }
 
-  /* Sets the positions of many axes; `renamed` has the new names of joints. */
-  moveAll(positions, renamed) {
+  /* Sets all positions, loops as they are; `renamed` has the new names of joints. */
+  put(positions, renamed) {
     for (const hinge of this.scene.hinges) for (const { name } of waysOf(hinge)) {
       const position = positions.get(name.replace(hinge.element, renamed[hinge.element] || hinge.element));
       if (position !== undefined) this.positions.set(name, position);

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any, Protocol, TypeAlias
 
 import msgspec
@@ -29,7 +30,7 @@ class Shape(msgspec.Struct, frozen=True):
     color: tuple[float, ...]
     """Red, green, blue and opacity, from 0 to 1."""
     mesh: str = ""
-    """The import's `target`."""
+    """The name of its mesh, whose scale is in `pose`."""
 
 
 class Body(msgspec.Struct, frozen=True):
@@ -62,6 +63,8 @@ class Hinge(msgspec.Struct, frozen=True):
     motion: str = ""
     """`rotational` or `translational` along `axis`, `planar` with it as normal, `floating`, `ball`; empty if fixed."""
     start: float = 0.0
+    way: float = 0.0
+    """How far a test moves it from the start and back, along a cosine."""
     lower: float | None = None
     upper: float | None = None
     """None for no limit."""
@@ -105,6 +108,8 @@ class Scene(msgspec.Struct, frozen=True):
     missing: tuple[str, ...] = ()
     """Shapes that can't be shown, with reasons, in words."""
     loops: tuple[Loop, ...] = ()
+    height: float | None = None
+    """The height of the root above the ground when the robot stands there at its start; None if its base is fixed."""
 
 
 class Triangles(msgspec.Struct, frozen=True):
@@ -116,23 +121,32 @@ class Triangles(msgspec.Struct, frozen=True):
     """Three numbers of single precision for each point, in metres, then three points for each face: little-endian."""
     total: int
     """Number of triangles of the file itself."""
-    is_simplified: bool
-    """Whether vertices at different places in the file were merged."""
+    box: tuple[float, ...]
+    """The least and the greatest x, y and z of the points."""
+    cells: int
+    """Corners were merged in so many cells along the longest edge; 0 if all were kept."""
 
 
 class Pictures(Protocol):
     """Gives pages the picture of a model; a domain's attribute `pictures`."""
 
-    def scene(self, snapshot: Snapshot, imports: Mapping[str, Import], target: Target, options: Any) -> Scene:
-        """Return the model as a picture whose joints can be moved. Pure.
+    def scene(
+        self, snapshot: Snapshot, imports: Mapping[str, Import], target: Target, options: Any
+    ) -> tuple[Scene, Mapping[str, str]]:
+        """Return the model as a picture whose joints can be moved, and the import of each mesh by its name. Pure.
 
-        An import without facts is a file that is too large for the package.
+        Meshes of one file have one name, also if the model scales or mirrors them. An import without facts is a file
+        that is too large for the package.
         """
         ...
 
-    def triangles(self, path: str, content: bytes, key: str, most: int) -> Triangles | str:
-        """Return about `most` triangles of a mesh, or fewer; or a text that says why there are none.
+    def named_poses(self, source: Path, snapshot: Snapshot) -> tuple[Mapping[str, Mapping[str, float]], Sequence[str]]:
+        """Return the poses that files beside a source define, as positions of hinges, and faults of them in words."""
+        ...
 
-        The mesh is the imported file at `path`, or the file of the dependency `key` if that is too large to import.
+    def triangles(self, path: str, content: bytes, key: str, most: int) -> Triangles | str:
+        """Return about `most` triangles of a mesh without the model's scale, or a text that says why there are none.
+
+        The mesh is the imported file at `path`, or, without a path, the file of the dependency `key`.
         """
         ...

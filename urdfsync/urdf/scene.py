@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 import msgspec
@@ -13,11 +13,12 @@ from urdfsync.pages import scene as scenes
 from urdfsync.pages.scene import Body, End, Hinge, Pose, Scene, Shape
 from urdfsync.urdf.drives import assembly
 from urdfsync.urdf.kinematics import poses
-from urdfsync.urdf.kinematics.loops import Closure
+from urdfsync.urdf.kinematics.loops import Assembly, Closure
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.meshes import lookup
 from urdfsync.urdf.meshes.convert import triangles as triangles
-from urdfsync.urdf.model.shapes import link_shapes
+from urdfsync.urdf.model.shapes import link_shapes, standing_height
+from urdfsync.urdf.named_poses import named_poses as named_poses
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS, Joint, Link, Loop, Mesh, Robot, Unit
 
@@ -25,20 +26,31 @@ _NO_FACTS = {"bounds": (), "hull": ()}
 """Facts of a mesh that is too large for the package: a picture needs none."""
 
 
-def scene(robot: Robot, imports: Mapping[str, Import], target: Target, options: Options) -> Scene:
-    """Return the picture of a robot. Shapes whose mesh is not imported are named as missing."""
+def scene(
+    robot: Robot, imports: Mapping[str, Import], target: Target, options: Options
+) -> tuple[Scene, Mapping[str, str]]:
+    """Return the picture of a robot, and the keys of its meshes. Shapes whose mesh is not imported are missing."""
     imports = {
         key: file if file.facts else msgspec.structs.replace(file, facts=_NO_FACTS) for key, file in imports.items()
     }
+    shown = msgspec.structs.replace(options, collisions=True)
     closed = assembly(KinematicTree.of(robot, (target.name,)), options)
     tree = closed.tree
     starts = poses.start_positions(tree)
-    bodies = tuple(_body(tree, link, imports, target, options) for link in tree.links)
-    hinges = tuple(
-        _hinge(tree, joint, starts[joint.name], joint.name in closed.dependent) for joint in tree.leaders_first()
-    )
+    names = {key: _mesh_name(key, file, imports) for key, file in imports.items()}
+    meshes = {f"modelica://{target.package}/{file.target}": names[key] for key, file in imports.items()}
+    bodies = tuple(_body(tree, link, link_shapes(link, imports, target.package, shown), meshes) for link in tree.links)
+    hinges = tuple(_hinge(closed, joint, starts[joint.name]) for joint in tree.leaders_first())
     loops = tuple(_loop(tree, loop, closed.closures[loop.name]) for loop in tree.loops)
-    return Scene(bodies, hinges, tuple(_missing(tree, imports)), loops)
+    height = standing_height(tree, imports) if options.base == "floating" else None
+    return Scene(bodies, hinges, tuple(_missing(tree, imports)), loops, height), names
+
+
+def _mesh_name(key: str, file: Import, imports: Mapping[str, Import]) -> str:
+    """Return a name that depends only on the content of the source, and on which part of it this file is."""
+    whole = lookup.key(lookup.mesh(key))
+    is_split = whole in imports and lookup.PARTS in imports[whole].facts
+    return f"{file.source_hash}{key.removeprefix(whole)}{' part' if is_split else ''}"
 
 
 def _loop(tree: KinematicTree, loop: Loop, closure: Closure) -> scenes.Loop:
@@ -54,10 +66,10 @@ def _loop(tree: KinematicTree, loop: Loop, closure: Closure) -> scenes.Loop:
     )
 
 
-def _body(tree: KinematicTree, link: Link, imports: Mapping[str, Import], target: Target, options: Options) -> Body:
-    shown = msgspec.structs.replace(options, collisions=True)
-    visuals, collisions = link_shapes(link, imports, target.package, shown)
-    shapes = [_shape(data, target) for data in (*visuals, *collisions)]
+def _body(
+    tree: KinematicTree, link: Link, data: Iterable[Sequence[Mapping[str, Any]]], meshes: Mapping[str, str]
+) -> Body:
+    shapes = [_shape(shape, meshes) for of_kind in data for shape in of_kind]
     body = Body(f"link {link.name}", tree.link(link.name).component, tuple(_facts(link)), tuple(shapes))
     inertial = link.inertial
     if inertial is None or not inertial.mass > 0:
@@ -66,19 +78,21 @@ def _body(tree: KinematicTree, link: Link, imports: Mapping[str, Import], target
     return msgspec.structs.replace(body, mass=inertial.mass, center=center, inertia=inertia)
 
 
-def _shape(data: Mapping[str, Any], target: Target) -> Shape:
+def _shape(data: Mapping[str, Any], meshes: Mapping[str, str]) -> Shape:
     """Return a shape from the data of templates."""
-    geometry = data["geometry"]
-    size: tuple[float, ...] = ()
-    if not isinstance(geometry, Mesh):
+    geometry, pose, size = data["geometry"], _matrix(poses.pose(data["origin"])), ()
+    if isinstance(geometry, Mesh):
+        scale = (*geometry.scale, 1.0)
+        pose = tuple(number * scale[place // 4] for place, number in enumerate(pose))
+    else:
         size = tuple(geometry.size) if data["type"] == "Box" else (geometry.radius, getattr(geometry, "length", 0.0))
     return Shape(
         "collision" if data["is_collision"] else "visual",
         data["type"].lower(),
         size,
-        _matrix(poses.pose(data["origin"])),
+        pose,
         (*(part / 255 for part in data["color"]), data["opacity"]),
-        data["uri"].removeprefix(f"modelica://{target.package}/"),
+        meshes.get(data["uri"], ""),
     )
 
 
@@ -92,12 +106,15 @@ def _missing(tree: KinematicTree, imports: Mapping[str, Import]) -> Iterator[str
                     yield f"link {link.name}, {kind} {number}: mesh `{geometry.filename}` is not in the package"
 
 
-def _hinge(tree: KinematicTree, joint: Joint, start: float, is_dependent: bool) -> Hinge:
-    lower, upper = (limit if math.isfinite(limit) else None for limit in poses.own_range(joint))
-    moves = MOTION_KINDS.get(joint.type)
+def _hinge(closed: Assembly, joint: Joint, start: float) -> Hinge:
+    limits, moves = poses.own_range(joint), MOTION_KINDS.get(joint.type)
+    lower, upper = (limit if math.isfinite(limit) else None for limit in limits)
+    way = 0.0
+    if moves and joint.name in closed.driven:
+        way = poses.sweep_way(joint, start, closed.reach.get(joint.name, poses.SWEEP[moves]), limits)
     return Hinge(
         element=f"joint {joint.name}",
-        component=tree.joint(joint.name).component,
+        component=closed.tree.joint(joint.name).component,
         facts=tuple(_facts(joint, joint)),
         parent=f"link {joint.parent}",
         child=f"link {joint.child}",
@@ -105,12 +122,13 @@ def _hinge(tree: KinematicTree, joint: Joint, start: float, is_dependent: bool) 
         axis=joint.axis,
         motion=moves or ("" if joint.type == "fixed" else joint.type),
         start=start,
+        way=way,
         lower=lower if moves else None,
         upper=upper if moves else None,
         leader=f"joint {joint.mimic.joint}" if joint.mimic else "",
         multiplier=joint.mimic.multiplier if joint.mimic else 1.0,
         offset=joint.mimic.offset if joint.mimic else 0.0,
-        is_dependent=is_dependent,
+        is_dependent=joint.name in closed.dependent,
     )
 
 

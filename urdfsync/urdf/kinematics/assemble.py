@@ -29,7 +29,7 @@ from urdfsync.urdf.kinematics.mechanism import (
     array_of,
     joints_of_loops,
 )
-from urdfsync.urdf.kinematics.poses import across, own_range, position_ranges
+from urdfsync.urdf.kinematics.poses import SWEEP, across, own_range, position_ranges, sweep_way
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.robot import MOTION_KINDS, Joint, Loop, Vector
 from urdfsync.urdf.validate import Finding
@@ -49,9 +49,6 @@ _AMPLITUDES = (0.4, 0.2, 0.1, 0.05)
 _POSES = 3
 _STEPS = 16
 """Steps of the way along which Test moves the driven joints."""
-_SWEEP = {"rotational": 1.0, "translational": 0.1}
-"""Longest way of a sweep in the library, in rad and m."""
-_SWEEP_MARGIN, _SWEEP_PERIOD = 0.9, 10.0
 _PASSIVE = re.compile("passive|unactuated|undriven", re.IGNORECASE)
 _MOTOR = re.compile("motor|actuat|servo|drive(?!n)", re.IGNORECASE)
 _MOST_LOOPS, _MOST_JOINTS = 200, 1000
@@ -476,7 +473,7 @@ def _refine(tree: KinematicTree, problem: _Problem, q: Array, rows: Rows, free: 
 def _reach(problem: _Problem, q: Array, rows: Rows, driven: Sequence[int], free: Array) -> Mapping[str, float]:
     """Return how far Test can move each driven joint when all of them move at once."""
     joints = problem.independent
-    reach = {k: _SWEEP[MOTION_KINDS[joints[k].type]] for k in driven}
+    reach = {k: SWEEP[MOTION_KINDS[joints[k].type]] for k in driven}
     while True:  # ends: each joint changes its side once at most
         ways = {k: _way(joints[k], float(q[k]), reach[k]) for k in driven}
         done = _follow(problem, q, rows, ways, free)
@@ -487,12 +484,7 @@ def _reach(problem: _Problem, q: Array, rows: Rows, driven: Sequence[int], free:
 
 
 def _way(joint: Joint, start: float, reach: float) -> float:
-    """Return the way that a sweep of the library takes: see Functions.sweepEnd."""
-    lower, upper = _given_limits(own_range(joint))
-    velocity = math.inf if joint.limit is None or joint.limit.velocity is None else joint.limit.velocity
-    room = min(_SWEEP_MARGIN * velocity * _SWEEP_PERIOD / math.pi, reach)
-    above, below = min(room, _SWEEP_MARGIN * (upper - start)), min(room, _SWEEP_MARGIN * (start - lower))
-    return above if above >= below else -below
+    return sweep_way(joint, start, reach, _given_limits(own_range(joint)))
 
 
 def _follow(problem: _Problem, q: Array, rows: Rows, ways: Mapping[int, float], free: Array) -> int:

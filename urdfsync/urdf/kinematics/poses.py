@@ -15,6 +15,10 @@ Pose = tuple[Matrix, Vector]
 # Greatest position: no joint moves so far, and arithmetic does not overflow. The library's leaderPosition has it, too.
 _FAR = 1e60
 
+SWEEP = {"rotational": 1.0, "translational": 0.1}
+"""Longest way of a sweep in the library, in rad and m."""
+_MARGIN, _PERIOD = 0.9, 10.0
+
 IDENTITY: Pose = (((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)), (0.0, 0.0, 0.0))
 
 
@@ -114,6 +118,14 @@ def own_range(joint: Joint) -> tuple[float, float]:
     if joint.type == "continuous" or joint.limit is None:
         return -math.inf, math.inf
     return joint.limit.lower, joint.limit.upper
+
+
+def sweep_way(joint: Joint, start: float, reach: float, limits: tuple[float, float]) -> float:
+    """Return the way that a sweep of the library takes from the start: see Functions.sweepEnd."""
+    velocity = math.inf if joint.limit is None or joint.limit.velocity is None else joint.limit.velocity
+    room = min(_MARGIN * velocity * _PERIOD / math.pi, reach)
+    above, below = min(room, _MARGIN * (limits[1] - start)), min(room, _MARGIN * (start - limits[0]))
+    return above if above >= below else -below
 
 
 def _near(position: float) -> float:

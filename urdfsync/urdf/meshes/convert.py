@@ -10,7 +10,6 @@ from urdfsync.domain import Conversion, Dependency
 from urdfsync.pages.scene import Triangles
 from urdfsync.urdf.meshes import lookup
 from urdfsync.urdf.meshes.process import MeshError, MeshProcess, Request
-from urdfsync.urdf.robot import Mesh
 
 _FORMATS = (".dae", ".glb", ".gltf", ".obj", ".off", ".ply", ".stl")
 
@@ -48,13 +47,16 @@ def convert(dependency: Dependency, file: Path, content: bytes, others: Mapping[
 
 
 def triangles(path: str, content: bytes, key: str, most: int) -> Triangles | str:
-    """Return about `most` triangles of a mesh, or why there are none.
+    """Return about `most` triangles of a mesh without its scale, or why there are none.
 
-    The mesh is the imported file at `path`. A mesh that is too large to be imported has the `key` of its dependency.
+    The mesh is the imported file at `path`, which has the scale of its `key`; without a path it is the source's file.
     """
-    mesh = lookup.mesh(key) if key else Mesh(path)
+    mesh = lookup.mesh(key)
+    scale = [1 / factor if path and factor else 1.0 for factor in mesh.scale]
     try:
-        request = Request(lookup.suffix(mesh.filename), mesh.scale, with_hull=False, most=most)
+        request = Request(
+            lookup.suffix(path or mesh.filename), (scale[0], scale[1], scale[2]), with_hull=False, most=most
+        )
         ((packed, facts),) = _process.read(request, content)
     except MeshError as error:
         return str(error)

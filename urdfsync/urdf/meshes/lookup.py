@@ -70,9 +70,9 @@ def key(mesh: Mesh) -> str:
 
 
 def mesh(key: str) -> Mesh:
-    """Return the mesh that has this key."""
+    """Return the mesh that has this key, or to which a further file with this key belongs."""
     filename, _, numbers = key.rpartition(" scale ")
-    x, y, z = map(float, numbers.split(" "))
+    x, y, z = map(float, numbers.split(" ")[:3])
     return Mesh(filename, (x, y, z))
 
 

@@ -22,9 +22,10 @@ def packed(mesh: Triangles, most: int) -> tuple[bytes, Facts]:
             break
         # the number of triangles grows with the square of the cells
         cells = max(8, min(cells * 3 // 4, int(cells * (most / len(faces)) ** 0.5)))
-    content = points.astype("<f4").tobytes() + faces.astype("<u4").tobytes()
-    numbers = {"points": len(points), "faces": len(faces), "total": len(mesh.faces)}
-    return content, {**numbers, "is_simplified": cells != _FINE}
+    single = points.astype("<f4")
+    box = [*single.min(axis=0).tolist(), *single.max(axis=0).tolist()]
+    numbers = {"points": len(points), "faces": len(faces), "total": len(mesh.faces), "box": box}
+    return single.tobytes() + faces.astype("<u4").tobytes(), {**numbers, "cells": 0 if cells == _FINE else cells}
 
 
 def _clustered(mesh: Triangles, cells: int) -> Triangles:

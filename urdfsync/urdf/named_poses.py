@@ -1,0 +1,58 @@
+"""Reads the named poses of SRDF files, in which MoveIt keeps them beside a URDF."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+from xml.etree.ElementTree import Element
+
+from urdfsync.answers.dependencies import read_file
+from urdfsync.files import shown
+from urdfsync.spelling import counted
+from urdfsync.urdf.drives import can_be_driven
+from urdfsync.urdf.parse.xml import ParseError, parse
+from urdfsync.urdf.robot import Robot
+
+_MOST_FILES, _LARGEST = 20, 1_000_000
+"""The most SRDF files beside a source, and the most bytes of one."""
+
+
+def named_poses(source: Path, robot: Robot) -> tuple[dict[str, dict[str, float]], list[str]]:
+    """Return the poses of a robot by their names, and a line for each file that can't be used as it is.
+
+    A file counts if it has the source's name, or if it names the robot.
+    """
+    poses, faults = dict[str, dict[str, float]](), list[str]()
+    is_free = {joint.name: can_be_driven(joint) for joint in robot.joints}
+    stem = source.name.partition(".")[0]
+    for file in sorted(source.parent.glob("*.srdf"))[:_MOST_FILES]:
+        try:
+            root = parse(read_file(file)[:_LARGEST]).root
+        except (OSError, ParseError) as error:
+            line = f":{error.diagnostic.line}" if isinstance(error, ParseError) else ""
+            faults.append(f"{shown(file)}{line}: its poses can't be read: {error}")
+            continue
+        if robot.name != root.get("name") and stem != file.name.partition(".")[0]:
+            continue
+        others = dict[str, None]()
+        for state in root.iterfind("group_state"):
+            name, values = state.get("name", ""), dict(_values(state.iterfind("joint")))
+            others |= dict.fromkeys(joint for joint in values if joint not in is_free)
+            if own := {f"joint {joint}": value for joint, value in values.items() if is_free.get(joint)}:
+                poses[f"{name} ({state.get('group', '')})" if name in poses else name] = own
+        if others:
+            number, first = counted(len(others), "joint"), next(iter(others))
+            faults.append(f"{shown(file)}: its poses name {number} that this robot lacks, such as {first}")
+    return poses, faults
+
+
+def _values(joints: Iterable[Element]) -> Iterator[tuple[str, float]]:
+    """Yield the joints of a pose that have one finite position."""
+    for joint in joints:
+        try:
+            name, value = joint.get("name", ""), float(joint.get("value", ""))
+        except ValueError:  # a joint of several axes has several numbers
+            continue
+        if math.isfinite(value):
+            yield name, value
