@@ -449,7 +449,7 @@ def test_the_policy_forbids_other_scripts_and_eval(report: Report, chromium: Pag
 
 def test_a_robot_that_does_not_move_and_has_no_shape(report: Report, chromium: Page) -> None:
     page = opened(chromium, report('<robot name="still"><link name="only"/></robot>'))
-    assert page.run("element('axes').textContent") == "This robot has no axis that moves by itself."
+    assert page.run("element('axes').textContent") == "Nothing here moves by itself."
     assert page.run("[element('player').hidden, element('poses').hidden]") == [True, True]
     assert page.problems == []
 

@@ -8,8 +8,10 @@ import pytest
 from support.commands import Execute
 from support.networks import edit
 
+from urdfsync.domain import Target
 from urdfsync.engine.result import Exit
 from urdfsync.table.domain import DOMAIN
+from urdfsync.table.formats import MARK
 from urdfsync.table.model import Options, Table
 
 MOTORS = "name,torque [N.cm],inertia [g.cm2],maker\nMX-64,600,12.5,Robotis\nXM 430,410,3,\n"
@@ -107,3 +109,14 @@ def test_the_record_of_a_domain_without_templates_has_all_columns() -> None:
     assert isinstance(table, Table)
     assert DOMAIN.unit(table, ["elements", "MX-64", "inertia"]) == "kg.m2"
     assert DOMAIN.unit(table, ["elements", "MX-64", "maker"]) == ""
+
+
+def test_the_page_shows_elements_and_connections(project: Path, execute: Execute) -> None:
+    Path("motors.connections.csv").write_text("from,to\nMX-64,XM 430\n")
+    table = DOMAIN.read(MOTORS.encode() + MARK + b"from,to\nMX-64,XM 430\n", "motors.csv", Options()).snapshot
+    picture, meshes = DOMAIN.pictures.scene(table, {}, Target("Motors", "Motors"), Options())
+    assert [body.element for body in picture.bodies] == ["table Motors", "element MX-64", "element XM 430"]
+    assert [len(body.shapes) for body in picture.bodies] == [1, 1, 1]
+    assert ("torque", "6 kg.m2/s2") in picture.bodies[1].facts
+    assert meshes == {}
+    assert "page: " in execute("report", "-o", "motors.html").out

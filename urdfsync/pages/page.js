@@ -281,13 +281,13 @@ const markTree = fillTree(element("tree"), data, select);
 let markDiagram = () => {}; // its layout takes as long as the picture
 showPositions(page.positions);
 say("");
-if (page.positions.size) {
+if (data.now.hinges.some((hinge) => hinge.motion)) {
   for (const [name, [purpose]] of page.poses) {
     element("pose-list").append(make("button", { type: "button", "data-pose": name, title: purpose }, name, { click: () => pose(name) }));
   }
   element("poses").hidden = false;
   element("poses").open = innerWidth > 860;
-}
+} else if (data.now.hinges.length) chooseTab(element("tab-tree"));
 
 for (const [layer, [label, key]] of Object.entries(SWITCHES)) {
   element("switches").append(make("button", { type: "button", id: `switch-${layer}`, "aria-pressed": String(page.layers[layer]), title: `${label} (${key})` }, label, { click: () => toggle(layer) }));

@@ -3,7 +3,7 @@
 
 const SYMBOLS = { rotational: "⟳", translational: "↔", planar: "⬔", floating: "✥", ball: "◉", "": "─" };
 const DEGREES = 180 / Math.PI;
-const HINT = "Click a link to see its numbers, changes and files. Drag it to move its joint.";
+const HINT = "Click a part to see its numbers, changes and files. Drag it to move its joint.";
 
 /* Returns a new HTML element with attributes, a text or children, and listeners. */
 function make(tag, attributes = {}, content = [], listeners = {}) {
@@ -36,7 +36,7 @@ function fillAxes(panel, units, data, move, select) {
   const follows = (hinge) => hinge.leader ? `follows ${nameOf(hinge.leader)}` : hinge.is_dependent ? "follows through loops" : "";
   const free = data.now.hinges.filter(isFree);
   const followers = data.now.hinges.filter((hinge) => hinge.motion && follows(hinge));
-  if (free.length === 0) panel.append(make("p", { class: "quiet" }, "This robot has no axis that moves by itself."));
+  if (free.length === 0) panel.append(make("p", { class: "quiet" }, "Nothing here moves by itself."));
   const shown = new Map();
   let unit = "rad", latest = new Map();
   const scaleOf = (turns) => turns && unit === "°" ? DEGREES : 1;

@@ -44,7 +44,7 @@ class TableDomain(Domain):
     model = Table
     options = Options
     beside = _Connections()
-    advice, simulation = _Module("starter"), _Module("benches")
+    advice, simulation, pictures = _Module("starter"), _Module("benches"), _Module("scene")
 
     def starter(self, snapshot: Table) -> Mapping[str, str]:
         """Return templates for the columns of a table, to be edited."""

@@ -1,0 +1,97 @@
+"""A table as a picture: a box for each element, in columns by distance from the best connected one, with lines between.
+
+`urdfsync.pages.scene.Pictures` describes the functions.
+"""
+
+from __future__ import annotations
+
+import colorsys
+import math
+from collections import defaultdict
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from urdfsync.domain import Import, Target
+from urdfsync.pages.scene import Body, Hinge, Pose, Scene, Shape, Triangles
+from urdfsync.table.model import FROM, TO, TYPES, Options, Table
+from urdfsync.table.names import component_name
+
+_MOST = 500
+"""The most elements of a picture."""
+_BOX = 0.6, 0.3, 0.3
+_LINE = 0.03
+
+
+def scene(
+    table: Table,
+    imports: Mapping[str, Import],  # noqa: ARG001 - a table refers to no files
+    target: Target,
+    options: Options,
+) -> tuple[Scene, Mapping[str, str]]:
+    """Return the picture of a table, which has no meshes."""
+    places, root = _places(table), f"table {target.name}"
+    kinds = sorted({str(row.get(options.kind, "")) for row in table.elements.values()})
+    bodies, hinges, lines = list[Body](), list[Hinge](), list[Shape]()
+    for key, (x, y) in places.items():
+        row, name = table.elements[key], component_name(key)
+        units = {column: "" if unit in ("1", *TYPES) else f" {unit}" for column, unit in table.columns.items()}
+        facts = [
+            (column, f"{value:g}{units[column]}" if isinstance(value, float) else str(value))
+            for column, value in row.items()
+        ]
+        hue = kinds.index(str(row.get(options.kind, ""))) / len(kinds)
+        box = Shape("visual", "box", _BOX, _pose(), (*colorsys.hls_to_rgb((hue + 0.58) % 1, 0.6, 0.45), 1.0))
+        bodies.append(Body(f"element {key}", name, tuple(facts), (box,)))
+        hinges.append(Hinge(f"place of {key}", name, (), root, f"element {key}", _pose(x, y), (0.0, 0.0, 1.0)))
+    for row in table.connections.values():
+        if (start := places.get(str(row[FROM]))) and (end := places.get(str(row[TO]))):
+            size = (math.dist(start, end), _LINE, _LINE)
+            middle = (start[0] + end[0]) / 2, (start[1] + end[1]) / 2
+            pose = _pose(*middle, math.atan2(end[1] - start[1], end[0] - start[0]))
+            lines.append(Shape("visual", "box", size, pose, (0.55, 0.55, 0.55, 1.0)))
+    rest = len(table.elements) - len(places)
+    missing = (f"{rest:,} further elements",) if rest else ()
+    return Scene((Body(root, target.name, (), tuple(lines)), *bodies), tuple(hinges), missing), {}
+
+
+def named_poses(source: Path, table: Table) -> tuple[Mapping[str, Mapping[str, float]], Sequence[str]]:  # noqa: ARG001 - see `Pictures`
+    """Return no poses: nothing moves."""
+    return {}, ()
+
+
+def triangles(path: str, content: bytes, key: str, most: int) -> Triangles | str:  # noqa: ARG001 - see `Pictures`
+    """Return nothing: a table has no meshes."""
+    return "a table has no meshes"
+
+
+def _places(table: Table) -> dict[str, tuple[float, float]]:
+    """Return x and y of each element: connected groups one above the other, unconnected elements in rows at the end."""
+    beside = defaultdict[str, dict[str, None]](dict)
+    for row in table.connections.values():
+        ends = str(row[FROM]), str(row[TO])
+        for one, other in (ends, ends[::-1]):
+            beside[one][other] = None
+    places, bottom = dict[str, tuple[float, float]](), 0.0
+    for first in sorted(beside, key=lambda key: -len(beside[key])):
+        columns = [] if first in places else [[first]]
+        seen = {first}
+        while columns and columns[-1]:
+            columns.append([])
+            for key in columns[-2]:
+                new = [other for other in beside[key] if other not in seen]
+                columns[-1] += new
+                seen.update(new)
+        height = max(map(len, columns), default=0)
+        for number, column in enumerate(columns):
+            for row_number, key in enumerate(column):
+                places[key] = 1.4 * number, bottom - 0.7 * (row_number + (height - len(column)) / 2)
+        bottom -= 0.7 * height
+    alone, width = [key for key in table.elements if key not in beside], math.ceil(math.sqrt(len(table.elements)))
+    for number, key in enumerate(alone):
+        places[key] = 1.0 * (number % width), bottom - 0.7 * (number // width) - 0.7
+    return {key: places[key] for key in sorted(places)[:_MOST]}
+
+
+def _pose(x: float = 0.0, y: float = 0.0, angle: float = 0.0) -> Pose:
+    cos, sin = math.cos(angle), math.sin(angle)
+    return (cos, sin, 0.0, 0.0, -sin, cos, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, x, y, _BOX[2] / 2, 1.0)
