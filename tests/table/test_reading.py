@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import datetime
 import io
+import zipfile
 from collections.abc import Callable
 from typing import Any
 
@@ -141,6 +142,12 @@ def test_merged_cells_are_refused() -> None:
         ("{", "a.json", "this is no JSON"),
         ("[1, 2]", "a.json", "neither a list nor a table of entries"),
         ('{"elements": [], "x": 1}', "a.json", "`x` is unknown"),
+        ('{"a": {}, "a": {}}', "a.json", "the key `a` stands there twice"),
+        ("a: {}\na: {}\n", "a.yaml", "the key `a` stands there twice"),
+        ("? [a]\n: {}\n", "a.yaml", "this is no YAML"),
+        ("a: &a [1]\nb: {m: [*a, *a]}\n", "a.yaml", "neither a list nor a table of entries"),
+        ("b: {m: [1, 2]}\n", "a.yaml", "column `m`: a list or a table is no cell"),
+        ("b: {'m [kg]': [1, 2]}\n", "a.yaml", "column `m`: a list or a table is no number"),
         (b"PK", "a.xlsx", "this is no workbook"),
         (b"PK", "a.ods", "`.ods` is no format of tables"),
     ],
@@ -174,3 +181,14 @@ def test_a_unit_of_another_kind_is_refused() -> None:
 def test_a_kind_names_a_template() -> None:
     (found,) = reading("name,kind\na,../x\n", kind="kind").diagnostics
     assert "the kind `../x` of `a` can't be a template" in found.message
+
+
+def test_elements_under_keys_may_have_a_column_name() -> None:
+    assert table("[M1]\nname = 'Motor one'\n", "a.toml").elements == {"M1": {"name": "Motor one"}}
+
+
+def test_a_workbook_that_unpacks_to_gigabytes_is_refused() -> None:
+    content = io.BytesIO()
+    with zipfile.ZipFile(content, "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("xl/workbook.xml", b"0" * 200_000_001)
+    assert "more than 200,000,000 bytes" in str(reading(content.getvalue(), "a.xlsx").diagnostics[0])

@@ -41,6 +41,7 @@ class TableDomain(Domain):
     """Tables of elements, in CSV, TOML, JSON, YAML or XLSX, to Modelica."""
 
     name = "table"
+    warnings = ("not-modelled",)
     model = Table
     options = Options
     beside = _Connections()

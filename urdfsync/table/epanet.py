@@ -54,7 +54,10 @@ def read(content: bytes, file: str) -> tuple[Sheet, Sheet]:
         elements.append((line, [values.get(name) for name in names]))
         for port, node in values.get("ends", {}).items():
             connections.append((line, [key, f"{_kind(network.get_node(node))} {node}", port]))
-    return Sheet(_COLUMNS, elements), Sheet(("from", "to", "port"), connections)
+    counts = {"controls": network.num_controls, "patterns": network.num_patterns, "sources": network.num_sources}
+    emitters = sum(bool(junction.emitter_coefficient) for _, junction in network.junctions())
+    notes = [f"{number} {noun}" for noun, number in (counts | {"emitters": emitters}).items() if number]
+    return Sheet(_COLUMNS, elements, [", ".join(notes)] if notes else []), Sheet(("from", "to", "port"), connections)
 
 
 def _elements(network: Any) -> list[tuple[str, dict[str, Any]]]:

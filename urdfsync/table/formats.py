@@ -4,20 +4,21 @@ from __future__ import annotations
 
 import csv
 import io
+import json
+import tomllib
 import warnings
+import zipfile
 from collections.abc import Mapping, Sequence
 from pathlib import PurePath
 from typing import Any
-
-import msgspec
-import msgspec.toml
-import msgspec.yaml
 
 from urdfsync.diagnostics import SourceError
 from urdfsync.extras import install_command
 from urdfsync.table.model import NOTHING, Sheet
 
 CONNECTIONS = "connections"
+_LARGEST = 200_000_000
+"""The most bytes of an unpacked workbook."""
 MARK = b"\n\0connections\0\n"
 """Stands between a source and the connections in the CSV beside it."""
 
@@ -65,13 +66,46 @@ def _read_csv(content: bytes, file: str, first: int = 0) -> tuple[Sheet, Sheet]:
 
 def _read_data(content: bytes, file: str) -> tuple[Sheet, Sheet]:
     """Read TOML, JSON or YAML."""
-    name = {".json": "JSON", ".toml": "TOML"}.get(PurePath(file).suffix.lower(), "YAML")
-    text = _decode(content, file)
+    text, suffix = _decode(content, file), PurePath(file).suffix.lower()
     try:
-        data = {"JSON": msgspec.json, "TOML": msgspec.toml, "YAML": msgspec.yaml}[name].decode(text)
-    except (msgspec.DecodeError, ValueError, RecursionError) as error:
-        raise SourceError.of("table-file", f"this is no {name}: {error}", file, hint="correct it") from None
+        if suffix == ".toml":
+            data = tomllib.loads(text)
+        elif suffix == ".json":
+            data = json.loads(text, object_pairs_hook=_without_repetition)
+        else:
+            data = _read_yaml(text)
+    except (ValueError, RecursionError) as error:
+        message = f"this is no {suffix[1:].upper()}: {' '.join(str(error).split())}"
+        raise SourceError.of("table-file", message, file, hint="correct it") from None
     return _from_data(data, text, file)
+
+
+def _read_yaml(text: str) -> Any:
+    """Raises ValueError."""
+    import yaml
+
+    class Loader(yaml.SafeLoader):  # type: ignore[misc] # PyYAML has no types
+        """PyYAML's loader takes the last one of equal keys."""
+
+    def mapping(loader: yaml.SafeLoader, node: yaml.MappingNode) -> dict[Any, Any]:
+        loader.flatten_mapping(node)
+        return _without_repetition(loader.construct_pairs(node, deep=True))
+
+    Loader.add_constructor("tag:yaml.org,2002:map", mapping)
+    try:
+        return yaml.load(text, Loader)  # noqa: S506 - a safe loader
+    except (yaml.YAMLError, TypeError) as error:  # TypeError: a key is a list
+        raise ValueError(str(error)) from None
+
+
+def _without_repetition(pairs: Sequence[tuple[Any, Any]]) -> dict[Any, Any]:
+    """Return a dict. Raises ValueError for a key that stands there twice."""
+    found = dict[Any, Any]()
+    for key, value in pairs:
+        if key in found:
+            raise ValueError(f"the key `{key}` stands there twice")
+        found[key] = value
+    return found
 
 
 def _from_data(data: object, text: str, file: str) -> tuple[Sheet, Sheet]:
@@ -93,7 +127,8 @@ def _from_data(data: object, text: str, file: str) -> tuple[Sheet, Sheet]:
 
 def _from_entries(entries: object, text: str, file: str) -> Sheet:
     if isinstance(entries, Mapping) and all(isinstance(entry, Mapping) for entry in entries.values()):
-        entries = [{"name": name, **entry} for name, entry in entries.items()]
+        column = "key" if any("name" in entry for entry in entries.values()) else "name"
+        entries = [{column: name, **entry} for name, entry in entries.items()]
     if not (isinstance(entries, list) and all(isinstance(entry, Mapping) for entry in entries)):
         hint = "write one entry for each element, with its columns as keys"
         raise SourceError.of("table-file", "the elements are neither a list nor a table of entries", file, hint=hint)
@@ -102,7 +137,8 @@ def _from_entries(entries: object, text: str, file: str) -> Sheet:
     for entry in entries:
         cells = {str(column): value for column, value in entry.items()}
         # entries are in order, so the line of one is where its first value stands behind that of the last one
-        found = text.find(str(next(iter(cells.values()), "")), position)
+        first = next(iter(cells.values()), "")
+        found = text.find(str(first), position) if isinstance(first, str | int | float) else -1
         position = found if found >= 0 else position
         rows.append((text.count("\n", 0, position) + 1, [cells.get(column) for column in header]))
     return Sheet(header, rows)
@@ -117,6 +153,8 @@ def _read_xlsx(content: bytes, file: str) -> tuple[Sheet, Sheet]:
         raise SourceError.of(
             "no-openpyxl", "a workbook needs openpyxl, which is not installed", file, hint=hint
         ) from None
+    if _unpacked_size(content) > _LARGEST:
+        raise SourceError.of("table-file", f"the workbook has more than {_LARGEST:,} bytes", file, hint="split it")
     books = []
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # openpyxl warns of what it leaves out, such as conditional formats
@@ -132,6 +170,15 @@ def _read_xlsx(content: bytes, file: str) -> tuple[Sheet, Sheet]:
     found = [names[0], named[CONNECTIONS]] if CONNECTIONS in named and len(names) > 1 else names[:1]
     sheets = [_from_worksheet(values[name], formulas[name], file) for name in found]
     return sheets[0], sheets[1] if len(sheets) > 1 else NOTHING
+
+
+def _unpacked_size(content: bytes) -> int:
+    """Return the bytes of all files in an archive; 0 if it is none."""
+    try:
+        with zipfile.ZipFile(io.BytesIO(content)) as archive:
+            return sum(file.file_size for file in archive.infolist())
+    except zipfile.BadZipFile:
+        return 0
 
 
 def _from_worksheet(values: Any, formulas: Any, file: str) -> Sheet:

@@ -22,6 +22,8 @@ class Sheet(NamedTuple):
 
     header: Sequence[str]
     rows: Sequence[tuple[int, Sequence[object]]]
+    notes: Sequence[str] = ()
+    """What the source has and the sheet lacks, in words."""
 
 
 NOTHING = Sheet((), ())

@@ -76,6 +76,9 @@ class _Reader:
                 "key-clash", f"the key `{name}` is no name: {reason}", self.lines[f"element {name}"], "rename it"
             )
         joined = self._connections(connections, links, rows)
+        self.findings += [
+            Diagnostic(Severity.NOTE, "not-modelled", f"not modelled: {note}", self._file) for note in elements.notes
+        ]
         types, of_links = (
             {c.name: c.type if isinstance(c.type, str) else c.type.si for c in each} for each in (columns, links)
         )
@@ -199,13 +202,17 @@ def _value(cell: object, kind: Unit | str) -> Value | None:
             raise ValueError(f"{text} is a date, not a number")
         return text.isoformat()
     if kind == "boolean":
+        if not isinstance(text, str | bool):
+            raise ValueError("write true or false")
         if isinstance(text, bool) or str(text).lower() in _TRUTH:
             return _TRUTH[str(text).lower()]
         raise ValueError(f"`{text}` is neither true nor false")
     if kind == "text":
         if not isinstance(text, str | int | float):
-            raise ValueError(f"`{text}` is neither a text nor a number")
+            raise ValueError("a list or a table is no cell")  # its text may be endless
         return str(text)
+    if not isinstance(text, str | int | float):
+        raise ValueError("a list or a table is no number")  # noqa: TRY004 - as all faults of cells
     if not _is_number(text):
         comma = str(text).replace(",", ".") if str(text).count(",") == 1 else ""
         more = f": write {comma}" if _NUMBER.fullmatch(comma) else ""
