@@ -263,6 +263,8 @@ TEMPLATES = {
     "the ground for another weight": ("BotRun.mo", "load = robot.m", "load = 10*robot.m", "load"),
     "another stance": (
         "BotTest.mo", "redeclare BotStance stance", "redeclare UrdfSync.Records.Stance stance", "stance"),
+    "another start of the generic robot": ("BotGeneric.mo", "startPositions.slide", "0.3", "robot.s_start"),
+    "another way of the generic robot": ("BotGeneric.mo", "reach = 1)", "reach = 10)", "rotationalSweep.reach"),
     "the frame of another link": ("Bot.mo", "tip.frame_a, tipFrame", "arm.frame_a, tipFrame", "frame"),
     "a visual with the numbers of another": (
         "Links/Arm.mo", "parameters = parameters.visual2", "parameters = parameters.visual1", "visual2.parameters"),

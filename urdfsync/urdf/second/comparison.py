@@ -65,7 +65,7 @@ class _Comparison:
 
     def __init__(self, texts: Mapping[str, bytes], reading: Reading, sample: Sample) -> None:
         self.reading, self.sample, self.name = reading, sample, sample.target.name
-        suffixes = ("", "Run", "Test", "Parameters", "Start", "Sensors", "Stance")
+        suffixes = ("", "Run", "Test", "Parameters", "Start", "Sensors", "Stance", "Generic")
         needed = {f"{self.name}{suffix}.mo" for suffix in suffixes}
         needed |= {path for path in texts if path.startswith("Links/") and path != "Links/package.mo"}
         needed |= {path for path in texts if path.startswith("Joints/") and path.endswith("Parameters.mo")}
@@ -98,6 +98,7 @@ class _Comparison:
         for suffix, compare in (
             *(("Parameters", self._whole), ("Sensors", self._sensors), ("Start", self._starts)),
             *(("Stance", self._stance), ("", self._connections), ("Run", self._bench), ("Test", self._bench)),
+            ("Generic", self._generic),
         ):
             if f"{self.name}{suffix}.mo" in self.values or suffix == "Start":
                 compare(f"{self.name}{suffix}.mo")
@@ -405,6 +406,26 @@ class _Comparison:
                     expected[fixed] = "true"
             every[f"{kind} {name}"] = element.line, expected
         self._complete(file, texts, every)
+
+    def _generic(self, file: str) -> None:
+        """Compare all that the bench of the generic robot states."""
+        expected = pairs(models.GENERIC[self.sample.options.base], name=self.name)
+        for kind, is_turning, reach in (("rotational", True, 1), ("translational", False, 0.1)):
+            words, titles = WORDS[is_turning], self.titles[f"{self.name}Parameters.mo"].values()
+            matches = [re.match(f'Number of joint "(.*)" in {kind}Axis', title) for title in titles]
+            axes = [self.components.get(("joint", match[1]), "") for match in matches if match]
+            if axes:
+                own = {"k": kind, "kind": kind.capitalize(), "n": len(axes), "reach": reach}
+                expected |= pairs(models.GENERIC_AXES, **words, **own)
+            if self.begun.intersection(axes):
+                near = "UrdfSync.Functions.closestToZero(robot.{q}_min[{k}],robot.{q}_max[{k}])"
+                starts = (
+                    f"startPositions.{axis}" if axis in self.begun else near.format(k=k, **words)
+                    for k, axis in enumerate(axes, 1)
+                )
+                expected[f"robot.{words['q']}_start"] = f"{{{','.join(starts)}}}"
+                expected["type of startPositions"] = f"parameter{self.name}Start"
+        self._complete(file, self._texts(file), {"robot": (0, expected)})
 
     def _shapes(self, link: Element, component: str) -> None:
         """Compare which shapes the model of a link draws, and which of them touch the ground with which numbers."""

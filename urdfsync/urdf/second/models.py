@@ -41,6 +41,22 @@ RUN = {
 }  # fmt: skip
 """The source of a joint in Run, by its command."""
 
+GENERIC = {
+    "fixed": "extends = UrdfSync.Robots.PartialBench,Modelica.Icons.Example; type of robot = "
+    "UrdfSync.Robots.GenericRobot; robot.data = {name}Parameters; robot.fixedStart = false; "
+    "robot.frame_a = world.frame_b",
+}
+GENERIC["floating"] = (
+    GENERIC["fixed"].replace("world.", "base.") + "; base.frame_a = world.frame_b; type of base = "
+    "UrdfSync.Robots.FreeBase; base.r_start = {{0,0,robot.data.standingHeight}}"
+)
+GENERIC_AXES = (
+    "type of {k}Drive = Modelica.Mechanics.{kind}.Sources.Position; {k}Drive.useSupport = true; {k}Drive.exact = true; "
+    "{k}Drive.flange = robot.{k}Axis; {k}Drive.support = robot.{k}Support; {k}Drive.{q}_ref = {k}Sweep.y; "
+    "type of {k}Sweep = UrdfSync.Robots.AxisSweeps; {k}Sweep.n = {n}; {k}Sweep.start = robot.{q}_start; "
+    "{k}Sweep.lower = robot.{q}_min; {k}Sweep.upper = robot.{q}_max; {k}Sweep.velocity = robot.{v}_max; "
+    "{k}Sweep.reach = {reach}"
+)
 SHAPE = (
     "type of {part} = UrdfSync.Visualizers.{kind}; {part}.frame_a = frame_a; {part}.parameters = parameters.{part}; "
     "{part}.animation = {shown}"
