@@ -48,8 +48,6 @@ class Quantity(enum.StrEnum):
     """Vector from one frame of a loop to the other."""
     GRAVITY = "gravity"
     """Gravity in Run and Test."""
-    START = "start"
-    """Start position of a joint, if a loop determines it."""
     SWEEP = "way in Test"
     """Positions at which a drive of Test begins, turns back and ends."""
     ENERGY = "energy"
@@ -61,7 +59,6 @@ TOLERANCE = 1e-10
 _TOLERANCES = {
     Quantity.ACCELERATION: 1e-7,  # solving equations for them loses digits
     Quantity.GROUND: 1e-2,  # no reference, and stiff: 1 % of the depth makes 1 % of the force
-    Quantity.START: 1e-7,  # loops are closed by iteration
     Quantity.SWEEP: 1e-3,  # integrated, with errors of up to 2e-5
     Quantity.ENERGY: 1e-2,  # integrated through jumps of dry friction
 }
