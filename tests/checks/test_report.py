@@ -182,6 +182,11 @@ def test_contacts_are_plausible_within_a_hundredth(capsys: Capture, difference: 
             "bench: gravity differs from its own numbers by 19.6 m/s²",
         ),
         (
+            Deviation(Quantity.LAW, "joint elbow", 1.0, 0.0, 0.0, "", Part.LOSSES, "lugre"),
+            Deviation(Quantity.ENERGY, "joint elbow", 1.0, 0.0, 0.0, "", Part.LOSSES, "lugre"),
+            "joint elbow: the effort of its lugre is not that of its numbers",
+        ),
+        (
             Deviation(Quantity.ENERGY, "joint elbow", 1.0, 0.0, 0.0, "", Part.LOSSES, "lugre"),
             Deviation(Quantity.GROUND, "robot", 9.0, 1.0, 1.0, "N·m", Part.CONTACTS),
             "robot: ground torque differs from its own numbers by 9 N·m",

@@ -270,24 +270,36 @@ def test_faults_of_ground_and_test_are_seen_each_by_itself(name: str, modelica_l
     assert faults == {(G, Quantity.GROUND, "robot", "N·m"), *turning, (R, Quantity.SWEEP, "joint mast", "m")}
 
 
-def test_laws_that_give_energy_away_are_seen_beside_sound_ones(modelica_library: Path, tmp_path: Path) -> None:
-    """The spring of MSL with a negative stiffness is a fault of the template, the others of the library."""
+LUGRE, SPRING, STICTION = (
+    *("Friction/RotationalLuGre.mo", "Drives/RotationalSpring.mo"),
+    "Friction/TranslationalStiction.mo",
+)
+WRONG_LAWS: Mapping[Quantity, Sequence[tuple[str, str, str]]] = {
+    Quantity.ENERGY: [
+        (LUGRE, "damping*w + ", "damping*w - "),
+        (SPRING, "tau = -Urdf", "tau = Urdf"),
+        (STICTION, "else -parameters.friction", "else parameters.friction"),
+    ],
+    Quantity.LAW: [
+        (LUGRE, "parameters.friction - 1)", "parameters.friction + 1)"),
+        (SPRING, "-parameters.stiffness", "-0.5*parameters.stiffness"),
+        (STICTION, "f0_max = parameters.breakaway", "f0_max = 2*parameters.breakaway"),
+    ],
+}
+
+
+@pytest.mark.parametrize("quantity", WRONG_LAWS)
+def test_wrong_laws_are_seen_beside_sound_ones(quantity: Quantity, modelica_library: Path, tmp_path: Path) -> None:
+    """The spring of MSL with another stiffness is a fault of the template, the others of the library."""
     case = physics.prepare(LAWS.encode(), "Bot", **CHOSEN)
     laws = case.experiment.laws
     assert laws is not None
     package = generate(LAWS.encode(), Target("Bot", "Bot"), **CHOSEN)
     case = physics.Case(msgspec.structs.replace(case.experiment, trials=(laws,)), package)
-    own = damaged(
-        tmp_path,
-        [
-            ("Friction/RotationalLuGre.mo", "damping*w + ", "damping*w - "),
-            ("Drives/RotationalSpring.mo", "tau = -Urdf", "tau = Urdf"),
-            ("Friction/TranslationalStiction.mo", "else -parameters.friction", "else parameters.friction"),
-        ],
-    )
-    case = case.changed("Joints/Bend.mo", "c = parameters", "c = -parameters")
-    (found,) = physics.compare(modelica_library, tmp_path, [case], own)
-    seen = {each.element: each.agrees for each in found if each.quantity is Quantity.ENERGY}
+    factor = "-" if quantity is Quantity.ENERGY else "2*"
+    case = case.changed("Joints/Bend.mo", "c = parameters", f"c = {factor}parameters")
+    (found,) = physics.compare(modelica_library, tmp_path, [case], damaged(tmp_path, WRONG_LAWS[quantity]))
+    seen = {each.element: each.agrees for each in found if each.quantity is quantity}
     assert seen == {
         f"joint {name}": name in ("rail", "stuck") for name in ("brush", "rail", "limp", "bend", "stuck", "slip")
     }

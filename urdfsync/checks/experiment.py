@@ -50,6 +50,8 @@ class Quantity(enum.StrEnum):
     """Gravity in Run and Test."""
     SWEEP = "way in Test"
     """Positions at which a drive of Test begins, turns back and ends."""
+    LAW = "law"
+    """By how much the effort of a friction or a spring differs from its equation."""
     ENERGY = "energy"
     """Fraction of the exchanged energy that a friction or a spring gives away, though it never got it."""
 
@@ -61,6 +63,7 @@ _TOLERANCES = {
     Quantity.GROUND: 1e-2,  # no reference, and stiff: 1 % of the depth makes 1 % of the force
     Quantity.SWEEP: 1e-3,  # integrated, with errors of up to 2e-5
     Quantity.ENERGY: 1e-2,  # integrated through jumps of dry friction
+    Quantity.LAW: 1e-6,
 }
 
 

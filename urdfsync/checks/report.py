@@ -29,6 +29,7 @@ _MOST = 3
 _STATED = {
     Quantity.WARNING: "the warning “{detail}” is missing, or comes elsewhere",
     Quantity.ENERGY: "{detail} gives energy away",
+    Quantity.LAW: "the effort of its {detail} is not that of its numbers",
 }
 """Sentences for differences that have no amount."""
 _FORCES = {Quantity.EFFORT: "", Quantity.REACTION: "reaction ", Quantity.GROUND: "ground "}

@@ -136,8 +136,8 @@ def test_laws_that_the_reference_does_not_have_are_named_and_made_simple() -> No
     assert one.options == Options()
     assert one.trials == experiment(ARM).trials
     assert one.unchecked[:2] == (
-        "friction of elbow (lugre), except for its energy: the compared package has a smooth one",
-        "drive of a slide, elbow (elastic), except for its energy: the compared package has a rigid one",
+        "friction of elbow (lugre) inside of the robot: the compared package has a smooth one",
+        "drive of a slide, elbow (elastic) inside of the robot: the compared package has a rigid one",
     )
     assert one.laws is not None
     assert [(each.element, each.detail) for each in one.laws.compared] == [

@@ -152,7 +152,7 @@ def _simplified(tree: KinematicTree, options: Options) -> Iterator[str]:
         if names:
             part, plain = ("drive", "rigid") if law in ("elastic", "saturated") else ("friction", "smooth")
             who = ", ".join(names) if len(names) <= 3 else f"{len(names)} joints"
-            yield f"{part} of {who} ({law}), except for its energy: the compared package has a {plain} one"
+            yield f"{part} of {who} ({law}) inside of the robot: the compared package has a {plain} one"
 
 
 def _not_compared(subject: Subject) -> Iterator[str]:
