@@ -379,6 +379,14 @@ def test_a_vector_in_another_order_is_found() -> None:
     assert ("slideDrive.v_ref", "commands[1]") in found
 
 
+def test_a_package_whose_record_was_deleted_is_compared() -> None:
+    def change(texts: Any) -> Any:
+        return {path: text for path, text in texts.items() if path != "BotParameters.mo"}
+
+    found = compare(URDF.encode(), change, inputs="vector").differences
+    assert {each.file for each in found} == {"BotRun.mo", "BotGeneric.mo"}
+
+
 OPTIONS: dict[str, dict[str, Any]] = {
     "commands": {"commands": {"shoulder": "effort", "slide": "position"}},
     "start": {"start": {"shoulder": 0.5}},

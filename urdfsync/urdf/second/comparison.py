@@ -14,7 +14,7 @@ from urdfsync.checks.experiment import Difference, Numbers, Sample
 from urdfsync.diagnostics import SourceError
 from urdfsync.domain import further_key
 from urdfsync.modelica.literals import string
-from urdfsync.modelica.values import Value, literals, read_values
+from urdfsync.modelica.values import Value, Values, literals, read_values
 from urdfsync.spelling import counted
 from urdfsync.urdf.second import models
 from urdfsync.urdf.second.models import WORDS, pairs
@@ -72,6 +72,7 @@ class _Comparison:
         self.read = {path: read_values(texts[path].decode(errors="replace")) for path in sorted(needed & texts.keys())}
         self.values = {path: each.values for path, each in self.read.items()}
         self.titles = {path: each.titles for path, each in self.read.items()}
+        self.record = self.read.get(f"{self.name}Parameters.mo", Values([], {}, []))
         self.begun = {value.path for value in self.values.get(f"{self.name}Start.mo", ())}
         """Components of joints that the start record has."""
         self.ends = _ends(self.values.get(f"{self.name}.mo", ()))
@@ -398,11 +399,8 @@ class _Comparison:
                 expected, fixed = {flanges[0]: "nothing"}, f"robot.{component}.fixedStart"
                 if is_driven:
                     expected = self._source(element, component, flanges, texts, is_run=is_run)
-                if (
-                    is_run
-                    and (fixed in texts or not element.in_loop)
-                    and (not is_driven or element.command == "effort")
-                ):
+                is_pushed = not is_driven or element.command == "effort"
+                if is_run and is_pushed and (fixed in texts or not element.in_loop):
                     expected[fixed] = "true"
             every[f"{kind} {name}"] = element.line, expected
         self._complete(file, texts, every)
@@ -411,8 +409,8 @@ class _Comparison:
         """Compare all that the bench of the generic robot states."""
         expected = pairs(models.GENERIC[self.sample.options.base], name=self.name)
         for kind, is_turning, reach in (("rotational", True, 1), ("translational", False, 0.1)):
-            words, titles = WORDS[is_turning], self.titles[f"{self.name}Parameters.mo"].values()
-            matches = [re.match(f'Number of joint "(.*)" in {kind}Axis', title) for title in titles]
+            words, titles = WORDS[is_turning], self.record.titles
+            matches = [re.match(f'Number of joint "(.*)" in {kind}Axis', title) for title in titles.values()]
             axes = [self.components.get(("joint", match[1]), "") for match in matches if match]
             if axes:
                 own = {"k": kind, "kind": kind.capitalize(), "n": len(axes), "reach": reach}
@@ -429,24 +427,25 @@ class _Comparison:
 
     def _shapes(self, link: Element, component: str) -> None:
         """Compare which shapes the model of a link draws, and which of them touch the ground with which numbers."""
+        options = self.sample.options
         file, record = (f"Links/{component[0].upper()}{component[1:]}{ending}.mo" for ending in ("", "Parameters"))
         if file not in self.read or record not in self.read:
             return
         expected, parts = dict[str, str](), {each.path for each in self.read[record].types}
-        is_drawn, touches = (getattr(self.sample.options, key) for key in ("visualizer", "base"))
+        is_standard, is_mobile = options.visualizer == "standard", options.base == "floating"
         for part in sorted(parts):
             if stated := link.values.get(f"{part.partition('_')[0]}.shape"):
                 kind, contact = stated.value.capitalize(), part.replace("collision", "contact")
-                if is_drawn == "standard":
+                if is_standard:
                     shown = "animation" if part == contact else "showCollisions"
                     expected |= pairs(models.SHAPE, part=part, kind=kind, shown=shown)
-                if part != contact and touches == "floating" and (kind != "Mesh" or f"{part}Corners" in parts):
+                if part != contact and is_mobile and (kind != "Mesh" or f"{part}Corners" in parts):
                     form = "Points" if kind == "Mesh" else kind
                     expected |= pairs(models.CONTACT, c=contact, kind=form, part=part)
                     expected |= {f"{contact}.corners": f"parameters.{part}Corners"} if kind == "Mesh" else {}
                     numbers = {n: field for n, field in models.SURFACE.items() if f"contact.{n}" in link.values}
                     expected |= {f"{contact}.{field}": f"parameters.contact.{n}" for n, field in numbers.items()}
-        own = re.compile(rf"(type of )?(contact{'|visual|collision' * (is_drawn == 'standard')})\d")
+        own = re.compile(rf"(type of )?(contact{'|visual|collision' * is_standard})\d")
         texts = {path: value for path, value in self._texts(file).items() if own.match(path)}
         self._complete(file, texts, {f"link {link.name}": (link.line, expected)})
 
@@ -495,8 +494,8 @@ class _Comparison:
         place = f"{component}_{words['qvf'[COMMANDS.index(command)]]}"
         start = f"{own}.{words['q']}_start" if command == "position" and component in self.begun else ""
         if self.sample.options.inputs == "vector":
-            chain, driven = self.read[f"{self.name}Parameters.mo"].types, self.titles[f"{self.name}Run.mo"]
-            order = [each.path for each in chain if f"{each.path}Drive" in driven]
+            driven = self.titles[f"{self.name}Run.mo"]
+            order = [each.path for each in self.record.types if f"{each.path}Drive" in driven]
             vectors = (value.path.partition("[")[0] for value in texts.values() if value.type.endswith("RealInput"))
             place = f"{next(vectors, '')}[{order.index(component) + 1 if component in order else 0}]"
             start = start or "0" * bool(self.begun)
