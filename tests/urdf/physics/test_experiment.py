@@ -140,9 +140,10 @@ def test_laws_that_the_reference_does_not_have_are_named_and_made_simple() -> No
         "drive of a slide, elbow (elastic) inside of the robot: the compared package has a rigid one",
     )
     assert one.laws is not None
-    assert [(each.element, each.detail) for each in one.laws.compared] == [
-        ("joint a slide", "spring"),
-        ("joint elbow", "lugre and spring"),
+    assert [(each.element, each.detail, each.quantity) for each in one.laws.compared] == [
+        (joint, laws, quantity)
+        for joint, laws in (("joint a slide", "spring"), ("joint elbow", "lugre and spring"))
+        for quantity in (Quantity.ENERGY, Quantity.LAW)
     ]
     assert experiment(ARM).laws is None
 

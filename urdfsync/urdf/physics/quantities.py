@@ -144,11 +144,12 @@ def sensors(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
             rows = [subject.reference.wrench(subject.states[t], again, parents[sensor.at]) for t in COMPARED]
         else:  # a camera or a laser scanner has only a frame
             again, frame = subject.second.sensors[sensor.name], f"{names.sensors[sensor.name]}.frame_b"
-            axes = (f"{frame}.R.T[{i},{j}]" for i in (1, 2, 3) for j in (1, 2, 3))
-            values = (*(f"{frame}.r_0[{i}]" for i in (1, 2, 3)), *axes)
-            links = [pose(*subject.solved[time].frame(again.parent)) @ origin(again) for time in COMPARED]
-            what = Quantity.READING, f"sensor {sensor.name}", "", values, COMPARED, Part.SENSORS, "frame"
-            yield Compared(*what), [[*link[:3, 3], *link[:3, :3].T.ravel()] for link in links]
+            place = tuple(f"{frame}.r_0[{i}]" for i in (1, 2, 3))
+            axes = tuple(f"{frame}.R.T[{i},{j}]" for i in (1, 2, 3) for j in (1, 2, 3))
+            at = [pose(*subject.solved[time].frame(again.parent)) @ origin(again) for time in COMPARED]
+            what, when = f"sensor {sensor.name}", (COMPARED, Part.SENSORS)
+            yield Compared(Quantity.POSITION, what, "m", place, *when), [matrix[:3, 3] for matrix in at]
+            yield Compared(Quantity.ORIENTATION, what, "", axes, *when), [matrix[:3, :3].T.ravel() for matrix in at]
             continue
         for k, (output, modelica_unit, _) in enumerate(outputs):
             values = tuple(f"{names.sensors[sensor.name]}.{output}[{i}]" for i in (1, 2, 3))
