@@ -27,19 +27,21 @@ GEAR = (
     "</actuator></transmission>"
 )
 IMU = '<gazebo reference="hand"><sensor name="imu" type="imu"><pose>0.1 0.2 -0.3 0.4 -0.5 0.6</pose></sensor></gazebo>'
+EYE = IMU.replace("imu", "camera")
 LOAD = '<gazebo reference="elbow"><sensor name="load" type="force_torque"/></gazebo>' + "".join(
     f'<gazebo reference="{at}"><sensor name="{at} {frame}" type="force_torque"><pose>0 0 0 0.3 0.2 -0.1</pose>'
     f"<force_torque><frame>{frame}</frame></force_torque></sensor></gazebo>"
     for at in ("shoulder", "grip")
     for frame in ("parent", "sensor")
 )
+SPEED_UP = limit(0.2, 2, 3, 90).replace("/>", ' drake:acceleration="5"/>')
 SOURCE = robot(
     *links(base=4.0, upper=2.5, hand=0.7),
     link("finger", 0.3),
-    joint("shoulder", "revolute", "base", "upper", axis="0 1 0", inside=[limit(0.2, 2, 3, 90), dynamics(0.5, 0.4)]),
+    joint("shoulder", "revolute", "base", "upper", axis="0 1 0", inside=[SPEED_UP, dynamics(0.5, 0.4)]),
     joint("elbow", "continuous", "upper", "hand", axis="0.3 -0.4 1.2", inside=[dynamics(0.1, 0.2)]),
     joint("grip", "prismatic", "hand", "finger", axis="0 1 0", inside=[mimic("shoulder", 0.1, 0.02), limit(-1, 1)]),
-    *(GEAR, IMU, LOAD),
+    *(GEAR, IMU, EYE, LOAD),
 )
 
 
@@ -89,7 +91,10 @@ PACKAGE: Mapping[str, Fault] = {
         W, "Arm.mo", '".shoulder (joint " + shoulder.parameters', '".shoulder (joint " + elbow.parameters'
     ),
     "height of the stance": Fault(G, "CartStance.mo", "height = 0.1", "height = 0.10001"),
-    "friction of a link": Fault(G, "Links/LeftParameters.mo", "mu = 0.5", "mu = 0.6"),
+    "friction of a link": Fault(G, "Links/Left_link_1c47eeParameters.mo", "mu = 0.5", "mu = 0.6"),
+    "limit of the acceleration while a joint slows down": Fault(
+        W, SHOULDER, "revolute.a*revolute.w < 0", "revolute.a*revolute.w >= 0"
+    ),
     "limit that is read wrongly": Fault(W, "Joints/ShoulderParameters.mo", "upper = 2", "upper = 2.1"),
 }
 """In the text that a template gives, as a fault of the template, of the reader or of a number of the user's would."""
@@ -100,6 +105,11 @@ LIBRARY: Mapping[str, Fault] = {
     "steepness of friction": Fault(L, "Friction/Rotational.mo", "tanh(0.5*parameters", "tanh(parameters"),
     "sign of damping": Fault(L, "Friction/Rotational.mo", "parameters.damping*w", "parameters.damping*abs(w)"),
     "effort of a mimic": Fault(B, "Couplings/RotationalToTranslational.mo", "leader.tau + ", "leader.tau - "),
+    "frame of a camera": Fault(S, "Sensors/Camera.mo", "connect(origin.frame_b, frame_b)", "connect(frame_a, frame_b)"),
+    "limit of the acceleration alone": Fault(
+        W, "Records/RotationalLimits.mo", "deceleration = acceleration", "deceleration = Modelica.Constants.inf"
+    ),
+    "offset of a motor": Fault(L, "Drives/RotationalGear.mo", "- parameters.offset", "+ parameters.offset"),
     "gravity in an IMU": Fault(S, "Sensors/Imu.mo", "a = acceleration - ", "a = acceleration + "),
     "gravity of the bench": Fault(R, "Robots/PartialBench.mo", "n = {0, 0, -1}", "n = {0, 0, 1}"),
     "where a joint begins": Fault(F, "Functions/closestToZero.mo", "min(max(", "max(max("),
@@ -138,6 +148,9 @@ FLOATING: Mapping[str, Fault] = {
     "frame of a free base's speed": Fault(
         F, "Robots/FreeBase.mo", "w_rel_a_start = w_start", "w_rel_a_start = -w_start"
     ),
+    "height of a mobile bench": Fault(F, "Robots/PartialMobileBench.mo", "{0, 0, stance.height}", "{0, 0, 0}"),
+    "weight on the ground of a bench": Fault(R, "Robots/PartialMobileBench.mo", "ground(load = load)", "ground"),
+    "corners of a box": Fault(G, "Contacts/Functions/box.mo", "0.5*y*size[2]", "0.5*y*size[1]"),
     "sign of the ground's friction": Fault(G, POINT, "f_n*(n - friction", "f_n*(n + friction"),
     "ground that pulls": Fault(
         G, POINT, "max(0, stiffness*p*max(0, 1 - damping*v_n) - viscosity*v_n)", "stiffness*p*(1 - damping*v_n)"
@@ -156,7 +169,6 @@ LOOP: Mapping[str, Fault] = {
     "frame of the other end": Fault(B, "Joints/Yoke.mo", "r = parameters.childOrigin.xyz", "r = parameters.origin.xyz"),
     "axis of a loop": Fault(B, "Joints/YokeParameters.mo", "rotations = [0, 0, 1]", "rotations = [0.28, 0, 0.96]"),
     "torque of a loop": Fault(Part.LOOPS, "Joints/Yoke.mo", "t = constraint.t", "t = -constraint.t"),
-    "start of a dependent joint": Fault(Part.LOOPS, "ArmStart.mo", "turn_x = 0.06", "turn_x = 3.06"),
 }
 HELD: Mapping[str, Fault] = {
     "force of a loop": Fault(B, "Loops/Constraint.mo", "frame_a.f = f;", "frame_a.f = -f;"),
@@ -169,6 +181,8 @@ def prepared(fault: Fault, name: str, **options: str) -> physics.Case:
     """The robot, and the one simulation in which a fault shows."""
     trial = "free motion" if fault.part in (Part.FREE_MOTION, Part.BENCHES) else "motion"
     source = CART if fault.part is Part.CONTACTS else SOURCE
+    if fault.file.endswith("box.mo"):
+        source = source.replace('sphere radius="0.02"', 'box size="0.1 0.3 0.04"')
     if fault in (*LOOP.values(), *HELD.values()):
         return physics.prepare(to_urdf(UNIVERSAL).encode(), name, **to_options(UNIVERSAL)).only(trial)
     return physics.prepare(source.encode(), name, **options).only(trial)
@@ -210,7 +224,8 @@ def test_a_fault_in_the_library_is_seen(name: str, modelica_library: Path, tmp_p
     base = "floating" if name in FLOATING else "fixed"
     fault = {**LIBRARY, **FLOATING, **HELD}[name]
     own = damaged(tmp_path, [(fault.file, fault.old, fault.new)])
-    (found,) = physics.compare(modelica_library, tmp_path, [prepared(fault, "Bot", base=base)], own)
+    options = {"base": base, "drives": "motor" if fault.file.startswith("Drives/") else "joint"}
+    (found,) = physics.compare(modelica_library, tmp_path, [prepared(fault, "Bot", **options)], own)
     assert is_seen(fault, found)
 
 
@@ -255,24 +270,36 @@ def test_faults_of_ground_and_test_are_seen_each_by_itself(name: str, modelica_l
     assert faults == {(G, Quantity.GROUND, "robot", "N·m"), *turning, (R, Quantity.SWEEP, "joint mast", "m")}
 
 
-def test_laws_that_give_energy_away_are_seen_beside_sound_ones(modelica_library: Path, tmp_path: Path) -> None:
-    """The spring of MSL with a negative stiffness is a fault of the template, the others of the library."""
+LUGRE, SPRING, STICTION = (
+    *("Friction/RotationalLuGre.mo", "Drives/RotationalSpring.mo"),
+    "Friction/TranslationalStiction.mo",
+)
+WRONG_LAWS: Mapping[Quantity, Sequence[tuple[str, str, str]]] = {
+    Quantity.ENERGY: [
+        (LUGRE, "damping*w + ", "damping*w - "),
+        (SPRING, "tau = -Urdf", "tau = Urdf"),
+        (STICTION, "else -parameters.friction", "else parameters.friction"),
+    ],
+    Quantity.LAW: [
+        (LUGRE, "parameters.friction - 1)", "parameters.friction + 1)"),
+        (SPRING, "-parameters.stiffness", "-0.5*parameters.stiffness"),
+        (STICTION, "f0_max = parameters.breakaway", "f0_max = 2*parameters.breakaway"),
+    ],
+}
+
+
+@pytest.mark.parametrize("quantity", WRONG_LAWS)
+def test_wrong_laws_are_seen_beside_sound_ones(quantity: Quantity, modelica_library: Path, tmp_path: Path) -> None:
+    """The spring of MSL with another stiffness is a fault of the template, the others of the library."""
     case = physics.prepare(LAWS.encode(), "Bot", **CHOSEN)
     laws = case.experiment.laws
     assert laws is not None
     package = generate(LAWS.encode(), Target("Bot", "Bot"), **CHOSEN)
     case = physics.Case(msgspec.structs.replace(case.experiment, trials=(laws,)), package)
-    own = damaged(
-        tmp_path,
-        [
-            ("Friction/RotationalLuGre.mo", "damping*w + ", "damping*w - "),
-            ("Drives/RotationalSpring.mo", "tau = -Urdf", "tau = Urdf"),
-            ("Friction/TranslationalStiction.mo", "else -parameters.friction", "else parameters.friction"),
-        ],
-    )
-    case = case.changed("Joints/Bend.mo", "c = parameters", "c = -parameters")
-    (found,) = physics.compare(modelica_library, tmp_path, [case], own)
-    seen = {each.element: each.agrees for each in found if each.quantity is Quantity.ENERGY}
+    factor = "-" if quantity is Quantity.ENERGY else "2*"
+    case = case.changed("Joints/Bend.mo", "c = parameters", f"c = {factor}parameters")
+    (found,) = physics.compare(modelica_library, tmp_path, [case], damaged(tmp_path, WRONG_LAWS[quantity]))
+    seen = {each.element: each.agrees for each in found if each.quantity is quantity}
     assert seen == {
         f"joint {name}": name in ("rail", "stuck") for name in ("brush", "rail", "limp", "bend", "stuck", "slip")
     }

@@ -48,10 +48,10 @@ class Quantity(enum.StrEnum):
     """Vector from one frame of a loop to the other."""
     GRAVITY = "gravity"
     """Gravity in Run and Test."""
-    START = "start"
-    """Start position of a joint, if a loop determines it."""
     SWEEP = "way in Test"
     """Positions at which a drive of Test begins, turns back and ends."""
+    LAW = "law"
+    """By how much the effort of a friction or a spring differs from its equation."""
     ENERGY = "energy"
     """Fraction of the exchanged energy that a friction or a spring gives away, though it never got it."""
 
@@ -61,9 +61,9 @@ TOLERANCE = 1e-10
 _TOLERANCES = {
     Quantity.ACCELERATION: 1e-7,  # solving equations for them loses digits
     Quantity.GROUND: 1e-2,  # no reference, and stiff: 1 % of the depth makes 1 % of the force
-    Quantity.START: 1e-7,  # loops are closed by iteration
     Quantity.SWEEP: 1e-3,  # integrated, with errors of up to 2e-5
     Quantity.ENERGY: 1e-2,  # integrated through jumps of dry friction
+    Quantity.LAW: 1e-6,
 }
 
 

@@ -29,6 +29,7 @@ _MOST = 3
 _STATED = {
     Quantity.WARNING: "the warning “{detail}” is missing, or comes elsewhere",
     Quantity.ENERGY: "{detail} gives energy away",
+    Quantity.LAW: "the effort of its {detail} is not that of its numbers",
 }
 """Sentences for differences that have no amount."""
 _FORCES = {Quantity.EFFORT: "", Quantity.REACTION: "reaction ", Quantity.GROUND: "ground "}
@@ -64,13 +65,16 @@ def _numbers(result: CheckResult) -> Iterator[tuple[str, str]]:
     """Yield the numbers that differ from the source, then those that the user changed: the first ones of each file."""
     numbers, advice = result.numbers or Numbers(), _ADVICE
     for each, more in _by_file(numbers.differences):
-        source = f"{each.source}:{each.source_line}"
-        fault = f"{each.quantity} of {each.element} is {each.given}, and {each.expected} in {source}"
+        fault = f"{each.quantity} of {each.element} is {each.given}, and {each.expected} in {_place(each)}"
         yield f"{result.folder}/{each.file}:{each.line}: {fault}{more}{advice}", "bold red"
         advice = ""
     for each, more in _by_file(numbers.edits):
-        change = f"changes {each.quantity} of {each.element}: {each.expected} in {each.source}:{each.source_line}"
+        change = f"changes {each.quantity} of {each.element}: {each.expected} in {_place(each)}"
         yield f"{each.file} (edited) {change}, {each.given} in line {each.line}{more}", _edit_style(result)
+
+
+def _place(each: Difference) -> str:
+    return f"{each.source}:{each.source_line}" if each.source_line else each.source
 
 
 def _by_file(differences: Iterable[Difference]) -> Iterator[tuple[Difference, str]]:
@@ -253,8 +257,6 @@ def _amount(deviation: Deviation) -> tuple[str, str]:
         return f"{what} “{deviation.detail}”", "more than nothing"
     if deviation.quantity in _FORCES:
         what = f"{_FORCES[deviation.quantity]}{'force' if unit == 'N' else 'torque'}"
-    elif deviation.quantity is Quantity.START:
-        what = f"start of joint {deviation.detail}"
     if deviation.quantity is Quantity.ORIENTATION:
         value, unit = math.degrees(2 * math.asin(min(value / 2, 1))), "°"
     elif unit == "m":

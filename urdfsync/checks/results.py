@@ -20,7 +20,7 @@ MOST_SINGLE_EDITS = 6
 """The most edited files that are tried one by one; the effects of more are measured together."""
 
 _FIRST = (
-    (Quantity.GRAVITY, Quantity.START),
+    (Quantity.GRAVITY,),
     (Quantity.POSITION, Quantity.ORIENTATION),
     (Quantity.EFFORT, Quantity.REACTION),
     (Quantity.MASS, Quantity.CENTRE),

@@ -123,8 +123,9 @@ def _compare_numbers(checks: Checks, package: RobotPackage, result: CheckResult)
     tell(f"{package.robot.name}: reading the source again")
     source, result.edited = package.generation.inputs.source, package.changed
     on_disk = package.on_disk if package.in_step else package.generated
-    # the user's templates may connect Run and Test in another way
-    hidden = [f"{name}.mo" for name in package.models[1:] if package.robot.templates is not None]
+    models = {path for path, text in package.generated.items() if b"\nmodel " in text} - {f"{package.models[0]}.mo"}
+    # the user's templates may write other models than that of the robot in another way
+    hidden = models if package.robot.templates is not None else set()
     packages = [{path: texts[path] for path in texts.keys() - hidden} for texts in (package.generated, on_disk)]
     try:
         generated, present = checks.numbers(_sample(package), *packages)

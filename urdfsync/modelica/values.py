@@ -34,23 +34,25 @@ class Value(NamedTuple):
 
 
 class Values(NamedTuple):
-    """The values of a class in their order, and the descriptions of its components."""
+    """The values of a class in their order, with the descriptions and the types of its components."""
 
-    values: Sequence[Value]
+    values: list[Value]
     titles: dict[str, str]
+    types: list[Value]
+    """The type of each component, and the base classes with the path `extends`."""
 
 
 @functools.lru_cache(maxsize=4096)  # most texts on disk are the generated ones
 def read_values(text: str) -> Values:
     """Return the values in a text that is one class without faults of syntax."""
-    values, titles, statement, depth = list[Value](), dict[str, str](), list[Token](), 0
+    read, statement, depth = Values([], {}, []), list[Token](), 0
     for token in lex(text)[0]:
         depth += _DEPTH.get(token.text, 0)
         statement.append(token)
         if token.text == ";" and depth == 0:
-            values += _of_statement(text, statement, titles)
+            read.values.extend(_of_statement(text, statement, read))
             statement = []
-    return Values(values, titles)
+    return read
 
 
 def literals(text: str) -> tuple[float, ...] | str | None:
@@ -66,8 +68,8 @@ def literals(text: str) -> tuple[float, ...] | str | None:
     return tuple(float(re.sub(r"\s|Modelica\.Constants\.", "", number)) + 0.0 for number in re.findall(_NUMBER, text))
 
 
-def _of_statement(text: str, tokens: list[Token], titles: dict[str, str]) -> Iterator[Value]:
-    """Yield the values of an extends clause, a component or an equation; remember the description of a component."""
+def _of_statement(text: str, tokens: list[Token], read: Values) -> Iterator[Value]:
+    """Yield the values of an extends clause, a component or an equation; add its description and type to `read`."""
     while tokens[0].text in _SECTIONS:
         del tokens[0]
     if tokens[0].text in _CLASSES:
@@ -82,9 +84,11 @@ def _of_statement(text: str, tokens: list[Token], titles: dict[str, str]) -> Ite
         return
     at = next(k for k, word in enumerate(words) if word in _ENDS or word.startswith('"'))
     last = 0 if words[0] == "extends" else at - 1
-    is_equation = last > 0 and words[last - 1] == "."
+    is_equation = words[0] != "extends" and (not last or words[last - 1] == ".")
     path = "".join(words[:at] if is_equation else words[last:at] if last else ())
     type_ = "equation" if is_equation else "".join(words[:last] if last else words[1:at])
+    if not is_equation:
+        read.types.append(Value(path or "extends", "", type_, _line(text, tokens[0])))
     if words[at] == "[":
         at = _close(words, at) + 1
     if words[at] == "(":
@@ -95,7 +99,7 @@ def _of_statement(text: str, tokens: list[Token], titles: dict[str, str]) -> Ite
         yield Value(path, type_, text[tokens[at + 1].start : tokens[end].start].strip(), _line(text, tokens[at + 1]))
         at = end
     if words[at].startswith('"'):
-        titles[path] = str(literals(words[at]))
+        read.titles[path] = str(literals(words[at]))
 
 
 def _modifiers(text: str, tokens: Sequence[Token], at: int, path: str, type_: str) -> Iterator[Value]:
@@ -108,6 +112,10 @@ def _modifiers(text: str, tokens: Sequence[Token], at: int, path: str, type_: st
         while end < stop and (words[end] != "," or depth):
             depth += _DEPTH.get(words[end], 0)
             end += 1
+        if words[at] == "redeclare" and not {"(", "="} & {*words[at:end]}:  # its text is the type
+            *type_words, name = (word for word in words[at + 1 : end] if word != "parameter")
+            place = f"{path}.{name}" if path else name
+            yield Value(place, type_, "".join(type_words), _line(text, tokens[at]))
         while words[at] in ("each", "final", "redeclare", "replaceable"):
             at += 1
         inner = f"{path}.{words[at]}" if path else words[at]

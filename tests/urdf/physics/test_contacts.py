@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 from support.urdfs import parsed, robot
 
@@ -53,6 +54,16 @@ def test_the_ground_brakes_resists_and_never_pulls() -> None:
     assert feet.wrench(slide=(30, 40)) == pytest.approx([-90, -120, WEIGHT, -12, 9, 0])
     assert feet.wrench(rise=-0.01)[2] > 1.3 * WEIGHT
     assert feet.wrench(rise=1) == pytest.approx([0] * 6)
+
+
+def test_a_tilted_box_stands_on_an_edge() -> None:
+    feet = standing('box size="0.6 0.4 0.2" at 0 0 0')
+    assert feet is not None
+    tilted = np.array([[0.96, 0, 0.28], [0, 1, 0], [-0.28, 0, 0.96]])
+    wrench = feet.wrench(axes=tilted)
+    depth = DEPTH / 4 - 0.1 + 0.3 * 0.28 + 0.1 * 0.96
+    assert tilted @ wrench[:3] == pytest.approx([0, 0, 2 * WEIGHT * depth / DEPTH], abs=1e-9)
+    assert wrench[3:] == pytest.approx(np.cross([0.3, 0, -0.1], wrench[:3]))
 
 
 def test_a_force_beside_the_origin_turns_the_robot() -> None:

@@ -38,6 +38,9 @@ def test_an_axis_is_just_within_and_just_beyond_its_limits() -> None:
     assert places == pytest.approx([-1.002, -0.998, 2.998, 3.002])
     speeds = [abs(found[instant].speed) for instant in (Instant.BELOW, Instant.LOW, Instant.HIGH, Instant.ABOVE)]
     assert speeds == pytest.approx([2.002, 1.998, 1.998, 2.002])
+    found = axis_courses(elbow(lower=-1.0, upper=3.0, acceleration=4.0, deceleration=5.0), 0.2)
+    gains = [found[instant].acceleration for instant in (Instant.BELOW, Instant.LOW, Instant.HIGH, Instant.ABOVE)]
+    assert gains == pytest.approx([-4.004, -3.996, -4.995, -5.005])
     strained = axis_courses(elbow(lower=-1.0, upper=3.0), 0.2, {Instant.LOADED: 7.0})
     assert strained[Instant.LOADED] == (1.0, 0.0, 7.0)
     assert strained[Instant.STANDING :] == (Course(0.2, 0.0, 0.0),) * 4

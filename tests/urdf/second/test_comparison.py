@@ -250,6 +250,32 @@ TEMPLATES = {
     "a sensor's output of another sensor": ("BotRun.mo", "= robot.imu.a", "= robot.imu.w", "imu_a"),
     "a Test that begins elsewhere": ("BotTest.mo", "robot.slide.s_start", "robot.slide.s_min", "slideDrive.s_start"),
     "a Test within other limits": ("BotTest.mo", "robot.slide.s_max", "3*robot.slide.s_max", "slideDrive.s_max"),
+    "an input in degrees": (
+        "BotRun.mo", 'shoulder_phi(unit = "rad")', 'shoulder_phi(unit = "deg")', "shoulder_phi.unit"),
+    "a slow filter": ("BotRun.mo", "exact = false", "exact = false, f_crit = 0.5", "shoulderDrive.f_crit"),
+    "a source of another kind": ("BotTest.mo", "Drives.RotationalSweep", "Drives.OtherSweep", "type of shoulderDrive"),
+    "a drive that begins at zero": (
+        "BotRun.mo", "s(start = robot.slide.s_start)", "s(start = 0)", "slideDrive.s.start"),
+    "a second force at an axis": (
+        "BotRun.mo", "\nequation\n", "\nequation\n  connect(brake.flange, robot.slideAxis);\n", "robot.slideAxis"),
+    "no output of a sensor": ("BotRun.mo", "imu_w[3]", "imu_v[3]", "imu_w"),
+    "a bench without ground": ("BotTest.mo", "PartialMobileBench(", "PartialBench(", "extends"),
+    "the ground for another weight": ("BotRun.mo", "load = robot.m", "load = 10*robot.m", "load"),
+    "another stance": (
+        "BotTest.mo", "redeclare BotStance stance", "redeclare UrdfSync.Records.Stance stance", "stance"),
+    "another start of the generic robot": ("BotGeneric.mo", "startPositions.slide", "0.3", "robot.s_start"),
+    "another way of the generic robot": ("BotGeneric.mo", "reach = 1)", "reach = 10)", "rotationalSweep.reach"),
+    "the frame of another link": ("Bot.mo", "tip.frame_a, tipFrame", "arm.frame_a, tipFrame", "frame"),
+    "a visual with the numbers of another": (
+        "Links/Arm.mo", "parameters = parameters.visual2", "parameters = parameters.visual1", "visual2.parameters"),
+    "a collision that is always drawn": (
+        "Links/Arm.mo", "animation = showCollisions", "animation = animation", "collision1.animation"),
+    "a contact without friction": (
+        "Links/Arm.mo", "friction = parameters.contact.mu", "friction = 0", "contact1.friction"),
+    "a contact without damping": ("Links/Arm.mo", "viscosity = parameters.contact.kd,", "", "contact1.viscosity"),
+    "a contact of another shape": ("Links/Arm.mo", "Contacts.Box", "Contacts.Sphere", "type of contact1"),
+    "a shape of another kind": (
+        "Links/ArmParameters.mo", "Records.Box visual1", "Records.Sphere visual1", "visual1.shape"),
     "another gravity": ("BotTest.mo", "PartialMobileBench(", "PartialMobileBench(world(g = 1), ", "world.g"),
     "two fields of a record exchanged": ("Joints/ShoulderParameters.mo", "damping = 0.5", "damping = 0.2",
                                          "dynamics.damping"),
@@ -332,9 +358,33 @@ def test_another_joint_that_drives_a_loop_is_found() -> None:
     wrong = tuple(replace(joint, actuated=joint.name == "rocker_pivot" or None) for joint in own.robot.joints)
     texts = generate_robot(replace(own.robot, joints=wrong), BOT, **options).texts
     found = of_package(own, content, texts).differences
-    assert {(each.element, each.quantity, each.given) for each in found if each.file == "BotRun.mo"} == {
-        ("joint rocker_pivot", "robot.rocker_pivotAxis", "rocker_pivotDrive.flange")
-    }
+    first = next(each for each in found if each.file == "BotRun.mo")
+    assert (first.element, first.quantity) == ("joint rocker_pivot", "robot.rocker_pivotAxis")
+    assert first.given == "rocker_pivotDrive.flange"
+
+
+def test_a_vector_in_another_order_is_found() -> None:
+    """Run has its drives in this order, too."""
+
+    def change(texts: Any) -> Any:
+        parts = texts["BotRun.mo"].split("\n\n")
+        first, second = (k for k, part in enumerate(parts) if " commands[" not in part and ".Sources." in part)
+        parts[first], parts[second] = parts[second], parts[first]
+        text = "\n\n".join(parts).replace('"rad", "m/s"', '"m/s", "rad"').replace("commands[1]", "commands[3]")
+        return {**texts, "BotRun.mo": text.replace("commands[2]", "commands[1]").replace("commands[3]", "commands[2]")}
+
+    options: Any = {"inputs": "vector", "start": {}, "base": "floating"}
+    assert compare(URDF.encode(), **options).differences == ()
+    found = {(each.quantity, each.given) for each in compare(URDF.encode(), change, **options).differences}
+    assert ("slideDrive.v_ref", "commands[1]") in found
+
+
+def test_a_package_whose_record_was_deleted_is_compared() -> None:
+    def change(texts: Any) -> Any:
+        return {path: text for path, text in texts.items() if path != "BotParameters.mo"}
+
+    found = compare(URDF.encode(), change, inputs="vector").differences
+    assert {each.file for each in found} == {"BotRun.mo", "BotGeneric.mo"}
 
 
 OPTIONS: dict[str, dict[str, Any]] = {

@@ -22,6 +22,7 @@ from urdfsync.urdf.robot import Box, Capsule, Contact, Cylinder, Sphere
 GRAVITY = 9.80665
 PENETRATION, DAMPING_RATIO, FRICTION, SLIP_SPEED = 3e-4, 2.0, 0.8, 1e-3
 """The ground's numbers for links that state none."""
+_LEVEL = np.eye(3)
 _UPRIGHT, _TILTED = 1e-3, 0.15
 """Sines of a cylinder's tilt: between them, the contact moves from its end to its rim."""
 
@@ -30,7 +31,7 @@ class Point(NamedTuple):
     """A point of a link that may touch the ground."""
 
     place: Array
-    """Position in the root link's frame, raised by the link's `min_depth`, at which there is no force yet."""
+    """Vector from the root link's origin, raised by the link's `min_depth`, at which there is no force yet."""
     share: float
     """Weight of this point among the points of its shape."""
     stiffness: float
@@ -42,15 +43,21 @@ class Point(NamedTuple):
 class Stand(NamedTuple):
     """A robot of a given weight on the points that carry it."""
 
-    points: Sequence[Point]
+    tree: KinematicTree
+    imports: Mapping[str, Import]
+    weight: float
     lowest: float
+    """Height of the lowest point above the root link's origin."""
     depth: float
     """Depth of the lowest point at which the ground carries the weight."""
 
-    def wrench(self, rise: float = 0.0, slide: Sequence[float] = (0.0, 0.0)) -> Array:
-        """Return the ground's force, and its torque about the root link's origin, while the robot rises and slides."""
+    def wrench(self, rise: float = 0.0, slide: Sequence[float] = (0.0, 0.0), axes: Array = _LEVEL) -> Array:
+        """Return the ground's force, and its torque about the root link's origin, while the robot rises and slides.
+
+        `axes` are those of the root link in the world; the result is resolved in them.
+        """
         total, speed = np.zeros(6), math.hypot(*slide)
-        for point in self.points:
+        for point in _points(self.tree, self.imports, self.weight, axes):
             depth = max(0.0, self.depth + self.lowest - point.place[2])
             spring = point.stiffness * depth * max(0.0, 1 - point.damping * rise)
             normal = point.share * max(0.0, spring - (point.contact.kd or 0.0) * rise) if depth else 0.0
@@ -58,13 +65,13 @@ class Stand(NamedTuple):
             slip = SLIP_SPEED * max(1.0, mu / FRICTION)
             force = np.array([*(-mu * normal / math.hypot(speed, slip) * np.array(slide)), normal])
             lever = point.place - [0, 0, point.contact.min_depth or 0.0]
-            total += [*force, *np.cross(lever, force)]
+            total += [*axes.T @ force, *axes.T @ np.cross(lever, force)]
         return total
 
 
 def stand(tree: KinematicTree, imports: Mapping[str, Import], weight: float) -> Stand | None:
     """Return how a robot stands; None if none of its shapes can touch the ground, or it weighs nothing."""
-    points = list(_points(tree, imports, weight)) if 0 < weight < math.inf else []
+    points = list(_points(tree, imports, weight, _LEVEL)) if 0 < weight < math.inf else []
     if not points:
         return None
     lowest = min(float(point.place[2]) for point in points)
@@ -76,24 +83,24 @@ def stand(tree: KinematicTree, imports: Mapping[str, Import], weight: float) -> 
         stiffness += point.share * point.stiffness
         moment += point.share * point.stiffness * height
     depth = (weight + moment) / stiffness if stiffness else math.inf
-    return Stand(points, lowest, depth) if math.isfinite(lowest) and math.isfinite(depth) else None
+    return Stand(tree, imports, weight, lowest, depth) if math.isfinite(lowest) and math.isfinite(depth) else None
 
 
-def _points(tree: KinematicTree, imports: Mapping[str, Import], weight: float) -> Iterator[Point]:
+def _points(tree: KinematicTree, imports: Mapping[str, Import], weight: float, root: Array) -> Iterator[Point]:
     poses = link_poses(tree, start_positions(tree))
     for link in tree.links:
         contact = link.contact or Contact()
         stiffness = weight / PENETRATION if contact.kp is None else contact.kp
         damping = 2 * DAMPING_RATIO / math.sqrt(GRAVITY * weight / stiffness) if stiffness > 0 else 0.0
         for origin, shape in touching(link, imports):
-            axes, place = map(np.array, compose(poses[link.name], pose(origin)))
+            axes, place = (root @ part for part in map(np.array, compose(poses[link.name], pose(origin))))
             for offset, share in _lowest(axes, shape):
                 raised = place + offset + [0, 0, contact.min_depth or 0.0]
                 yield Point(raised, share, stiffness, damping, contact)
 
 
 def _lowest(axes: Array, shape: Any) -> Iterable[tuple[Array, float]]:
-    """Yield the touching points of a shape, with weights: vectors from its origin, in the root link's axes."""
+    """Yield the touching points of a shape, with weights: vectors from its origin, in the world's axes."""
     match shape:
         case Box(size=size):
             corners = np.array(np.meshgrid(*[(-edge / 2, edge / 2) for edge in size])).reshape(3, -1).T

@@ -80,9 +80,10 @@ def _trials(subject: Subject, approach: str, step: float | None) -> Iterator[Tri
     limits = list[quantities.Pair]()
     if approach == "package":
         pairs += quantities.sensors(subject, names)
+        pairs += quantities.motors(subject)
         pairs += quantities.ground(subject)
         pairs += quantities.loops(subject, names)
-        pairs += quantities.starts(subject)
+        pairs += quantities.sweeps(subject)
         limits += quantities.limits(subject)
     needed, optional = ([v for compared, _ in some for v in compared.values] for some in (pairs, limits))
     moving = probe.moving_probe(subject, names, needed, optional, step or 1.0)
@@ -126,6 +127,8 @@ def _free(subject: Subject, names: RobotVariables, name: str) -> Iterator[Trial]
         root = f"link {subject.tree.links[0].name}"
         compared = Compared(Quantity.ACCELERATION, root, "m/s²", gained, time, Part.FREE_MOTION)
         pairs.append((compared, [reference.base_gain(state, gains)]))
+        weight = Compared(Quantity.GROUND, "bench", "N", ("weight",), time, Part.BENCHES)
+        pairs.append((weight, [[motion.BENCH_LOAD]]))
     gravity = tuple(f"gravity[{i}]" for i in (1, 2, 3))
     bench = Compared(Quantity.GRAVITY, "bench", "m/s²", gravity, time, Part.BENCHES)
     pairs.append((bench, [(0.0, 0.0, -motion.BENCH_GRAVITY)]))
@@ -149,7 +152,7 @@ def _simplified(tree: KinematicTree, options: Options) -> Iterator[str]:
         if names:
             part, plain = ("drive", "rigid") if law in ("elastic", "saturated") else ("friction", "smooth")
             who = ", ".join(names) if len(names) <= 3 else f"{len(names)} joints"
-            yield f"{part} of {who} ({law}), except for its energy: the compared package has a {plain} one"
+            yield f"{part} of {who} ({law}) inside of the robot: the compared package has a {plain} one"
 
 
 def _not_compared(subject: Subject) -> Iterator[str]:
@@ -159,6 +162,7 @@ def _not_compared(subject: Subject) -> Iterator[str]:
     if in_loops:
         yield f"the limits of joints in loops beyond where {', '.join(in_loops)} move{'s' * (len(in_loops) == 1)} them"
     yield "the motion of Run, and models around the robot (they are only compiled)"
+    yield "how shapes are drawn"
     if axes > _MOST_AXES:
         yield f"free motion of more than {_MOST_AXES} axes, which takes a compiler too much memory"
     if "record" in options.approach and subject.tree.loops:
@@ -166,7 +170,7 @@ def _not_compared(subject: Subject) -> Iterator[str]:
     elif "record" in options.approach and obstacles(subject.tree.joints):
         yield "the record: it has no tables for robots with ball joints"
     elif "record" in options.approach:
-        yield "limits, sensors and contacts of the generic robot"
+        yield "limits, sensors, contacts, sweeps and `frame_b` of the generic robot"
 
 
 def _robot(reading: RobotReading) -> Robot:

@@ -2,7 +2,8 @@
 
 One joint of each kind in the package stands alone in the world and carries a body. Its axis moves to and fro from a
 relaxed start. Up to any time, the axis must have taken in at least zero energy: friction loses some, springs and bodies
-hand back what they got (passivity). A law with the wrong sign hands out more.
+hand back what they got (passivity). A law with the wrong sign hands out more. Its effort must also be that of its
+numbers: the documented equations are written here a second time.
 """
 
 from __future__ import annotations
@@ -46,8 +47,9 @@ def laws_trial(tree: KinematicTree, target: Target, options: Options) -> Trial |
             *(f"world.frame_b, joint{k}.frame_a", f"joint{k}.frame_b, body{k}.frame_a"),
             f"stroke{k}.flange, joint{k}.axis",
         ]
-        what = Quantity.ENERGY, f"joint {joint.name}", "", (f"stroke{k}.given",), times, Part.LOSSES, laws
-        compared.append(Compared(*what))
+        declarations.append(f"Real law{k} = {' + '.join(f'abs({term})' for term in _errors(k, joint, laws))}")
+        for quantity, value in ((Quantity.ENERGY, f"stroke{k}.given"), (Quantity.LAW, f"law{k}")):
+            compared.append(Compared(quantity, f"joint {joint.name}", "", (value,), times, Part.LOSSES, laws))
     source = probe.text(target, options, "", declarations, connections)
     values = tuple(each.values[0] for each in compared)
     expected = {"time": times, **dict.fromkeys(values, (0.0,) * len(times))}
@@ -57,12 +59,15 @@ def laws_trial(tree: KinematicTree, target: Target, options: Options) -> Trial |
 def _declarations(k: int, model: str, joint: Joint, laws: str) -> Iterator[str]:
     """Yield a joint, its body and its drive. A sticking joint is driven by an effort: it can't follow a prescribed way.
 
-    The body is light, so that its energy hides no loss; on a spring it swings slowly enough for any solver.
+    The body is light, so that its energy hides no loss; on a spring it swings slowly enough for any solver, and needs
+    more than a limited effort.
     """
     is_turning, is_pushed = MOTION_KINDS[joint.type] == "rotational", laws == "stiction"
     numbers = f"joint{k}.parameters"
     breakaway, stiffness = f"{numbers}.dynamics.breakaway", f"{numbers}.transmission.stiffness"
     light = f"1e-4*{stiffness}" if "spring" in laws else breakaway if is_pushed else "1e-6"
+    if "saturated" in laws:
+        light = f"if {numbers}.limits.effort < 1e15 then {numbers}.limits.effort/3 else {light}"
     mass, inertia = ("1", light) if is_turning else (light, "1")
     inertias = ", ".join(f"I_{i}{i} = {inertia}" for i in (1, 2, 3))
     # the drive gives a prescribed axis its start, where the spring is relaxed
@@ -73,3 +78,27 @@ def _declarations(k: int, model: str, joint: Joint, laws: str) -> Iterator[str]:
         yield f"{kind}Shake stroke{k}(size = {_SHAKE}*{breakaway}, inertia = {light})"
     else:
         yield f"{kind}Stroke stroke{k}(size = {_STROKE}, start = joint{k}.{q}_start)"
+
+
+def _errors(k: int, joint: Joint, laws: str) -> Iterator[str]:
+    """Yield by how much the efforts of a joint's friction and spring differ from the equations of their laws."""
+    is_turning = MOTION_KINDS[joint.type] == "rotational"
+    (q, w, t), axis = (("phi", "w", "tau"), "revolute") if is_turning else (("s", "v", "f"), "prismatic")
+    speed, effort, z = (f"joint{k}.friction.{name}" for name in (w, t, "z"))
+    d, gear, limits = (f"joint{k}.parameters.{part}" for part in ("dynamics", "transmission", "limits"))
+    dry = f"{effort} - {d}.damping*{speed}"
+    if "stiction" in laws:
+        held = f"max(0, abs({dry}) - {d}.breakaway)"
+        yield f"if abs({speed}) > 1e-3 then {dry} - {d}.friction*sign({speed}) else {held}"
+    if "lugre" in laws:
+        stribeck = f"(1 + ({d}.breakaway/{d}.friction - 1)*exp(-({speed}/{d}.stribeckSpeed)^2))"
+        yield f"der({z}) - {speed} + abs({speed})*{z}/({d}.bristleDeflection*{stribeck})"
+        yield f"{dry} - {d}.friction/{d}.bristleDeflection*({z} + {d}.bristleTime*der({z}))"
+    if "spring" in laws:
+        spring = f"joint{k}.elasticity"
+        asked = given = f"({gear}.stiffness*{spring}.{q}_rel + {gear}.damping*{spring}.{w}_rel)"
+        if "saturated" in laws:  # it fades over the last twentieth of the speed, if it speeds the joint up
+            v = f"joint{k}.{axis}.{w}"
+            fading = f"max(0, min(1, 20 - 20*abs({v})/max(1e-9, {limits}.velocity)))"
+            given = f"max(-{limits}.effort, min({limits}.effort, {asked}))*(if {asked}*{v} < 0 then {fading} else 1)"
+        yield f"{spring}.{t} - {given}"

@@ -62,11 +62,12 @@ class Instant(enum.IntEnum):
     TURNED = 4
     """Fast in the other direction."""
     BELOW = 5
-    """Just below the lower end of the range, and just too fast."""
+    """Just below the lower end of the range, and just too fast; it speeds up just too much."""
     LOW = 6
     """Just inside, and just slow enough."""
     HIGH = 7
     ABOVE = 8
+    """It slows down just too much."""
     STRAINED = 9
     """The effort is just above its limit and acts backward, so that a lost sign shows."""
     LOADED = 10
@@ -95,6 +96,8 @@ ON_GROUND: Mapping[Instant, Vector] = {
     Instant.RISING: (0.0, 0.0, 1.0),
 }
 """Velocity of a standing robot's base at each instant."""
+TILT = 1e-3
+"""Angle of the base while it sinks, in rad, so that the forms of the shapes show."""
 _SWINGS = {
     Instant.START: (0.0, 0.0, 0.0),
     Instant.SLOW: (0.5, 2e-3, 0.7),
@@ -134,12 +137,14 @@ TURN_AXIS: Vector = (2 / 7, 3 / 7, -6 / 7)  # ball joints turn about it, too, in
 
 
 FREE_START: Mapping[str, Vector] = {
-    "r_start": (0.3, -0.2, 1.5),
+    "r_start": (0.0, 0.0, 1.5),  # the height of the stance
     "rpy_start": (0.4, -0.3, 0.9),
     "v_start": (0.5, -0.3, 0.8),
     "w_start": (0.7, -1.1, 0.6),
 }
 """The start of a free base, resolved in the world; no two angles are equal, so that their order shows."""
+BENCH_LOAD = 500.0
+"""Weight for which the ground of a bench is made, in N."""
 BENCH_GRAVITY = 9.80665
 """Gravity of the standard library's world, as in Run and Test."""
 
@@ -172,10 +177,17 @@ def axis_courses(joint: Joint, start: float, strains: Mapping[Instant, float] = 
     speed = joint.limit.velocity if joint.limit and joint.limit.velocity is not None else math.inf
     speed = speed if speed < ENDLESS else abs(course.speed)
     courses = _swinging(start, course.speed, course.acceleration / 2)
-    for side, just in ((-1, JUST), (-1, -JUST), (1, -JUST), (1, JUST)):
-        courses.append(Course(middle + side * reach * (1 + just), side * speed * (1 + just), 0.0))
+    up, down = (gain if gain < ENDLESS else 0.0 for gain in greatest_gains(joint))
+    for side, just, gain in ((-1, JUST, up), (-1, -JUST, up), (1, -JUST, down), (1, JUST, down)):
+        courses.append(Course(middle + side * reach * (1 + just), side * speed * (1 + just), -gain * (1 + just)))
     courses += [Course(middle, 0.0, strains.get(instant, 0.0)) for instant in LOADS]
     return (*courses, *(Course(start, 0.0, 0.0) for _ in ON_GROUND))
+
+
+def greatest_gains(joint: Joint) -> tuple[float, float]:
+    """Return the limits of the acceleration while a joint speeds up, and while it slows down."""
+    up = joint.limit.acceleration if joint.limit and joint.limit.acceleration is not None else math.inf
+    return up, joint.limit.deceleration if joint.limit and joint.limit.deceleration is not None else up
 
 
 def loop_courses(joint: Joint, start: float, share: float) -> tuple[Course, ...]:
@@ -194,7 +206,8 @@ def base_courses(depth: float = -GROUND_DEPTH) -> tuple[tuple[Course, ...], ...]
     for k, course in enumerate((*PATH, TURN)):
         moving, place = _swinging(*course), -GROUND_DEPTH - depth if k == 2 else 0.0
         resting = [Course(course.position, 0.0, 0.0) for _ in range(len(Instant) - len(moving) - len(ON_GROUND))]
-        standing = [Course(place, (*speeds, 0.0)[k], 0.0) for speeds in ON_GROUND.values()]
+        places = [TILT * (k == 3 and at is Instant.SINKING) + place for at in ON_GROUND]
+        standing = [Course(p, (*v, 0.0)[k], 0.0) for p, v in zip(places, ON_GROUND.values(), strict=True)]
         every.append((*moving, *resting, *standing))
     return tuple(every)
 

@@ -128,8 +128,6 @@ def moving_probe(
     for k, (joint, _, _) in enumerate(subject.sweeps() if names.joints else (), 1):
         declarations += _sweep(k, joint, names.joints[joint.name], loop_reaches(subject.assembly))
         connections.append(f"sweep{k}.support, housing{k}.flange")
-    for k, joint in enumerate(subject.closed_joints(), 1):
-        declarations.append(f"Real start{k} = robot.startPositions.{subject.tree.joint(joint.name).component}")
     for k, loop in enumerate(subject.tree.loops, 1):
         ends = (loop.parent, loop.origin), (loop.child, loop.child_origin)
         parent, child = (_place(f"robot.{subject.tree.link(link).component}", origin) for link, origin in ends)
@@ -211,7 +209,8 @@ def free_probe(
     bench = "UrdfSync.Robots.PartialBench(world(enableAnimation = false))"
     if options.base == "floating":
         connections = ["base.frame_b, robot.frame_a"]
-        start = ", ".join(f"{name} = {vector(value)}" for name, value in motion.FREE_START.items())
+        start = ", ".join(f"{name} = {vector(value)}" for name, value in motion.FREE_START.items() if name != "r_start")
+        start += f", stance(height = {motion.FREE_START['r_start'][2]!r}), load = {motion.BENCH_LOAD!r}"
         ground = f"ground(height = {_FAR_GROUND!r}, animation = false)"
         bench = f"UrdfSync.Robots.PartialMobileBench({start}, world(enableAnimation = false), {ground})"
     for k, (joint, effort) in enumerate(zip(axes, efforts, strict=True), 1):
@@ -223,6 +222,8 @@ def free_probe(
         declarations.append(f"{MOTION_KINDS[joint.type].capitalize()}Push push{k}(effort = {effort!r})")
         connections.append(f"push{k}.flange, {names.flanges[joint.name]}")
     declarations.append("Real gravity[3] = world.g*world.n")
+    if options.base == "floating":
+        declarations.append("Real weight = ground.load")
     source = text(subject.target, options, bench, declarations, connections)
     return Probe(source, "Probe_.Probe", 1e-6, 1e-6, tuple(values))
 

@@ -10,14 +10,16 @@ from typing import TypeAlias
 import msgspec
 
 from urdfsync.checks.experiment import Compared, Part, Quantity
+from urdfsync.urdf.connectors import connector_names
 from urdfsync.urdf.kinematics.poses import own_range
 from urdfsync.urdf.physics import motion, probe
 from urdfsync.urdf.physics.closing import OpenLoopError
 from urdfsync.urdf.physics.motion import COMPARED, Instant
 from urdfsync.urdf.physics.probe import CENTRE, FORCE, MASS, TORQUE, RobotVariables
-from urdfsync.urdf.physics.reference import Solution
+from urdfsync.urdf.physics.reference import Array, Solution
 from urdfsync.urdf.physics.subject import Subject
 from urdfsync.urdf.robot import JOINT_KINDS, MOTION_KINDS, SENSOR_KINDS, Joint
+from urdfsync.urdf.second.reading import origin, pose
 
 Pair: TypeAlias = tuple[Compared, Sequence[Iterable[float]]]
 """A quantity, and its expected values at each of its instants."""
@@ -83,6 +85,19 @@ def over_time(subject: Subject, names: RobotVariables, step: float) -> Iterator[
     yield from poses(subject, names, every, times, Part.BODIES)
 
 
+def motors(subject: Subject) -> Iterator[Pair]:
+    """Yield the positions of the motors behind gears."""
+    rows, positions = subject.reference.coordinates(), [subject.states[time].positions for time in COMPARED]
+    for name, drive in connector_names(subject.tree, subject.options).drives.items():
+        if drive.motor:
+            gear = subject.second.joints[name]
+            reduction, offset = (gear.number(f"transmission.{field}") for field in ("reduction", "offset"))
+            other = gear.number("transmission.otherReduction") if gear.shares else 0.0
+            turns = [[reduction * (q[rows[name]] - offset) + other * q[rows[gear.shares or name]]] for q in positions]
+            value = (f"robot.{drive.motor}.phi",)
+            yield Compared(Quantity.POSITION, f"motor of joint {name}", "rad", value, COMPARED, Part.LOSSES), turns
+
+
 def loops(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
     """Yield the gap of each loop, and the force in the joint that closes it, if that force is unique."""
     solved = [subject.solved[float(instant)] for instant in Instant]
@@ -100,12 +115,8 @@ def loops(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
             yield Compared(Quantity.REACTION, element, unit, values, COMPARED, Part.LOOPS), expected
 
 
-def starts(subject: Subject) -> Iterator[Pair]:
-    """Yield the start positions of joints in loops, then the positions between which Test moves the axes."""
-    rows, closed = subject.reference.coordinates(), subject.states[float(Instant.START)].positions
-    for k, joint in enumerate(subject.closed_joints(), 1):
-        what = Quantity.START, subject.loop_around(joint), _unit(joint), (f"start{k}",), (0.0,), Part.LOOPS, joint.name
-        yield Compared(*what), [[float(closed[rows[joint.name]])]]
+def sweeps(subject: Subject) -> Iterator[Pair]:
+    """Yield the positions between which Test moves the axes."""
     for k, (joint, start, end) in enumerate(subject.sweeps(), 1):
         times, value = (0.0, motion.PERIOD / 2, motion.PERIOD), f"sweep{k}.{'phi' if _unit(joint) == 'rad' else 's'}"
         yield (
@@ -123,15 +134,22 @@ def sensors(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
     parents, balls = {joint.name: joint.parent for joint in subject.tree.joints}, [ball.name for ball in subject.balls]
     for sensor in subject.tree.sensors:
         if SENSOR_KINDS[sensor.kind].name == "Imu":
-            outputs, again = SENSOR_KINDS["imu"].outputs, subject.sensors[sensor.name]
+            outputs, again = SENSOR_KINDS["imu"].outputs, subject.second.sensors[sensor.name]
             rows = [subject.reference.acceleration(subject.states[t], again) for t in COMPARED]
         elif sensor.at in balls:
             subject.unchecked[f"sensor {sensor.name}, in a ball: what prescribes the ball acts beside it"] = None
             continue
         elif sensor.is_in_joint:
-            outputs, again = SENSOR_KINDS[sensor.kind].outputs, subject.sensors[sensor.name]
+            outputs, again = SENSOR_KINDS[sensor.kind].outputs, subject.second.sensors[sensor.name]
             rows = [subject.reference.wrench(subject.states[t], again, parents[sensor.at]) for t in COMPARED]
-        else:
+        else:  # a camera or a laser scanner has only a frame
+            again, frame = subject.second.sensors[sensor.name], f"{names.sensors[sensor.name]}.frame_b"
+            place = tuple(f"{frame}.r_0[{i}]" for i in (1, 2, 3))
+            axes = tuple(f"{frame}.R.T[{i},{j}]" for i in (1, 2, 3) for j in (1, 2, 3))
+            at = [pose(*subject.solved[time].frame(again.parent)) @ origin(again) for time in COMPARED]
+            what, when = f"sensor {sensor.name}", (COMPARED, Part.SENSORS)
+            yield Compared(Quantity.POSITION, what, "m", place, *when), [matrix[:3, 3] for matrix in at]
+            yield Compared(Quantity.ORIENTATION, what, "", axes, *when), [matrix[:3, :3].T.ravel() for matrix in at]
             continue
         for k, (output, modelica_unit, _) in enumerate(outputs):
             values = tuple(f"{names.sensors[sensor.name]}.{output}[{i}]" for i in (1, 2, 3))
@@ -153,11 +171,16 @@ def limits(subject: Subject) -> Iterator[Pair]:
         # at later instants the ground changes the efforts
         for time, state in list(subject.states.items())[: Instant.STANDING]:
             q, v = float(state.positions[row]), abs(float(state.v[row]))
+            a, gain = abs(float(state.a[row])), float(state.a[row] * state.v[row])
             tests = {
                 "is_below_its_lower_position_limit": (lower, q, -1.0),
                 "is_above_its_upper_position_limit": (upper, q, 1.0),
                 "is_faster_than_its_velocity_limit": (math.inf if speed is None else speed, v, 1.0),
             }
+            up, down = motion.greatest_gains(joint)
+            if min(up, down) < math.inf and abs(gain) > _CLEAR:
+                tests["speeds_up_faster_than_its_acceleration_limit"] = up, a * (gain > 0), 1.0
+                tests["slows_down_faster_than_its_deceleration_limit"] = down, a * (gain < 0), 1.0
             if joint.name in subject.reference.axes:
                 load = abs(float(subject.solved[time].efforts[subject.reference.axes.index(joint.name)]))
                 tests["is_driven_above_its_effort_limit"] = (math.inf if effort is None else effort, load, 1.0)
@@ -180,10 +203,10 @@ def ground(subject: Subject) -> Iterator[Pair]:
     """Yield the force and torque that hold a standing robot level: the parts that the ground does not carry."""
     if subject.stand is None:
         return
-    held = subject.solved[float(Instant.STANDING)]
-    carried = [subject.stand.wrench(rise, slide) for *slide, rise in motion.ON_GROUND.values()]
-    times = tuple(map(float, motion.ON_GROUND))
-    rows = [wrench - [*held.force, *held.torque] for wrench in carried]
+    times, rows, root = tuple(map(float, motion.ON_GROUND)), list[Array](), subject.tree.links[0].name
+    for time, (*slide, rise) in zip(times, motion.ON_GROUND.values(), strict=True):
+        held = subject.solved[time]
+        rows.append(subject.stand.wrench(rise, slide, held.frame(root)[1]) - [*held.force, *held.torque])
     for unit, values, part in (("N", FORCE, slice(0, 3)), ("N·m", TORQUE, slice(3, 6))):
         compared = Compared(Quantity.GROUND, "robot", unit, values, times, Part.CONTACTS)
         yield compared, [row[part] for row in rows]

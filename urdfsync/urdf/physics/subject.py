@@ -22,7 +22,7 @@ from urdfsync.urdf.physics.closing import OpenLoopError
 from urdfsync.urdf.physics.motion import COMPARED, LOADS, Course, Instant
 from urdfsync.urdf.physics.reference import Configuration, Reference, Solution, read
 from urdfsync.urdf.robot import MOTION_KINDS, Joint
-from urdfsync.urdf.second.reading import Element, read_again
+from urdfsync.urdf.second.reading import Reading, read_again
 
 _MARGIN = 0.9
 """Fraction of ranges and speeds that Test uses."""
@@ -69,9 +69,9 @@ class Subject:
         self.solved = {time: self.reference.solve(state) for time, state in self.states.items()}
 
     @cached_property
-    def sensors(self) -> Mapping[str, Element]:
-        """The sensors of the second reading."""
-        return read_again(self.content, self.options).sensors
+    def second(self) -> Reading:
+        """The second reading."""
+        return read_again(self.content, self.options)
 
     @cached_property
     def checked_by_robot(self) -> Collection[str]:
@@ -101,20 +101,6 @@ class Subject:
                 most = min(reach, _MARGIN * speed(joint) * motion.PERIOD / math.pi)
                 above, below = (min(most, _MARGIN * room) for room in (upper - start, start - lower))
                 yield joint, start, start + above if above >= below else start - below
-
-    def closed_joints(self) -> Sequence[Joint]:
-        """Return the joints in loops whose start the package states."""
-        return [joint for joint in self.tree.joints if self.is_in_loop(joint) and joint.start is not None]
-
-    def loop_around(self, joint: Joint) -> str:
-        """Return the first loop that contains a joint, in words; the joint itself if none does."""
-        above = {each.child: each for each in self.tree.joints}
-
-        def path(link: str) -> set[str]:
-            return {above[link].name, *path(above[link].parent)} if link in above else set()
-
-        names = (loop.name for loop in self.tree.loops if joint.name in path(loop.parent) ^ path(loop.child))
-        return next((f"loop {name}" for name in names), f"joint {joint.name}")
 
     def is_in_loop(self, joint: Joint) -> bool:
         """Return whether loops restrict the motion of a joint."""

@@ -14,8 +14,10 @@ from urdfsync.checks.experiment import Difference, Numbers, Sample
 from urdfsync.diagnostics import SourceError
 from urdfsync.domain import further_key
 from urdfsync.modelica.literals import string
-from urdfsync.modelica.values import Value, literals, read_values
+from urdfsync.modelica.values import Value, Values, literals, read_values
 from urdfsync.spelling import counted
+from urdfsync.urdf.second import models
+from urdfsync.urdf.second.models import WORDS, pairs
 from urdfsync.urdf.second.reading import (
     COMMANDS,
     INF,
@@ -35,8 +37,6 @@ from urdfsync.urdf.second.tables import expected_tables
 
 _RECORDS = "UrdfSync.Records."
 _SHAPE = re.compile(r"((?:visual|collision)\d+)(?:_\d+)?(\.|Corners)")
-_LETTERS = {True: ("phi", "w", "tau"), False: ("s", "v", "f")}
-"""Modelica's letters of position, speed and effort, in the order of `COMMANDS`, by whether a joint turns."""
 _NO_MASS = {
     **dict.fromkeys(("inertial.origin.xyz", "inertial.origin.rpy"), ZERO),
     **{f"inertial.{path}": (0.0,) for path in ("mass", *(f"inertia.{part}" for part in TENSOR))},
@@ -65,12 +65,16 @@ class _Comparison:
 
     def __init__(self, texts: Mapping[str, bytes], reading: Reading, sample: Sample) -> None:
         self.reading, self.sample, self.name = reading, sample, sample.target.name
-        suffixes = ("", "Run", "Test", "Parameters", "Start", "Sensors", "Stance")
+        suffixes = ("", "Run", "Test", "Parameters", "Start", "Sensors", "Stance", "Generic")
         needed = {f"{self.name}{suffix}.mo" for suffix in suffixes}
-        needed |= {path for path in texts if path.startswith(("Links/", "Joints/")) and path.endswith("Parameters.mo")}
-        read = {path: read_values(texts[path].decode(errors="replace")) for path in sorted(needed & texts.keys())}
-        self.values = {path: each.values for path, each in read.items()}
-        self.titles = {path: each.titles for path, each in read.items()}
+        needed |= {path for path in texts if path.startswith("Links/") and path != "Links/package.mo"}
+        needed |= {path for path in texts if path.startswith("Joints/") and path.endswith("Parameters.mo")}
+        self.read = {path: read_values(texts[path].decode(errors="replace")) for path in sorted(needed & texts.keys())}
+        self.values = {path: each.values for path, each in self.read.items()}
+        self.titles = {path: each.titles for path, each in self.read.items()}
+        self.record = self.read.get(f"{self.name}Parameters.mo", Values([], {}, []))
+        self.begun = {value.path for value in self.values.get(f"{self.name}Start.mo", ())}
+        """Components of joints that the start record has."""
         self.ends = _ends(self.values.get(f"{self.name}.mo", ()))
         """Connections in the robot model."""
         self.right = self.total = 0
@@ -88,16 +92,19 @@ class _Comparison:
         """Compare all files."""
         model = f"{self.name}.mo"
         for path, values in self.values.items():
-            if path.startswith(("Links/", "Joints/")):
+            if path.startswith(("Links/", "Joints/")) and path.endswith("Parameters.mo"):
                 type_ = next((value.type for value in values if value.path == "name"), "").removeprefix(_RECORDS)
                 stem = path.rpartition("/")[2].removesuffix("Parameters.mo")
                 self._element(path, stem[:1].lower() + stem[1:], type_, values)
         for suffix, compare in (
             *(("Parameters", self._whole), ("Sensors", self._sensors), ("Start", self._starts)),
             *(("Stance", self._stance), ("", self._connections), ("Run", self._bench), ("Test", self._bench)),
+            ("Generic", self._generic),
         ):
             if f"{self.name}{suffix}.mo" in self.values or suffix == "Start":
                 compare(f"{self.name}{suffix}.mo")
+        for name, link in self.reading.links.items():
+            self._shapes(link, self.components.get(("link", name), "-"))
         for kind, elements in self.elements.items():
             for name in sorted(elements.keys() - {name for of, name in self.components if of == kind}):
                 if kind in ("link", "joint") or "package" in self.sample.options.approach:
@@ -143,6 +150,8 @@ class _Comparison:
         self.components[kind, name] = component
         shapes = [(value, _SHAPE.match(value.path)) for value in values]
         given = [value._replace(path=f"{s[1]}{s[2]}{value.path[s.end() :]}") if s else value for value, s in shapes]
+        forms = {f"{s[1]}.shape": value for value, s in shapes if s and s[2] == "."}
+        given += [v._replace(path=path, text=v.type.removeprefix(_RECORDS).lower()) for path, v in forms.items()]
         owners = {value.path.partition(".")[0] for value in given}
         elsewhere = ("start", "contact", "collision") if whole else ("start",)
         elsewhere = elsewhere if self.sample.options.collisions else (*elsewhere, "collision")
@@ -151,7 +160,7 @@ class _Comparison:
             owner = path.partition(".")[0]
             # the package leaves out a mesh that can't be read
             is_drawn = owner in owners or f"{owner}.uri" not in element.values
-            if is_drawn and not path.startswith(elsewhere) and not path.endswith(".shape"):
+            if is_drawn and not path.startswith(elsewhere):
                 expected[path] = stated
         if kind == "joint":
             given.append(Value("type", "", type_, named.line))
@@ -323,6 +332,17 @@ class _Comparison:
             expected.append((kind, element, "parent", f"{component}.frame_a", "link", element.parent))
             if kind != "sensor":
                 expected.append((kind, element, "child", f"{component}.frame_b", "link", element.child))
+        inner, framed = {joint.parent for joint in self.reading.joints.values()}, self.sample.options.frames
+        for (kind, name), component in self.components.items():
+            part, is_link = self.elements[kind].get(name, Element(name, 0)), kind == "link"
+            if is_link or part.type in ("camera", "lidar"):
+                places = self.ends[f"{component}.frame_{'a' if is_link else 'b'}"]
+                matches = [(re.fullmatch(r"(\w+Frame)(_\d+)?", end), line) for end, line in places]
+                shown = [(match[1], line) for match, line in matches if match] or [("nothing", 0)]
+                is_inner = is_link and name in inner and framed != "all" and (framed == "leaves" or name not in framed)
+                stated = Stated("nothing" if is_inner else f"{component}Frame", part.line)
+                given = Value("frame", "", ",".join(name for name, _ in shown), shown[0][1])
+                self._compare(file, f"{kind} {name}", [given], {"frame": stated})
         for value in self.values[file]:
             component, _, path = value.path.partition(".")
             owner, ends = self._joint(value.text.partition(".")[0]) if path == "parameters" else None, {}
@@ -354,29 +374,108 @@ class _Comparison:
                 self._compare(file, f"sensor {name}", [value], {value.path: stated})
 
     def _bench(self, file: str) -> None:
-        """Compare the sources that Run or Test connects to the axes of joints, and the outputs of sensors."""
-        values, joints = self.values[file], self.reading.joints
-        texts = {end: Value(end, "", *others[0]) for end, others in _ends(values).items()}
-        texts |= {value.path: value for value in values if value.path != "connect"}
-        worlds = [value for value in values if value.path.startswith("world.")]
-        self._compare(file, "robot", worlds, {value.path: Stated("that of the bench", 0) for value in worlds})
+        """Compare all that Run or Test states: the bench, the sources at the axes of joints, and the outputs."""
+        texts, joints, is_run = self._texts(file), self.reading.joints, file.endswith("Run.mo")
         named = any(joint.is_named for joint in joints.values() if joint.in_loop and not joint.leader)
+        whole = pairs(models.BENCH[self.sample.options.base], name=self.name)
+        if is_run:
+            whole["robot.fixedStart"] = "false"
+        else:
+            whole["extends"] += ",Modelica.Icons.Example"
+        if self.sample.options.visualizer == "visualization2":
+            whole["type of visualizationSetup"] = "innerVisualization2.VisualizationSetup"
+        every = {"robot": (0, whole)}
         for (kind, name), component in self.components.items():
             expected, element = dict[str, str](), self.elements[kind].get(name, Element(name, 0))
-            if kind == "sensor":
-                expected = {f"{component}_{output}": f"robot.{component}.{output}" for output in "awft"}
-                expected = {path: text for path, text in expected.items() if path in texts}
+            if kind == "sensor" and is_run:
+                for letter in models.OUTPUTS.get(element.type, ""):
+                    text, unit = f"robot.{component}.{letter}", models.UNITS[letter]
+                    expected |= pairs(models.OUTPUT, o=f"{component}_{letter}", value=text, unit=unit)
             elif kind == "joint" and element.type in MOVES and not element.leader:
                 flanges = [self._flange(component, side) for side in ("axis", "support")]
                 # loops leave few freedoms: urdfsync may choose which of the named joints it drives, or of all joints
                 is_free = flanges[0] in texts and (element.is_named or not named)
-                is_driven = is_free or not element.in_loop
-                expected = {flanges[0]: "nothing"}
-                if element.command and is_driven:
-                    expected = self._source(element, component, flanges, texts, is_run=file.endswith("Run.mo"))
-            given = [texts[path] if path in texts else Value(path, "", "nothing", 0) for path in expected]
-            stated = {path: Stated(text, element.line) for path, text in expected.items()}
-            self._compare(file, f"{kind} {name}", given, stated)
+                is_driven = bool(element.command) and (is_free or not element.in_loop)
+                expected, fixed = {flanges[0]: "nothing"}, f"robot.{component}.fixedStart"
+                if is_driven:
+                    expected = self._source(element, component, flanges, texts, is_run=is_run)
+                is_pushed = not is_driven or element.command == "effort"
+                if is_run and is_pushed and (fixed in texts or not element.in_loop):
+                    expected[fixed] = "true"
+            every[f"{kind} {name}"] = element.line, expected
+        self._complete(file, texts, every)
+
+    def _generic(self, file: str) -> None:
+        """Compare all that the bench of the generic robot states."""
+        expected = pairs(models.GENERIC[self.sample.options.base], name=self.name)
+        for kind, is_turning, reach in (("rotational", True, 1), ("translational", False, 0.1)):
+            words, titles = WORDS[is_turning], self.record.titles
+            matches = [re.match(f'Number of joint "(.*)" in {kind}Axis', title) for title in titles.values()]
+            axes = [self.components.get(("joint", match[1]), "") for match in matches if match]
+            if axes:
+                own = {"k": kind, "kind": kind.capitalize(), "n": len(axes), "reach": reach}
+                expected |= pairs(models.GENERIC_AXES, **words, **own)
+            if self.begun.intersection(axes):
+                near = "UrdfSync.Functions.closestToZero(robot.{q}_min[{k}],robot.{q}_max[{k}])"
+                starts = (
+                    f"startPositions.{axis}" if axis in self.begun else near.format(k=k, **words)
+                    for k, axis in enumerate(axes, 1)
+                )
+                expected[f"robot.{words['q']}_start"] = f"{{{','.join(starts)}}}"
+                expected["type of startPositions"] = f"parameter{self.name}Start"
+        self._complete(file, self._texts(file), {"robot": (0, expected)})
+
+    def _shapes(self, link: Element, component: str) -> None:
+        """Compare which shapes the model of a link draws, and which of them touch the ground with which numbers."""
+        options = self.sample.options
+        file, record = (f"Links/{component[0].upper()}{component[1:]}{ending}.mo" for ending in ("", "Parameters"))
+        if file not in self.read or record not in self.read:
+            return
+        expected, parts = dict[str, str](), {each.path for each in self.read[record].types}
+        is_standard, is_mobile = options.visualizer == "standard", options.base == "floating"
+        for part in sorted(parts):
+            if stated := link.values.get(f"{part.partition('_')[0]}.shape"):
+                kind, contact = stated.value.capitalize(), part.replace("collision", "contact")
+                if is_standard:
+                    shown = "animation" if part == contact else "showCollisions"
+                    expected |= pairs(models.SHAPE, part=part, kind=kind, shown=shown)
+                if part != contact and is_mobile and (kind != "Mesh" or f"{part}Corners" in parts):
+                    form = "Points" if kind == "Mesh" else kind
+                    expected |= pairs(models.CONTACT, c=contact, kind=form, part=part)
+                    expected |= {f"{contact}.corners": f"parameters.{part}Corners"} if kind == "Mesh" else {}
+                    numbers = {n: field for n, field in models.SURFACE.items() if f"contact.{n}" in link.values}
+                    expected |= {f"{contact}.{field}": f"parameters.contact.{n}" for n, field in numbers.items()}
+        own = re.compile(rf"(type of )?(contact{'|visual|collision' * is_standard})\d")
+        texts = {path: value for path, value in self._texts(file).items() if own.match(path)}
+        self._complete(file, texts, {f"link {link.name}": (link.line, expected)})
+
+    def _texts(self, file: str) -> dict[str, Value]:
+        """Return all that a class states, by paths: see `models`. A vector of inputs has a path for each item."""
+        read = self.read[file]
+        texts = {end: Value(end, "", *others[0]) for end, others in _ends(read.values).items()}
+        for each in (*read.values, *read.types):
+            path = each.path if each.type or each.path == "extends" else f"type of {each.path}"
+            if each.type.endswith("RealInput") and each.text.startswith("{"):
+                for k, item in enumerate(each.text.strip("{}").split(","), 1):
+                    place = each.path.replace(".", f"[{k}].")
+                    texts[place] = each._replace(path=place, text=item)
+            elif path != "connect":
+                before = f"{texts[path].text}," if path == "extends" and path in texts else ""
+                texts[path] = Value(path, each.type, f"{before}{each.text}", each.line)
+        return texts
+
+    def _complete(
+        self, file: str, texts: Mapping[str, Value], every: Mapping[str, tuple[int, Mapping[str, str]]]
+    ) -> None:
+        """Compare the texts of a class with those that are expected of each element; others are differences."""
+        known = {path for _, expected in every.values() for path in expected}
+        for element, (line, expected) in every.items():
+            given = [texts.get(path, Value(path, "", "nothing", 0)) for path in expected]
+            self._compare(file, element, given, {path: Stated(_read(text), line) for path, text in expected.items()})
+        for path, value in texts.items():
+            is_other_end = value.text in texts and texts[value.text].text == path
+            if path not in known and not (is_other_end and (value.text in known or value.text < path)):
+                self._compare(file, "robot", [value], {path: Stated("nothing", 0)})
 
     def _flange(self, component: str, side: str) -> str:
         """Return the connector of the robot for the axis or the support of a joint."""
@@ -386,28 +485,26 @@ class _Comparison:
         self, joint: Element, component: str, flanges: Sequence[str], texts: Mapping[str, Value], *, is_run: bool
     ) -> dict[str, str]:
         """Return the texts by which Run or Test moves a joint, by ends of connections, outputs and modifiers."""
-        source, (q, speed, effort) = f"{component}Drive", _LETTERS[joint.type in TURNS]
-        (axis, _), own = flanges, f"robot.{component}"
-        expected = {flange: f"{source}.{end}" for flange, end in zip(flanges, ("flange", "support"), strict=True)}
+        own, drive, command = f"robot.{component}", f"{component}Drive", joint.command
+        words = WORDS[joint.type in TURNS] | {"axis": flanges[0], "support": flanges[1], "own": own, "d": drive}
+        words |= {"kind": "Rotational" if joint.type in TURNS else "Translational", "joint": component}
         if not is_run:
-            expected |= {f"{source}.{field}": f"{own}.{field}" for field in (f"{q}_start", f"{q}_min", f"{q}_max")}
-            expected[f"{source}.{speed}_max"] = f"{own}.{speed}_max"
-            reach = f"{source}.reach"
-            return expected | ({reach: f"robot.startPositions.{component}Reach"} if reach in texts else {})
-        variable = (q, speed, effort)[COMMANDS.index(joint.command)]
-        end, command = f"{source}.{variable}{'_ref' * (joint.command != 'effort')}", f"{component}_{variable}"
+            more = {f"{drive}.reach": f"robot.startPositions.{component}Reach"} if f"{drive}.reach" in texts else {}
+            return pairs(models.TEST, **words) | more
+        place = f"{component}_{words['qvf'[COMMANDS.index(command)]]}"
+        start = f"{own}.{words['q']}_start" if command == "position" and component in self.begun else ""
         if self.sample.options.inputs == "vector":
-            order = [name.removesuffix("Drive") for name in self.titles[f"{self.name}Run.mo"] if name.endswith("Drive")]
-            vectors = (v.path.partition(".")[0] for v in texts.values() if v.type.endswith("RealInput"))
-            command = f"{next(vectors, '')}[{order.index(component) + 1 if component in order else 0}]"
-        if end in texts and "limitedEffort" in texts[end].text:  # a drive that keeps its limits
+            driven = self.titles[f"{self.name}Run.mo"]
+            order = [each.path for each in self.record.types if f"{each.path}Drive" in driven]
+            vectors = (value.path.partition("[")[0] for value in texts.values() if value.type.endswith("RealInput"))
+            place = f"{next(vectors, '')}[{order.index(component) + 1 if component in order else 0}]"
+            start = start or "0" * bool(self.begun)
+        words |= {"inputs": place.partition("[")[0], "input": place, "command": place}
+        effort = texts.get(f"{drive}.{words['f']}")
+        if command == "effort" and effort and "limitedEffort" in effort.text:  # a drive that keeps its limits
             limits = f"{own}.parameters.limits.effort,{own}.parameters.limits.velocity"
-            command = f"UrdfSync.Functions.limitedEffort({command},{component}_{speed},{limits})"
-        expected[end] = command
-        if joint.command == "effort":
-            place = f"{component}_{q}"
-            return expected | {place: f"{axis}.{q}-{flanges[1]}.{q}", f"{component}_{speed}": f"der({place})"}
-        return expected | {f"{component}_{effort}": f"{axis}.{effort}"}
+            words["command"] = f"UrdfSync.Functions.limitedEffort({place},{component}_{words['v']},{limits})"
+        return pairs(models.RUN[command], **words) | ({f"{place}.start": start} if start else {})
 
 
 def _read(text: str) -> Any:

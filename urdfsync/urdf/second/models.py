@@ -1,0 +1,70 @@
+"""What the models of a package state, as `path = text`, with words that the comparison fills in.
+
+A path leads to a value, to the type of a component, to the base classes, or from one end of a connection to the other.
+"""
+
+from __future__ import annotations
+
+WORDS = {
+    True: dict(zip("qvf", ("phi", "w", "tau"), strict=True), Q='"rad"', V='"rad/s"', F='"N.m"', push="Torque"),
+    False: dict(zip("qvf", ("s", "v", "f"), strict=True), Q='"m"', V='"m/s"', F='"N"', push="Force"),
+}
+"""Letters and units of position, speed and effort, and the source of an effort, by whether a joint turns."""
+OUTPUTS = {"imu": "aw", "accelerometer": "a", "gyroscope": "w", "force_torque": "ft"}
+UNITS = {"a": '"m/s2"', "w": '"rad/s"', "f": '"N"', "t": '"N.m"'}
+"""Units of the outputs of sensors."""
+SURFACE = {"kp": "stiffness", "kd": "viscosity", "mu": "friction", "minDepth": "minDepth"}
+"""Parameters of contacts by the numbers of links."""
+
+BENCH = {
+    "fixed": "type of robot = replaceable{name}; robot.frame_a = world.frame_b; extends = UrdfSync.Robots.PartialBench",
+    "floating": "type of robot = replaceable{name}; robot.frame_a = base.frame_b; stance = {name}Stance; "
+    "load = robot.m*world.g; extends = UrdfSync.Robots.PartialMobileBench",
+}
+OUTPUT = "{o} = {value}; {o}.unit = {unit}; type of {o} = Modelica.Blocks.Interfaces.RealOutput"
+_EFFORT = OUTPUT.format(o="{joint}_{f}", value="{axis}.{f}", unit="{F}")
+_DRIVE = "{axis} = {d}.flange; {support} = {d}.support; type of {d} = "
+_SOURCE = _DRIVE + "Modelica.Mechanics.{kind}.Sources."
+_INPUT = "; {d}.useSupport = true; type of {inputs} = Modelica.Blocks.Interfaces.RealInput"
+TEST = (
+    _DRIVE + "UrdfSync.Drives.{kind}Sweep; {d}.{q}_start = {own}.{q}_start; {d}.{q}_min = {own}.{q}_min; "
+    "{d}.{q}_max = {own}.{q}_max; {d}.{v}_max = {own}.{v}_max"
+)
+RUN = {
+    "position": "{d}.{q}_ref = {command}; " + _SOURCE + "Position; {d}.exact = false; {d}.{v}.fixed = true; "
+    "{input}.unit = {Q}; " + _EFFORT + _INPUT,
+    "velocity": "{d}.{v}_ref = {command}; " + _SOURCE + "Speed; {d}.exact = false; {d}.{q}.start = {own}.{q}_start; "
+    "{input}.unit = {V}; " + _EFFORT + _INPUT,
+    "effort": "{d}.{f} = {command}; " + _SOURCE + "{push}; {input}.unit = {F}; "
+    + OUTPUT.format(o="{joint}_{q}", value="{axis}.{q}-{support}.{q}", unit="{Q}") + "; "
+    + OUTPUT.format(o="{joint}_{v}", value="der({joint}_{q})", unit="{V}") + _INPUT,
+}  # fmt: skip
+"""The source of a joint in Run, by its command."""
+
+GENERIC = {
+    "fixed": "extends = UrdfSync.Robots.PartialBench,Modelica.Icons.Example; type of robot = "
+    "UrdfSync.Robots.GenericRobot; robot.data = {name}Parameters; robot.fixedStart = false; "
+    "robot.frame_a = world.frame_b",
+}
+GENERIC["floating"] = (
+    GENERIC["fixed"].replace("world.", "base.") + "; base.frame_a = world.frame_b; type of base = "
+    "UrdfSync.Robots.FreeBase; base.r_start = {{0,0,robot.data.standingHeight}}"
+)
+GENERIC_AXES = (
+    "type of {k}Drive = Modelica.Mechanics.{kind}.Sources.Position; {k}Drive.useSupport = true; {k}Drive.exact = true; "
+    "{k}Drive.flange = robot.{k}Axis; {k}Drive.support = robot.{k}Support; {k}Drive.{q}_ref = {k}Sweep.y; "
+    "type of {k}Sweep = UrdfSync.Robots.AxisSweeps; {k}Sweep.n = {n}; {k}Sweep.start = robot.{q}_start; "
+    "{k}Sweep.lower = robot.{q}_min; {k}Sweep.upper = robot.{q}_max; {k}Sweep.velocity = robot.{v}_max; "
+    "{k}Sweep.reach = {reach}"
+)
+SHAPE = (
+    "type of {part} = UrdfSync.Visualizers.{kind}; {part}.frame_a = frame_a; {part}.parameters = parameters.{part}; "
+    "{part}.animation = {shown}"
+)
+CONTACT = "type of {c} = UrdfSync.Contacts.{kind}; {c}.frame_a = frame_a; {c}.parameters = parameters.{part}"
+
+
+def pairs(text: str, **words: object) -> dict[str, str]:
+    """Return the texts by their paths."""
+    parts = (pair.partition(" = ") for pair in text.format(**words).split("; "))
+    return {path: value for path, _, value in parts}
