@@ -15,7 +15,7 @@ function creased(points, faces) {
   for (let corner = 0; corner < corners; corner++) around[next[faces[corner]]++] = corner / 3 | 0;
   const a = new THREE.Vector3(), b = new THREE.Vector3(), c = new THREE.Vector3();
   for (let face = 0; face < corners / 3; face++) {
-    a.fromArray(points, 3 * faces[3 * face]), b.fromArray(points, 3 * faces[3 * face + 1]), c.fromArray(points, 3 * faces[3 * face + 2]);
+    for (const [number, corner] of [a, b, c].entries()) corner.fromArray(points, 3 * faces[3 * face + number]);
     b.sub(a).cross(c.sub(a));
     areas[face] = b.length();
     b.normalize().toArray(flat, 3 * face);
