@@ -15,7 +15,7 @@ CONFIG = Path(__file__).parents[1] / "oxlint.json"
 def test_scripts_are_linted(tmp_path: Path) -> None:
     scripts = [(PAGES / name).read_text("utf-8") for name in (*SCRIPTS, FOLLOWER)]
     (tmp_path / "page.js").write_text("\n".join(scripts).replace('"use strict";', "//"))
-    command = [Path(sys.executable).with_name("oxlint"), "-c", CONFIG, "page.js"]
+    command = [str(Path(sys.executable).with_name("oxlint")), "-c", str(CONFIG), "page.js"]
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout
 
