@@ -40,7 +40,7 @@ def project(folder: Path, execute: Execute) -> Path:
 
 def test_init_writes_templates_for_the_columns(project: Path) -> None:
     record = Path("templates/motors/record.mo.jinja").read_text()
-    assert 'parameter Real torque(unit = "kg.m2/s2") = << row.torque | real >>;' in record
+    assert "parameter Real torque(unit = << units.torque | string >>) = << row.torque | real >>;" in record
     assert "<% if row.maker is not none %>" in record
     assert 'parameter String maker = "Robotis";' in Path("modelica/Motors/Records/MX_64.mo").read_text()
     assert "maker" not in Path("modelica/Motors/Records/XM_430.mo").read_text()
@@ -58,6 +58,12 @@ def test_a_number_of_records_is_a_parameter(project: Path, execute: Execute) -> 
     found = execute("build").out
     assert "1 file written" in found
     assert "element MX-64: inertia 1.25e-06 → 1.26e-06 kg.m2" in found
+
+
+def test_another_unit_renews_records(project: Path, execute: Execute) -> None:
+    edit(Path("motors.csv"), "torque [N.cm]", "torque [kg]")
+    assert "column torque: N.m → kg" in execute("build").out
+    assert 'torque(unit = "kg") = 600;' in Path("modelica/Motors/Records/MX_64.mo").read_text()
 
 
 def test_a_number_that_a_model_follows_is_structure(project: Path, execute: Execute) -> None:
@@ -117,6 +123,6 @@ def test_the_page_shows_elements_and_connections(project: Path, execute: Execute
     picture, meshes = DOMAIN.pictures.scene(table, {}, Target("Motors", "Motors"), Options())
     assert [body.element for body in picture.bodies] == ["table Motors", "element MX-64", "element XM 430"]
     assert [len(body.shapes) for body in picture.bodies] == [1, 1, 1]
-    assert ("torque", "6 kg.m2/s2") in picture.bodies[1].facts
+    assert ("torque", "6 N.m") in picture.bodies[1].facts
     assert meshes == {}
     assert "page: " in execute("report", "-o", "motors.html").out

@@ -38,8 +38,9 @@ def _declare(snapshot: Table, column: str) -> list[str]:
     cells = [row[column] for row in snapshot.elements.values() if column in row]
     if not cells:
         return []
-    cell = f"row.{column}" if column.isidentifier() else f"row[{column!r}]"
-    head, value = _DECLARATIONS.get(kind, (f'Real {name}(unit = "{kind}")', f"{cell} | real"))
+    of_column = f".{column}" if column.isidentifier() else f"[{column!r}]"
+    cell, head, value = f"row{of_column}", f"Real {name}(unit = << units{of_column} | string >>)", "{} | real"
+    head, value = _DECLARATIONS.get(kind, (head, value))
     declaration = f"  parameter {head.format(name)} = << {value.format(cell)} >>;"
     if len(cells) == len(snapshot.elements):
         return ["", declaration]

@@ -39,7 +39,8 @@ def find_unit(text: str) -> Unit:
         return Unit(Decimal(1), Decimal(0), text)
     registry = _load_registry(text)
     one, zero = (_quantity(registry, number, text).to_base_units() for number in (1, 0))
-    return Unit(one.magnitude - zero.magnitude, zero.magnitude, _as_modelica(one.unit_items(), registry))
+    factor = one.magnitude - zero.magnitude
+    return Unit(factor, zero.magnitude, _si(text, registry) or _as_modelica(one.unit_items(), registry))
 
 
 def is_same_kind(text: str, other: str) -> bool:
@@ -81,6 +82,21 @@ def _quantity(registry: Any, number: int, text: str) -> Any:
         return registry.Quantity(Decimal(number), re.sub(r"(?<=[^\W\d])(-?[1-9])", r"**\1", product))
     except Exception:  # noqa: BLE001 - pint parses any text, and raises errors of many kinds
         raise ValueError(f"`{text}` is no unit") from None
+
+
+def _si(text: str, registry: Any) -> str:
+    """Return a unit without its prefixes if that is in SI, such as `N.m` for `N.cm`; else nothing."""
+    plain = re.sub(r"[A-Za-z]+", lambda match: _without_prefix(match[0], registry), text)
+    quantity = _quantity(registry, 0, plain).to_base_units()
+    return plain if quantity.magnitude == 0 and _quantity(registry, 1, plain).to_base_units().magnitude == 1 else ""
+
+
+def _without_prefix(symbol: str, registry: Any) -> str:
+    if symbol in _COHERENT:
+        return symbol
+    names = [name for prefix, name, _ in registry.parse_unit_name(symbol) if prefix]
+    plain = "Ohm" if names and names[0] == "ohm" else str(registry.get_symbol(names[0])) if names else symbol
+    return plain if plain in _COHERENT else symbol
 
 
 def _as_modelica(units: Any, registry: Any) -> str:
