@@ -111,12 +111,19 @@ def test_the_record_of_a_domain_without_templates_has_all_columns() -> None:
     assert DOMAIN.unit(table, ["elements", "MX-64", "maker"]) == ""
 
 
+def test_a_package_without_a_system_is_checked_model_by_model(
+    project: Path, execute: Execute, modelica_library: Path
+) -> None:
+    found = execute("check", "--verbose").out
+    assert "2 models compile" in found, modelica_library
+
+
 def test_the_page_shows_elements_and_connections(project: Path, execute: Execute) -> None:
     Path("motors.connections.csv").write_text("from,to\nMX-64,XM 430\n")
     table = DOMAIN.read(MOTORS.encode() + MARK + b"from,to\nMX-64,XM 430\n", "motors.csv", Options()).snapshot
     picture, meshes = DOMAIN.pictures.scene(table, {}, Target("Motors", "Motors"), Options())
     assert [body.element for body in picture.bodies] == ["table Motors", "element MX-64", "element XM 430"]
     assert [len(body.shapes) for body in picture.bodies] == [1, 1, 1]
-    assert ("torque", "6 kg.m2/s2") in picture.bodies[1].facts
+    assert ("torque", "6 N.m") in picture.bodies[1].facts
     assert meshes == {}
     assert "page: " in execute("report", "-o", "motors.html").out
