@@ -40,7 +40,7 @@ def project(folder: Path, execute: Execute) -> Path:
 
 def test_init_writes_templates_for_the_columns(project: Path) -> None:
     record = Path("templates/motors/record.mo.jinja").read_text()
-    assert 'parameter Real torque(unit = "kg.m2/s2") = << row.torque | real >>;' in record
+    assert 'parameter Real torque(unit = "N.m") = << row.torque | real >>;' in record
     assert "<% if row.maker is not none %>" in record
     assert 'parameter String maker = "Robotis";' in Path("modelica/Motors/Records/MX_64.mo").read_text()
     assert "maker" not in Path("modelica/Motors/Records/XM_430.mo").read_text()

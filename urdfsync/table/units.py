@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import math
 import re
 from decimal import Decimal
 from typing import Any, NamedTuple
@@ -38,7 +39,7 @@ def find_unit(text: str) -> Unit:
     if text == "1" or _is_coherent(text):
         return Unit(Decimal(1), Decimal(0), text)
     registry = _load_registry(text)
-    one, zero = (_quantity(registry, number, text).to_base_units() for number in (1, 0))
+    one, zero = (_in_si(_quantity(registry, number, text), registry) for number in (1, 0))
     return Unit(one.magnitude - zero.magnitude, zero.magnitude, _as_modelica(one.unit_items(), registry))
 
 
@@ -81,6 +82,15 @@ def _quantity(registry: Any, number: int, text: str) -> Any:
         return registry.Quantity(Decimal(number), re.sub(r"(?<=[^\W\d])(-?[1-9])", r"**\1", product))
     except Exception:  # noqa: BLE001 - pint parses any text, and raises errors of many kinds
         raise ValueError(f"`{text}` is no unit") from None
+
+
+def _in_si(quantity: Any, registry: Any) -> Any:
+    """Return a quantity in its own units without their prefixes if these are SI units, as N.m; else in base units."""
+    roots = {name: registry.parse_unit_name(name)[0][1] for name, _ in quantity.unit_items()}
+    if not all(registry.get_symbol(root) in _COHERENT for root in roots.values()):
+        return quantity.to_base_units()
+    factors = (registry.Quantity(Decimal(1), roots[name]) ** power for name, power in quantity.unit_items())
+    return quantity.to(math.prod(factors, start=registry.Quantity(Decimal(1), "")).units)
 
 
 def _as_modelica(units: Any, registry: Any) -> str:
