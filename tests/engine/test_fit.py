@@ -111,6 +111,19 @@ def test_what_is_mended_is_in_step(arm: Path, execute: Execute) -> None:
         assert execute(*command).err == ""
 
 
+def test_a_class_whose_file_waits_is_no_misspelled_one(arm: Path, execute: Execute) -> None:
+    edit(MODEL, "equation", "  Real mine = 1;\n\nequation")
+    edit(ELBOW, 'from link \\"base\\"', 'from link \\"desk\\"')
+    links = (urdfs.link("base", 1.0), urdfs.link("limb", 2.0), urdfs.link("limp", 4.0))
+    joints = (urdfs.joint("elbow", "continuous", "limp", "limb"), urdfs.joint("swing", "continuous", "base", "limp"))
+    Path("arm.urdf").write_text(urdfs.robot(*links, *joints))
+    hint = execute("status", code=3).lines[-1]
+    assert hint.endswith("(or --keep, --take); --merge settles 1 of 2")
+    found = execute("resolve", "--all", "--merge", code=3).words
+    assert "there is no class `Links.Limp`; settle the conflicts; its file waits for that" in found
+    execute("resolve", "--all", "--merge", "--prefer", "mine")
+
+
 def test_a_finding_holds_nothing_back(arm: Path, execute: Execute) -> None:
     edit(ELBOW, "\nequation", "\n  Real mine = wrong;\n\nequation")
     write_source(mass=3)

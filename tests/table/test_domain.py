@@ -117,6 +117,13 @@ def test_the_record_of_a_domain_without_templates_has_all_columns() -> None:
     assert DOMAIN.unit(table, ["elements", "MX-64", "maker"]) == ""
 
 
+def test_a_package_without_a_system_is_checked_model_by_model(
+    project: Path, execute: Execute, modelica_library: Path
+) -> None:
+    found = execute("check", "--verbose").out
+    assert "2 models compile" in found, modelica_library
+
+
 def test_the_page_shows_elements_and_connections(project: Path, execute: Execute) -> None:
     Path("motors.connections.csv").write_text("from,to\nMX-64,XM 430\n")
     table = DOMAIN.read(MOTORS.encode() + MARK + b"from,to\nMX-64,XM 430\n", "motors.csv", Options()).snapshot

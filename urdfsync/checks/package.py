@@ -17,6 +17,7 @@ from urdfsync.checks.contents import package_texts
 from urdfsync.checks.experiment import Checks
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
+from urdfsync.domain import Role
 from urdfsync.engine.actions import Reason
 from urdfsync.engine.build import build
 from urdfsync.engine.generation import Generation, generate_robot, generated_texts
@@ -106,7 +107,7 @@ def read_package(config: Config, robot: RobotConfig, options: BuildOptions) -> R
     on_disk, generated = package_texts(robot.folder), generated_texts(generation)
     texts, in_step = on_disk or generated, bool(on_disk) and built.are_files_in_step
     checks: Checks | None = domain.checks
-    models = tuple(checks.models(snapshot, robot.target, robot.options)) if checks else (robot.target.name,)
+    models = checks.models(snapshot, robot.target, robot.options) if checks else _generated_models(generation)
     benches = {f"{name.replace('.', '/')}.mo" for name in models[1:]}
     shared = [path for path in sorted(generated.keys() & on_disk.keys()) if path.endswith(".mo")]
     edited = [path for path in shared if normalised(on_disk[path]) != generated[path]] if in_step else []
@@ -130,10 +131,19 @@ def read_package(config: Config, robot: RobotConfig, options: BuildOptions) -> R
         files=PackageTexts(robot.target.package, robot.folder, texts, owners, edited),
         around=files_around(config, robot, texts),
         users_files=users_files(config, robot),
-        models=models,
+        models=tuple(models),
         changed=changed,
         edits=tuple(path for path in changed if path not in benches),
     )
+
+
+def _generated_models(generation: Generation) -> Sequence[str]:
+    """Return the model of the package's name; if there is none, all generated models."""
+    artifacts, name = generation.package.artifacts, generation.inputs.robot.target.name
+    if f"{name}.mo" in artifacts:
+        return (name,)
+    paths = (path for path, artifact in artifacts.items() if artifact.role is Role.MODEL)
+    return [path.removesuffix(".mo").replace("/", ".") for path in paths]
 
 
 def _words(text: bytes) -> list[str]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import msgspec
@@ -17,7 +17,7 @@ from urdfsync.engine.decide import Decision
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import Inputs, orphaned_robots
 from urdfsync.engine.package_files import key_of
-from urdfsync.engine.package_names import new_name, new_names, recently_renamed
+from urdfsync.engine.package_names import class_of, new_name, new_names, recently_renamed
 from urdfsync.files import shown
 from urdfsync.state.store import Store
 
@@ -39,7 +39,7 @@ def find_all(generation: Generation, decision: Decision) -> tuple[Diagnostic, ..
     """Return all findings of a build in the order of their places."""
     inputs, actions = generation.inputs, decision.actions
     findings = [*generation.diagnostics, *inputs.parents.diagnostics]
-    findings += _diagnose(generation, decision.misfits)
+    findings += _diagnose(generation, decision.misfits, actions)
     if inputs.former_name:
         message = f"robot `{inputs.robot.name}` was called `{inputs.former_name}`; its recorded state"
         place = shown(inputs.config.file), inputs.robot.lines[""]
@@ -62,11 +62,13 @@ def find_all(generation: Generation, decision: Decision) -> tuple[Diagnostic, ..
     return tuple(sorted(findings, key=lambda diagnostic: (diagnostic.file, diagnostic.line)))
 
 
-def _diagnose(generation: Generation, misfits: Sequence[Misfit]) -> Iterator[Diagnostic]:
+def _diagnose(generation: Generation, misfits: Sequence[Misfit], actions: Actions) -> Iterator[Diagnostic]:
     """Yield one finding for all places in a file that have the same fault: an error if the package is broken."""
     if not misfits:
         return
     inputs, renamed = generation.inputs, recently_renamed(generation)
+    written = (one.path for one in actions if one.is_waiting and not one.is_deletion and one.path.endswith(".mo"))
+    waiting = frozenset(map(class_of, written))
     places: dict[tuple[object, ...], list[Misfit]] = {}
     for misfit in misfits:
         if misfit.key or misfit.file in inputs.users_files.mentioning:  # the others are in a former folder
@@ -77,7 +79,7 @@ def _diagnose(generation: Generation, misfits: Sequence[Misfit]) -> Iterator[Dia
         finding = first.finding
         lines = [*map(str, sorted({misfit.finding.line for misfit in more} - {finding.line}))]
         also = f"also in line{'s' if len(lines) > 1 else ''} {_first(lines, _LINES)}" if lines else ""
-        hint = _hint(generation, renamed, first.use) if first.use else finding.hint
+        hint = _hint(generation, renamed, first.use, waiting) if first.use else finding.hint
         yield msgspec.structs.replace(
             finding,
             severity=Severity.ERROR if first.is_broken else Severity.WARNING,
@@ -86,8 +88,10 @@ def _diagnose(generation: Generation, misfits: Sequence[Misfit]) -> Iterator[Dia
         )
 
 
-def _hint(generation: Generation, renamed: Mapping[str, str], use: Unresolved) -> str:
-    """Return a hint for an unresolved name."""
+def _hint(generation: Generation, renamed: Mapping[str, str], use: Unresolved, waiting: Collection[str]) -> str:
+    """Return a hint for an unresolved name; `waiting` has the classes whose files wait for resolved conflicts."""
+    if use.part in waiting and use.kind.value == "class":
+        return "settle the conflicts; its file waits for that"
     inputs, target, options = generation.inputs, generation.inputs.robot.target, generation.inputs.robot.options
     if use.part == inputs.last.target.package != target.package and target.name not in use.candidates:
         return f"use `{target.package}` instead"

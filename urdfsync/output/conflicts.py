@@ -89,7 +89,9 @@ def settle_hint(conflicts: Sequence[DisputedFile]) -> str:
     best, *more = [choice for choice in first if all(choice in choices for choices in others)]
     what, file = ("each conflict", "FILE") if others else ("the conflict", conflicts[0].shown)
     or_more = f" (or {', '.join(more)})" if more else ""
-    return f"settle {what} with `urdfsync resolve {file} {best}`{or_more}"
+    merges = sum("--merge" in choices for choices in (first, *others))
+    and_merge = f"; --merge settles {merges} of {len(conflicts)}" if 0 < merges < len(conflicts) else ""
+    return f"settle {what} with `urdfsync resolve {file} {best}`{or_more}{and_merge}"
 
 
 def _choices(target: DisputedFile) -> dict[str, str]:
