@@ -204,14 +204,14 @@ WAITING = "waiting for the exporter"
         ([BUILT], IS_BUILT),
         ([UNCHANGED], "in step"),
         ([FAILED], IS_BROKEN),
-        ([CONFLICT], "conflict in F0.mo: waiting for `urdfsync resolve`"),
-        ([built("arm", Reason.CONFLICT, Reason.UNOWNED)], "conflict in 2 files: waiting for `urdfsync resolve`"),
+        ([CONFLICT], "conflict in F0.mo: run `urdfsync resolve`"),
+        ([built("arm", Reason.CONFLICT, Reason.UNOWNED)], "conflict in 2 files: run `urdfsync resolve`"),
         # a build that did nothing keeps the time of the last one
         ([BUILT, BUILDING, UNCHANGED], IS_BUILT),
         ([CONFLICT, UNCHANGED], "in step"),
         # one that calms down is as before
         ([BUILT, SETTLING, CALM], IS_BUILT),
-        ([CONFLICT, SETTLING, CALM], "conflict in F0.mo: waiting for `urdfsync resolve`"),
+        ([CONFLICT, SETTLING, CALM], "conflict in F0.mo: run `urdfsync resolve`"),
         ([FAILED, SETTLING, CALM], IS_BROKEN),
         # a check goes on beside the rest, and counts when it finds something that is not worse
         ([BUILT, CHECKING], "checking"),
@@ -221,7 +221,7 @@ WAITING = "waiting for the exporter"
         ([BUILT, CHECKING, SETTLING, CALM], "checking"),
         ([BUILT, WRONG, BUILDING, UNCHANGED], IS_WRONG),
         ([BUILT, WRONG, CHECKING, RIGHT], IS_BUILT),
-        ([CONFLICT, CHECKING], "conflict in F0.mo: waiting for `urdfsync resolve`"),
+        ([CONFLICT, CHECKING], "conflict in F0.mo: run `urdfsync resolve`"),
         ([CONFLICT, WRONG], IS_WRONG),
         ([WRONG, FAILED], IS_BROKEN),
         # another configuration

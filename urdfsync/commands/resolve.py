@@ -145,7 +145,9 @@ def _refuse(console: Console, planned: Sequence[Result], unknown: Sequence[str])
     for result in failed:
         show_result(console, result)
     hint = "correct the errors first" if failed else "see `urdfsync status` for the conflicts"
-    message = f"nothing conflicts in {', '.join(f'`{path}`' for path in unknown)}"
+    missing = [path for path in unknown if not failed and not os.path.lexists(path)]
+    names = ", ".join(f"`{path}`" for path in missing or unknown)
+    message = f"there is no file {names}" if missing else f"nothing conflicts in {names}"
     problem = Diagnostic(Severity.ERROR, "no-conflict", message, hint=hint)
     return console.end(exit_code(failed) or Exit.ERROR, [problem])
 

@@ -292,7 +292,7 @@ class Report:
         elif result.conflicts:
             files = [(each.action.origin or each.action.path).rpartition("/")[2] for each in result.conflicts]
             where = files[0] if len(files) == 1 else f"{len(files)} files"
-            text = f"{Activity.CONFLICT} in {where}: waiting for `urdfsync resolve`"
+            text = f"{Activity.CONFLICT} in {where}: run `urdfsync resolve`"
             status = RobotStatus(Activity.CONFLICT, text)
         elif not result.writes and before is not None and before.activity is Activity.IN_STEP:
             status = before  # keep the time of the last build that wrote a file
