@@ -9,12 +9,13 @@ from typing import Any, NamedTuple
 import numpy as np
 import pinocchio as pin
 import pytest
-from support import physics
+from support import physics, recorded_omc
 from support.cases import sampled
 from support.modelica import DRIVES, Run, Task, bench, simulate
 from support.packages import generate
 from support.urdfs import dynamics, joint, limit, link, links, mimic, robot
 
+from urdfsync.checks.compilers import omc
 from urdfsync.checks.experiment import Quantity
 from urdfsync.domain import Target
 from urdfsync.urdf.physics import motion
@@ -22,6 +23,8 @@ from urdfsync.urdf.physics.motion import Course
 from urdfsync.urdf.physics.reference import Reference, read
 
 pytestmark = pytest.mark.slow
+
+OPENMODELICA = pytest.param("omc", marks=pytest.mark.skipif(omc.program("") is None, reason="no OpenModelica"))
 
 
 def gear(joint: str, reduction: float, rotor: float, offset: float = 0.0) -> str:
@@ -151,6 +154,21 @@ def test_balls_move_as_pinocchio_says(modelica_library: Path, tmp_path: Path) ->
         ("joint pivot", Quantity.ACCELERATION),
         ("link bob", Quantity.ORIENTATION),
     ]
+
+
+@pytest.mark.parametrize("tool", ["recorded", OPENMODELICA])
+def test_openmodelica_moves_balls_as_pinocchio_says(
+    tool: str, modelica_library: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    if tool == "recorded":
+        recorded_omc.install("Balls", tmp_path / "bin")
+        monkeypatch.setenv("PATH", str(tmp_path / "bin"), prepend=":")
+        monkeypatch.delenv("OPENMODELICAHOME", raising=False)
+    robots = {"Pendulum": PENDULUM, "Shoulder": SHOULDER, "Leg": LEG}
+    cases = [physics.prepare(text.encode(), name).only("motion") for name, text in robots.items()]
+    for found in physics.compare(modelica_library, tmp_path, cases, tool="omc", record="Balls"):
+        assert physics.fault(found) is None
+        assert max(each.relative for each in found if each.quantity is not Quantity.SWEEP) < 1e-9
 
 
 class Flange(NamedTuple):

@@ -9,6 +9,7 @@ from typing import Any
 
 import msgspec
 
+from support import recorded_omc
 from support.modelica import URDFSYNC, Run, Task, simulate
 from support.packages import Package, generate
 from urdfsync.checks import compilation
@@ -51,8 +52,13 @@ def prepare(source: bytes | Path, name: str = "Bot", **options: Any) -> Case:
     return Case(experiment, package)
 
 
-def compare(library: Path, folder: Path, cases: Sequence[Case], own: Path = URDFSYNC) -> list[tuple[Deviation, ...]]:
-    """Simulate the probes of packages with names of their own, below `folder`: how far each is from the reference."""
+def compare(
+    library: Path, folder: Path, cases: Sequence[Case], own: Path = URDFSYNC, tool: str = "rumoca", record: str = ""
+) -> list[tuple[Deviation, ...]]:
+    """Simulate the probes of packages with names of their own, below `folder`: how far each is from the reference.
+
+    See `recorded_omc` for `record`, the name of a conversation with OpenModelica.
+    """
     folders = [case.package.write(folder) for case in cases]
     for file in (file for package in folders for file in package.rglob("*.mo")):
         file.write_text(flagged(file.read_text("utf-8")), "utf-8")
@@ -61,7 +67,10 @@ def compare(library: Path, folder: Path, cases: Sequence[Case], own: Path = URDF
         Task(p.source, p.model, [Run(p.stop, p.step, tolerance=p.tolerance)], p.values, "|".join(p.optional))
         for p in probes
     ]
-    runs, results = iter(simulate(library, folders, tasks, own) if tasks else ()), []
+    series = simulate(library, folders, tasks, own, tool) if tasks else []
+    if record and recorded_omc.RECORDER:
+        recorded_omc.keep(record, series)
+    runs, results = iter(series), []
     for case in cases:
         motions = {}
         for trial in case.experiment.trials:

@@ -75,7 +75,7 @@
   model BallDrive "Turns frame_b about an axis of a joint's frame"
     extends Modelica.Mechanics.MultiBody.Interfaces.PartialTwoFrames;
     parameter Real ways[:, 6];
-    parameter Real axis[3];
+    parameter Real axis[3] annotation (Evaluate = true); // OpenModelica differentiates no product of vectors of parameters
     parameter Real rpy[3] "Angles of the joint's frame in frame_a";
     Modelica.Units.SI.Angle phi;
     Modelica.Units.SI.AngularVelocity w;
