@@ -12,12 +12,17 @@ import numpy as np
 import pytest
 from scipy.linalg import expm
 from support.commands import Execute
-from support.modelica import Run, Series, Task, simulate
+from support.modelica import Run, Task, simulate
 from support.networks import edit
+
+from urdfsync.checks.compilers import omc
 
 pytestmark = pytest.mark.slow
 EXAMPLES = Path(__file__).parent / "examples"
-Simulate = Callable[..., Series]
+TOOLS = [
+    "rumoca",
+    pytest.param("omc", marks=pytest.mark.skipif(omc.program("") is None, reason="no OpenModelica")),
+]
 
 
 @pytest.fixture
@@ -29,17 +34,18 @@ def build(folder: Path, execute: Execute, modelica_library: Path) -> Callable[[s
     return run
 
 
-def result(library: Path, model: str, values: list[str], run: Run) -> dict[str, float]:
+def result(library: Path, model: str, values: list[str], run: Run, tool: str) -> dict[str, float]:
     """The values at the end of a run."""
     package = model.partition(".")[0]
     source = f"model Whole\n  extends {model};\nend Whole;\n"
     task = Task(source, "Whole", (run,), values)
-    (series,) = simulate(library, [Path("modelica", package)], [task])
+    (series,) = simulate(library, [Path("modelica", package).absolute()], [task], tool=tool)
     return {name: float(series.values[name][-1]) for name in values}
 
 
+@pytest.mark.parametrize("tool", TOOLS)
 def test_the_temperatures_of_a_house_equal_those_of_a_matrix_exponential(
-    build: Callable[[str], None], execute: Execute, modelica_library: Path
+    build: Callable[[str], None], execute: Execute, modelica_library: Path, tool: str
 ) -> None:
     build("thermal")
     rows = {row["name"]: row for row in csv.DictReader(Path("house.csv").read_text().splitlines())}
@@ -64,7 +70,7 @@ def test_the_temperatures_of_a_house_equal_those_of_a_matrix_exponential(
     expected = steady + expm(rates * 36000) @ (start - steady)
 
     names = ["living_room.air.T", "bedroom.air.T", "attic.air.T"]
-    found = result(modelica_library, "House.House", names, Run(36000, 3600, tolerance=1e-9))
+    found = result(modelica_library, "House.House", names, Run(36000, 3600, tolerance=1e-9), tool)
     assert [found[name] for name in names] == pytest.approx(list(expected), rel=1e-6)
 
     edit(Path("house.csv"), "outer wall,wall,,35", "outer wall,wall,,37")
@@ -81,9 +87,10 @@ def pressures(file: Path) -> dict[str, float]:
     return {name: float(found[name]) for name in network.junction_name_list}
 
 
+@pytest.mark.parametrize("tool", TOOLS)
 @pytest.mark.parametrize("source", ["town.inp", "Net1.inp"])
 def test_the_pressures_of_water_networks_equal_those_of_epanet(
-    build: Callable[[str], None], execute: Execute, modelica_library: Path, source: str
+    build: Callable[[str], None], execute: Execute, modelica_library: Path, source: str, tool: str
 ) -> None:
     """One network is ours, the other one of those that wntr brings along."""
     wntr = pytest.importorskip("wntr", reason="wntr is not installed")
@@ -93,5 +100,5 @@ def test_the_pressures_of_water_networks_equal_those_of_epanet(
         assert "not modelled: 2 controls, 1 patterns" in execute("build").words
     expected = pressures(Path("town.inp"))
     values = {name: f"junction_{name}.pressure" for name in expected}
-    found = result(modelica_library, "Town.Town", list(values.values()), Run(1, 1))
+    found = result(modelica_library, "Town.Town", list(values.values()), Run(1, 1), tool)
     assert {name: found[value] for name, value in values.items()} == pytest.approx(expected, rel=1e-4)
