@@ -8,7 +8,7 @@ from types import ModuleType
 from typing import Any
 
 from urdfsync.domain import Artifact, Domain, ElementKey, Features, Import, Order, Reading, Role, Target
-from urdfsync.table.model import FROM, TO, TYPES, Options, Table, Value
+from urdfsync.table.model import FROM, TO, Options, Table, Value, shown_unit
 from urdfsync.table.names import component_name, type_name
 
 _TITLES = {"Records": "Numbers of the elements", "Models": "Models of the elements"}
@@ -119,8 +119,7 @@ class TableDomain(Domain):
     def unit(self, snapshot: Table, path: Sequence[str]) -> str:
         """Return the unit of a value at a path such as `elements`, `motor`, `mass`."""
         columns = {"elements": snapshot.columns, "connections": snapshot.connection_columns}.get(path[0], {})
-        unit = columns.get(path[-1], "")
-        return "" if unit in ("1", *TYPES) else unit
+        return shown_unit(columns.get(path[-1], "1"))
 
 
 _FOLDERS = (("Records", Role.RECORD, "record"), ("Models", Role.MODEL, "model"))

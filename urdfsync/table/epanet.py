@@ -89,11 +89,8 @@ def _elements(network: Any) -> list[tuple[str, dict[str, Any]]]:
 
 
 def _kind(element: Any) -> str:
-    return (
-        "valve"
-        if element.__class__.__name__.endswith("Valve")
-        else str(element.__class__.__name__).lower().removeprefix("head").removeprefix("power")
-    )
+    """Return the kind of a node or a link."""
+    return str(getattr(element, "node_type", None) or element.link_type).lower()
 
 
 def _lines(text: str) -> Mapping[tuple[str, str], int]:

@@ -29,6 +29,11 @@ class Sheet(NamedTuple):
 NOTHING = Sheet((), ())
 
 
+def shown_unit(kind: str) -> str:
+    """Return the unit of a column of this kind for people; empty for numbers without unit, texts and the like."""
+    return "" if kind in ("1", *TYPES) else kind
+
+
 class Options(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """How a table becomes a package."""
 

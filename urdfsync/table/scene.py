@@ -13,7 +13,7 @@ from pathlib import Path
 
 from urdfsync.domain import Import, Target
 from urdfsync.pages.scene import Body, Hinge, Pose, Scene, Shape, Triangles
-from urdfsync.table.model import FROM, TO, TYPES, Options, Table
+from urdfsync.table.model import FROM, TO, Options, Table, shown_unit
 from urdfsync.table.names import component_name
 
 _MOST = 500
@@ -34,9 +34,11 @@ def scene(
     bodies, hinges, lines = list[Body](), list[Hinge](), list[Shape]()
     for key, (x, y) in places.items():
         row, name = table.elements[key], component_name(key)
-        units = {column: "" if unit in ("1", *TYPES) else f" {unit}" for column, unit in table.columns.items()}
         facts = [
-            (column, f"{value:g}{units[column]}" if isinstance(value, float) else str(value))
+            (
+                column,
+                f"{value:g} {shown_unit(table.columns[column])}".rstrip() if isinstance(value, float) else str(value),
+            )
             for column, value in row.items()
         ]
         hue = kinds.index(str(row.get(options.kind, ""))) / len(kinds)
