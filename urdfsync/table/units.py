@@ -68,10 +68,8 @@ def _load_registry(text: str) -> Any:
 @functools.lru_cache(maxsize=1)
 def _registry() -> Any:
     import pint
-    import platformdirs
 
-    cache = platformdirs.user_cache_path("urdfsync", appauthor=False) / "units"  # saves 0.3 s of 0.8
-    registry: Any = pint.UnitRegistry(non_int_type=Decimal, cache_folder=cache)
+    registry: Any = pint.UnitRegistry(non_int_type=Decimal)
     registry.define("Ohm = ohm")
     return registry
 
