@@ -22,7 +22,7 @@ _KIND = re.compile(r"[A-Za-z0-9_-]+")
 _TRUTH = {"true": True, "false": False}
 
 
-class _Column(NamedTuple):
+class Column(NamedTuple):
     """A column: its name, and its unit or the name of its type."""
 
     name: str
@@ -31,7 +31,7 @@ class _Column(NamedTuple):
 
 def read(content: bytes, file: str, options: Options) -> Reading:
     """Read a source; see `Domain.read`."""
-    reader = _Reader(file, options)
+    reader = SheetReader(file, options)
     try:
         elements, connections = formats.read_sheets(content, file)
         table = reader.read(elements, connections)
@@ -41,7 +41,7 @@ def read(content: bytes, file: str, options: Options) -> Reading:
     return Reading(None if is_wrong else table, tuple(reader.findings), reader.lines, tuple(reader.of_options))
 
 
-class _Reader:
+class SheetReader:
     """Reads one source, and collects its findings."""
 
     def __init__(self, file: str, options: Options) -> None:
@@ -52,9 +52,9 @@ class _Reader:
 
     def read(self, elements: Sheet, connections: Sheet) -> Table:
         """Return the table; it is whole if there is no error among the findings."""
-        key = self._options.key or (_name_and_unit(elements.header[0])[0] if elements.header else "")
-        columns = self._columns(elements, {key, self._options.kind} - {""})
-        links = self._columns(connections, {FROM, TO})
+        key = self._options.key or (name_and_unit(elements.header[0])[0] if elements.header else "")
+        columns = self.columns(elements, {key, self._options.kind} - {""})
+        links = self.columns(connections, {FROM, TO})
         known = {column.name for column in (*columns, *links)}
         for option, name in [
             ("key", key),
@@ -84,17 +84,17 @@ class _Reader:
         )
         return Table(types, dict(sorted(rows.items())), of_links, dict(sorted(joined.items())))
 
-    def _columns(self, sheet: Sheet, texts: set[str]) -> list[_Column]:
+    def columns(self, sheet: Sheet, texts: set[str]) -> list[Column]:
         """Return the columns; those of `texts` have texts."""
-        columns = list[_Column]()
+        columns = list[Column]()
         for number, cell in enumerate(sheet.header):
-            name, unit = _name_and_unit(cell)
+            name, unit = name_and_unit(cell)
             if not name or not name.isprintable():
                 self._error("no-column", f"column {number + 1} has no name", 1, "name it in the header")
             elif name in (column.name for column in columns):
                 self._error("no-column", f"there are two columns `{name}`", 1, "rename one")
             is_text = name in texts or not name
-            columns.append(_Column(name, "text" if is_text else self._type(name, unit, sheet, number)))
+            columns.append(Column(name, "text" if is_text else self._type(name, unit, sheet, number)))
         for name, reason in find_clashes([column.name for column in columns if column.name], "column"):
             if "same name" in reason and f"`{name}`" not in reason:
                 self._error("no-column", f"column `{name}` can't be told apart: {reason}", 1, "rename it")
@@ -124,9 +124,9 @@ class _Reader:
             self._error("no-unit", f"column `{name}` has numbers, and no unit", 1, hint)
         return "text"
 
-    def _rows(self, sheet: Sheet, columns: Sequence[_Column], key: str) -> dict[str, dict[str, Value]]:
+    def _rows(self, sheet: Sheet, columns: Sequence[Column], key: str) -> dict[str, dict[str, Value]]:
         rows = dict[str, dict[str, Value]]()
-        for line, row in self._values(sheet, columns):
+        for line, row in self.values(sheet, columns):
             name = str(row.pop(key, None) or "")
             kind = row.get(self._options.kind) if self._options.kind else None
             if not name:
@@ -142,10 +142,10 @@ class _Reader:
         return rows
 
     def _connections(
-        self, sheet: Sheet, columns: Sequence[_Column], elements: Mapping[str, object]
+        self, sheet: Sheet, columns: Sequence[Column], elements: Mapping[str, object]
     ) -> dict[str, dict[str, Value]]:
         rows = dict[str, dict[str, Value]]()
-        for line, row in self._values(sheet, columns):
+        for line, row in self.values(sheet, columns):
             ends = [str(row.get(end) or "") for end in (FROM, TO)]
             for name in ends:
                 if name not in elements:
@@ -158,7 +158,7 @@ class _Reader:
             rows[key], self.lines[f"connection {key}"] = row, line
         return rows
 
-    def _values(self, sheet: Sheet, columns: Sequence[_Column]) -> Iterator[tuple[int, dict[str, Value]]]:
+    def values(self, sheet: Sheet, columns: Sequence[Column]) -> Iterator[tuple[int, dict[str, Value]]]:
         """Yield the rows with their values; tell of the first fault in each cell."""
         for line, cells in sheet.rows:
             if len(cells) != len(columns):
@@ -181,7 +181,8 @@ class _Reader:
         self.of_options.append((option, Diagnostic(Severity.ERROR, "no-column", message, hint=hint)))
 
 
-def _name_and_unit(header: str) -> tuple[str, str]:
+def name_and_unit(header: str) -> tuple[str, str]:
+    """Return the name and the unit in a cell of a header."""
     match = _HEADER.fullmatch(header)
     return (match["name"], (match["unit"] or "").strip()) if match else (header, "")
 

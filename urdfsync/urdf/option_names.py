@@ -36,7 +36,12 @@ def check_options(tree: KinematicTree, closed: Assembly, options: Options) -> It
     ranges = {joint.name: own_range(joint) for joint in joints if can_be_driven(joint)}
     drivable, driven = list(ranges), wanted_joints(joints, options)
     checks: list[tuple[str, Sequence[str], Collection[str], str, str]] = [
-        (f"start.{name}", (name,), drivable, _DRIVABLE, "start-of-no-joint") for name in options.start
+        (f"{option}.{name}", (name,), drivable, _DRIVABLE, code)
+        for option, names, code in (
+            ("start", options.start, "start-of-no-joint"),
+            ("motors", options.motors, "drive-of-no-joint"),
+        )
+        for name in names
     ]
     for name, start in options.start.items():
         lower, upper = ranges.get(name, (start, start))

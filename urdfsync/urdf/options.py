@@ -17,6 +17,7 @@ _VISUALIZER_USES = {"visualization2": ("Visualization2", "1.1")}
 
 
 FrictionLaw: TypeAlias = Literal["smooth", "stiction", "lugre"]
+MotorNumber: TypeAlias = Literal["effort", "velocity", "damping", "friction", "armature", "reduction", "rotor_inertia"]
 LeftOut: TypeAlias = Literal["loop-joint", "stray-inertial"]
 """Codes of errors about moving parts that can't be in the robot's model."""
 
@@ -69,6 +70,12 @@ class Options(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """URDF names of driven joints whose drives keep their limits of effort and velocity."""
     drives: Literal["joint", "motor"] = "joint"
     """`motor`: the robot model has a flange at the motor's side of each gear, too."""
+    catalogue: str = ""
+    """The table whose rows have numbers of drives, as a path from the folder of the configuration."""
+    motors: Mapping[str, str] = {}
+    """Rows of the catalogue by URDF names of joints: their numbers replace those of the source."""
+    motor_columns: Mapping[MotorNumber, str] = {}
+    """Columns of the catalogue by their numbers; others have the name of the number."""
     frames: Literal["leaves", "all"] | tuple[str, ...] = "leaves"
     """URDF names of links with a frame in the robot model; leaves always have one."""
     inputs: Literal["names", "vector"] = "names"

@@ -74,6 +74,9 @@ def _describe(difference: Difference, old: _Side, new: _Side, options: Options) 
             driven = (name in wanted_joints(side.joints.values(), options) for side in (old, new))
             reach = ChangeClass.STRUCTURAL if any(driven) else ChangeClass.UNMODELLED
             return difference.change((f"joint {name}", "command"), reach)
+        case ("joints", str(name), "motor", *fields):  # its numbers are changes of their own
+            is_row = fields != ["numbers"] and "numbers" not in fields
+            return difference.change((f"joint {name}", "motor"), ChangeClass.UNMODELLED) if is_row else None
         case ("joints", str(name), *fields):
             units = [
                 _joint_unit(name, side.joints, fields)

@@ -19,6 +19,7 @@ from urdfsync.urdf import validate
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.parse import xml
 from urdfsync.urdf.parse.beside import AXES, split_joints
+from urdfsync.urdf.parse.catalogue import find_faults, read_rows, with_row
 from urdfsync.urdf.parse.drives import configured_drives, read_drives, with_drives
 from urdfsync.urdf.parse.elements import read_joint, read_link, read_material, resolve_materials
 from urdfsync.urdf.parse.fields import Reader, quoted, summary
@@ -54,6 +55,8 @@ class RobotReading(NamedTuple):
     lines: Mapping[str, int]
     unmodelled: tuple[Diagnostic, ...] = ()
     """The note on unmodelled elements, if any."""
+    option_findings: tuple[tuple[str, Diagnostic], ...] = ()
+    """See `urdfsync.domain.Reading`."""
 
 
 def read_robot(content: bytes, file: str, options: Options = _DEFAULTS, balls: Sequence[str] = ()) -> RobotReading:
@@ -69,6 +72,7 @@ def read_robot(content: bytes, file: str, options: Options = _DEFAULTS, balls: S
     except xml.ParseError as error:
         return RobotReading(None, summary([error.diagnostic], file), {})
     reader = Reader(document.lines, options.allow)
+    of_options = tuple(find_faults(document.root, options))
     robot = _read(reader, document, options) if _is_urdf(reader, document) else None
     diagnostics = summary([*document.warnings, *reader.diagnostics], file)
     if robot is None or reader.failed:
@@ -80,7 +84,7 @@ def read_robot(content: bytes, file: str, options: Options = _DEFAULTS, balls: S
             message = f"joint {name!r} is a ball in a loop: three continuous joints stand for it"
             told.append(validate.diagnostic("loop-ball", message, reader.lines[f"joint {name}"]))
         return reading._replace(diagnostics=summary([*told, *reading.diagnostics], file))
-    return RobotReading(robot, diagnostics, reader.lines, summary(_note_unmodelled(reader), file))
+    return RobotReading(robot, diagnostics, reader.lines, summary(_note_unmodelled(reader), file), of_options)
 
 
 def _balls_in_loops(robot: Robot) -> list[str]:
@@ -164,6 +168,7 @@ def _read(reader: Reader, document: xml.Document, options: Options) -> Robot:
     """Return the robot; it is complete only if no diagnostic is an error."""
     root = document.root
     reader.place(root, "robot")
+    rows = read_rows(reader, root)
     reader.expect(root, "robot", ("name", "version"), moves=False)
     reader.version = _read_version(reader, root)
     name = root.get("name", "")
@@ -208,6 +213,7 @@ def _read(reader: Reader, document: xml.Document, options: Options) -> Robot:
     links = [link for link in all_links if link.name]
     all_drives = [*configured_drives(options), *drives]
     joints = with_drives(reader, (joint for joint in all_joints if joint and joint.name), all_drives)
+    joints = [with_row(reader, joint, rows.get(joint.name)) for joint in joints]
     complete = len(links) == len(all_links) and len(joints) == len(all_joints)
     by_path = dict(zip(validate.element_paths("link", [link.name for link in links]), links, strict=True))
     defined = {material.get("name", "") for material in root.iter("material") if len(material)}
