@@ -8,7 +8,7 @@ import os
 import re
 import stat
 from bisect import bisect_right
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -211,26 +211,30 @@ class Catalogue(Protocol):
         ...
 
 
-def catalogue_of(config: Config, robot: RobotConfig) -> Path | None:
-    """Return the path of a robot's catalogue."""
+def with_catalogue(
+    config: Config | None,
+    robot: RobotConfig,
+    text: Source,
+    contents: Callable[[Sequence[Path]], Mapping[Path, bytes]] | None = None,
+) -> Source:
+    """Return a source with the rows of its robot's catalogue as it is on disk, or in the `contents` of a revision.
+
+    A revision without the catalogue adds nothing. Raises SourceError.
+    """
     catalogue: Catalogue | None = registry.domain(robot.domain).catalogue
-    path = catalogue.file(robot.options) if catalogue else ""
-    return config.root / path if path else None
-
-
-def with_catalogue(config: Config, robot: RobotConfig, text: Source, content: bytes | None = None) -> Source:
-    """Return a source with the rows of the robot's catalogue, by default as it is on disk. Raises SourceError."""
-    if (path := catalogue_of(config, robot)) is None:
+    named = catalogue.file(robot.options) if catalogue and config else ""
+    if not (catalogue and config and named):
         return text
+    path = config.root / named
+    try:
+        content = read_file(path) if contents is None else contents([path]).get(path)
+    except OSError as error:
+        message = f"robot `{robot.name}`: the catalogue {shown(path)} can't be read: {error.strerror}"
+        place, hint = (shown(config.file), robot.lines["catalogue"]), "correct `catalogue`"
+        raise SourceError.of("no-source", message, *place, hint=hint) from None
     if content is None:
-        try:
-            content = read_file(path)
-        except OSError as error:
-            message = f"robot `{robot.name}`: the catalogue {shown(path)} can't be read: {error.strerror}"
-            place, hint = (shown(config.file), robot.lines["catalogue"]), "correct `catalogue`"
-            raise SourceError.of("no-source", message, *place, hint=hint) from None
-    joined_text, lines = registry.domain(robot.domain).catalogue.join(text.content, content, shown(path), robot.options)
-    return _with_lines(text, joined_text, lines, path)
+        return text
+    return _with_lines(text, *catalogue.join(text.content, content, shown(path), robot.options), path)
 
 
 def _with_file_beside(domain: Domain, source: Path, content: bytes) -> Source:

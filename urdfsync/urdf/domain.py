@@ -71,12 +71,12 @@ class UrdfDomain(Domain):
         If there are no errors, also warn of implausible values, and of robots that can't be simulated. Names in options
         are checked against the robot.
         """
-        robot, diagnostics, lines, unmodelled, of_options = read_robot(content, file, options)
+        robot, diagnostics, lines, unmodelled = read_robot(content, file, options)
         if robot is None:
             return Reading(None, diagnostics, lines)
         tree = KinematicTree.of(robot)
         closed = assembly(tree, options)
-        about_options = [*of_options, *option_names.check_options(tree, closed, options)]
+        about_options = list(option_names.check_options(tree, closed, options))
         stated = {f"loop {loop.name}": f"loops.{loop.name}" for loop in options.loops}
         stated |= {f"joint {name}": f"start.{name}" for name in options.start}
         of_source = list[Finding]()

@@ -223,11 +223,11 @@ def _with_version(
         if _is_file(against, source, folder):
             file = folder / against
             text = source_files.read_file_source(domain, file, arguments, folders)
-            text = source_files.with_catalogue(config, robot, text) if config else text
+            text = source_files.with_catalogue(config, robot, text)
             other = _VersionedSource(text, (file, source))
         else:
             revision = Revision(source.parent, against)
-            text = _in_revision(revision, robot, config)
+            text = source_files.with_catalogue(config, robot, _in_revision(revision, robot, config), revision.contents)
             other = _VersionedSource(text, (source,), revision, Path(scratch))
         if config and not robot.command:  # the file may be expanded already
             text = source_files.read_source(config, robot, Store(config.root), options)
@@ -268,12 +268,6 @@ def _with_version(
 def _in_revision(revision: Revision, robot: RobotConfig, config: Config | None) -> Source:
     """Return a source in a revision; for xacro, its expansion of that time. Raises SourceError."""
     label = revision.label(robot.source)
-
-    def with_catalogue(text: Source) -> Source:
-        path = source_files.catalogue_of(config, robot) if config else None
-        content = revision.contents([path]).get(path) if path else None
-        return text if content is None or config is None else source_files.with_catalogue(config, robot, text, content)
-
     # the source may have been renamed; its expansion has the robot's name
     if config is None or not (robot.arguments is not None or source_files.is_xacro(robot.source, b"")):
         content = revision.read(robot.source)
@@ -281,12 +275,12 @@ def _in_revision(revision: Revision, robot: RobotConfig, config: Config | None) 
             domain = registry.domain(robot.domain)
             beside = robot.source.with_suffix(domain.beside.SUFFIX) if domain.beside else None
             other = revision.contents([beside]).get(beside, b"") if beside else b""
-            return with_catalogue(source_files.joined(domain, content, label, other, beside))
+            return source_files.joined(domain, content, label, other, beside)
     path = Store(config.root).expansion(robot.name)
     if (recorded := expansion.loads(revision.read(path))) is None:
         message, hint = "the expanded source can't be read", "name a revision with a complete build"
         raise SourceError.of("broken-state", message, revision.label(path), hint=hint)
-    return with_catalogue(Source(recorded.text.encode(), label))
+    return Source(recorded.text.encode(), label)
 
 
 def _files_of(

@@ -5,14 +5,12 @@ them, with their lines, and each converts the units itself:
 
     <catalogue_header effort="stall torque [N.cm]" rotor_inertia="rotor [g.cm2]"/>
     <catalogue_row joint="elbow" motor="MX-64" effort="600" rotor_inertia="12.5"/>
-    <catalogue_fault option="motors.wrist" message="…" hint="…"/>
 """
 
 from __future__ import annotations
 
-from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 from xml.etree.ElementTree import Element, SubElement
 
 import msgspec
@@ -23,8 +21,7 @@ from urdfsync.urdf.options import MotorNumber, Options
 from urdfsync.urdf.parse.fields import Reader
 from urdfsync.urdf.robot import MOTION_KINDS, Joint, Motor, Transmission
 
-_HEADER, _ROW, _FAULT = "catalogue_header", "catalogue_row", "catalogue_fault"
-_NUMBERS: Mapping[MotorNumber, tuple[str, str, str]] = {
+_PLACES: Mapping[MotorNumber, tuple[str, str, str]] = {
     "effort": ("limit", "N.m", "N"),
     "velocity": ("limit", "rad/s", "m/s"),
     "damping": ("dynamics", "N.m.s/rad", "N.s/m"),
@@ -34,169 +31,144 @@ _NUMBERS: Mapping[MotorNumber, tuple[str, str, str]] = {
     "rotor_inertia": ("transmission", "kg.m2", "kg.m2"),
 }
 """Numbers of a row: the field of `Joint` that has each, and its unit for a turning and for a sliding joint."""
-PATHS = {(field, number): number for number, (field, _, _) in _NUMBERS.items()}
+NUMBERS: Mapping[tuple[str | int, ...], str] = {(field, number): number for number, (field, _, _) in _PLACES.items()}
+"""Numbers of a row by their paths in a joint."""
 
 
 class Row(NamedTuple):
-    """A row of the catalogue for one joint."""
+    """A row of the catalogue for one joint; numbers that are not of its gear stand in the joint's elements by now."""
 
     motor: Motor
     gear: Mapping[str, float]
-    """Fields of `Transmission`; all other numbers are attributes of the joint's elements by now."""
-    element: Element
+    line: int
 
 
 def file(options: Options) -> str:
-    """Return the path of the catalogue from the folder of the configuration; empty if no joint needs it."""
+    """Return the path of the catalogue from the configuration's folder; empty if no joint needs it."""
     return options.catalogue if options.motors else ""
 
 
 def join(content: bytes, other: bytes, file: str, options: Options) -> tuple[bytes, Sequence[tuple[int, int]]]:
-    """Return the URDF with the rows before its last tag, and the line of each in both files; see `Catalogue`."""
-    end = content.rfind(b"</robot")
-    if end < 0:
+    """Return the URDF with the rows before its last tag, and the line of each in both files; see `Catalogue`.
+
+    The check of options reports missing rows. Raises SourceError for any other fault of the table.
+    """
+    if (end := content.rfind(b"</robot")) < 0:
         return content, ()
-    elements = list(_elements(other, file, options))
-    first = content.count(b"\n", 0, end) + 2
+    elements, first = list(_elements(other, file, options)), content.count(b"\n", 0, end) + 2
     lines = "".join(f"\n{element}" for element, _ in elements).encode("ascii", "xmlcharrefreplace")
     places = [(number, line) for number, (_, line) in enumerate(elements, first)]
     return content[:end] + lines + b"\n" + content[end:], places
 
 
 def _elements(content: bytes, file: str, options: Options) -> Iterator[tuple[str, int]]:
-    """Yield each element, and its line in the catalogue. Raises SourceError for an unreadable one."""
+    """Yield each element, and its line in the catalogue."""
     from xml.sax.saxutils import quoteattr  # 9 ms, and few robots need it
 
     from urdfsync.table.formats import read_sheets  # likewise
     from urdfsync.table.reading import name_and_unit
 
-    def write(tag: str, line: int, **attributes: object) -> tuple[str, int]:
+    def write(tag: str, **attributes: object) -> str:
         texts = {name: "".join(c if c.isprintable() else " " for c in str(text)) for name, text in attributes.items()}
-        return f"<{tag} {' '.join(f'{name}={quoteattr(text)}' for name, text in texts.items())}/>", line
-
-    def fault(option: str, message: str, name: str, names: Sequence[str]) -> tuple[str, int]:
-        near = nearest(name, names)
-        hint = f"did you mean `{near}`?" if near else f"it has {', '.join(names)}"[:200]
-        return write(_FAULT, 1, option=option, message=f"the catalogue {file} has {message}", hint=hint)
+        return f"<{tag} {' '.join(f'{name}={quoteattr(text)}' for name, text in texts.items())}/>"
 
     sheet, _ = read_sheets(content, file)
     names = [name_and_unit(cell)[0] for cell in sheet.header]
-    wanted = {number: options.motor_columns.get(number, number) for number in _NUMBERS}
+    wanted = {number: options.motor_columns.get(number, number) for number in _PLACES}
     columns = {number: names.index(column) for number, column in wanted.items() if column in names}
-    for number, column in options.motor_columns.items():
-        if column not in names:
-            yield fault(f"motor_columns.{number}", f"no column `{column}`", column, names)
-    if not columns:
-        yield fault("catalogue", f"none of the columns {', '.join(_NUMBERS)}", "", names)
-    yield write(_HEADER, 1, **{number: sheet.header[column] for number, column in columns.items()})
-    rows = defaultdict[str, list[tuple[int, Sequence[object]]]](list)
+    named = options.motor_columns if columns else wanted
+    if missing := [column for column in named.values() if column not in names]:
+        near = nearest(missing[0], names)
+        hint = f"did you mean `{near}`?" if near else "name its columns in `motor_columns`"
+        raise SourceError.of("no-column", f"there is no column `{missing[0]}`", file, 1, hint=hint)
+    yield write("catalogue_header", **{number: sheet.header[column] for number, column in columns.items()}), 1
+    rows = dict[str, tuple[int, Sequence[object]]]()
     for line, cells in sheet.rows:
-        rows[str(cells[0]).strip()].append((line, cells))
+        name = str(cells[0]).strip()
+        if name in rows and name in options.motors.values():
+            message = f"the row `{name}` stands in line {rows[name][0]}, too"
+            raise SourceError.of("duplicate-key", message, file, line, hint="rename one")
+        rows[name] = line, cells
     for joint, name in options.motors.items():
-        if len(rows.get(name, ())) != 1:
-            words = f"no row `{name}`" if name not in rows else f"{len(rows[name])} rows `{name}`"
-            yield fault(f"motors.{joint}", words, name, list(rows))
-            continue
-        (line, cells), *_ = rows[name]
-        filled = {
-            number: cells[column]
-            for number, column in columns.items()
-            if column < len(cells) and cells[column] is not None
-        }
-        yield write(_ROW, line, joint=joint, motor=name, **filled)
-
-
-def find_faults(root: Element, options: Options) -> Iterator[tuple[str, Diagnostic]]:
-    """Yield the faults of the options `catalogue`, `motors` and `motor_columns`; see `Reading.option_findings`."""
-    if file(options) and root.find(_HEADER) is None:
-        message, hint = "the catalogue can't be added to the source", "save the source as UTF-8"
-        yield "catalogue", Diagnostic(Severity.ERROR, "catalogue", message, hint=hint)
-    elif options.motors and not options.catalogue:
-        message, hint = "`motors` names rows, but there is no catalogue", "name its file in `catalogue`"
-        yield "motors", Diagnostic(Severity.ERROR, "catalogue", message, hint=hint)
-    for fault in root.findall(_FAULT):
-        option, message, hint = (fault.get(name, "") for name in ("option", "message", "hint"))
-        yield option, Diagnostic(Severity.ERROR, "catalogue", message, hint=hint)
+        line, cells = rows.get(name, (0, names))
+        if len(cells) != len(names):
+            message = f"the row `{name}` has {len(cells)} cells, and the header {len(names)}"
+            raise SourceError.of("ragged-row", message, file, line, hint="fill each cell, or quote its text")
+        if name in rows:
+            filled = {number: cells[column] for number, column in columns.items() if cells[column] is not None}
+            yield write("catalogue_row", joint=joint, motor=name, **filled), line
 
 
 def read_rows(reader: Reader, root: Element) -> Mapping[str, Row]:
     """Put the numbers of the catalogue's rows into the elements of their joints; return the rows by joint.
 
-    The elements of the catalogue leave the document. Joints that are not there, or have no axis, are left out: the
-    check of options reports them.
+    The elements of the catalogue leave the document. Rows of joints without an axis are left out: the check of options
+    reports them.
     """
-    header, rows = root.find(_HEADER), root.findall(_ROW)
-    joints = {joint.get("name"): joint for joint in root.findall("joint") if joint.get("type") in MOTION_KINDS}
-    for element in [part for part in root if part.tag in (_HEADER, _ROW, _FAULT)]:
+    header, rows = root.find("catalogue_header"), root.findall("catalogue_row")
+    for element in (*root.findall("catalogue_header"), *rows):
         root.remove(element)
     if header is None or not rows:
         return {}
     from urdfsync.table.model import Options as TableOptions  # 15 ms, and few robots need it
     from urdfsync.table.model import Sheet
     from urdfsync.table.reading import SheetReader
+
+    numbers = [number for number in _PLACES if number in header.attrib]
+    by_line = {reader.element_lines[row]: row for row in rows}
+    cells = [(line, [row.get(number) for number in numbers]) for line, row in by_line.items()]
+    table, sheet = SheetReader("", TableOptions()), Sheet([header.get(number, "") for number in numbers], cells)
+    columns = dict(zip(numbers, table.columns(sheet, set()), strict=True))
+    found, read = dict[str, Row](), list(table.values(sheet, [*columns.values()]))
+    joints = {joint.get("name"): joint for joint in root.findall("joint") if joint.get("type") in MOTION_KINDS}
+    try:
+        for line, values in read if not table.findings else ():
+            row = by_line[line]
+            name = row.get("joint", "")
+            sizes = {number: values[column.name] for number, column in columns.items() if column.name in values}
+            if name in joints:
+                gear = _put(reader, joints[name], columns, sizes, line)
+                found[name] = Row(Motor(row.get("motor", ""), tuple(sizes)), gear, line)
+    except SourceError as error:
+        table.findings += error.diagnostics
+    for finding in table.findings:
+        line = finding.line if finding.line in by_line else reader.element_lines[header]
+        reader.diagnostics.append(msgspec.structs.replace(finding, line=line))
+    return found
+
+
+def _put(
+    reader: Reader, joint: Element, columns: Mapping[MotorNumber, Any], values: Mapping[MotorNumber, Any], line: int
+) -> Mapping[str, float]:
+    """Put the numbers of a row into the elements of its joint; return those of its gear. Raises SourceError."""
     from urdfsync.table.units import Unit, is_same_kind
 
-    def fail(element: Element, code: str, message: str, hint: str) -> None:
-        line = reader.element_lines[element]
-        found = Diagnostic(Severity.ERROR, code, message, line=line, hint=hint)
-        if found not in reader.diagnostics:
-            reader.diagnostics.append(found)
-
-    numbers = [number for number in _NUMBERS if number in header.attrib]
-    by_line = {reader.element_lines[row]: row for row in rows}
-    sheet = Sheet(
-        [header.get(number, "") for number in numbers],
-        [(line, [row.get(number) for number in numbers]) for line, row in by_line.items()],
-    )
-    table = SheetReader("", TableOptions())
-    columns = table.columns(sheet, set())
-    values = [] if table.findings else list(table.values(sheet, columns))
-    for finding in table.findings:
-        fail(by_line.get(finding.line, header), finding.code, finding.message, finding.hint)
-    found = dict[str, Row]()
-    for line, cells in values:
-        row = by_line[line]
-        name = row.get("joint", "")
-        joint, gear, given = joints.get(name), dict[str, float](), list[str]()
-        if joint is None:
+    kind, gear = MOTION_KINDS[joint.get("type")], dict[str, float]()  # type: ignore[index] # see `joints`
+    motion = "sliding" if kind == "translational" else "turning"
+    if not values:
+        raise SourceError.of("bad-cell", "the row has no number of a drive", "", line, hint="fill its cells")
+    for number, value in values.items():
+        column, (field, *units) = columns[number], _PLACES[number]
+        unit = column.type.si if isinstance(column.type, Unit) else "1" if column.type == "integer" else "text"
+        expected = units[motion == "sliding"]
+        if unit == "text" or not is_same_kind(unit, expected):
+            message = f"column `{column.name}` is in {unit}, and the {number} of a {motion} joint is in {expected}"
+            raise SourceError.of("bad-unit", message, hint="correct its unit, or name another column")
+        if value < 0 if number != "reduction" else not value:
+            message = f"column `{column.name}`: {value:g} is no {number}"
+            raise SourceError.of("bad-cell", message, "", line, hint="correct the cell")
+        if field == "transmission":
+            gear[number] = float(value)
             continue
-        for number, column in zip(numbers, columns, strict=True):
-            value = cells.get(column.name)
-            if value is None:
-                continue
-            field, *units = _NUMBERS[number]
-            expected = units[MOTION_KINDS[joint.get("type")] == "translational"]  # type: ignore[index] # see `joints`
-            unit = column.type.si if isinstance(column.type, Unit) else {"integer": "1"}.get(column.type, "")
-            try:
-                is_right = bool(unit) and is_same_kind(unit, expected)
-            except SourceError as error:
-                fail(header, error.diagnostics[0].code, error.diagnostics[0].message, error.diagnostics[0].hint)
-                continue
-            if not is_right:
-                has = f"is in {unit}" if unit else "has no unit"
-                message = f"column `{column.name}` {has}, and the {number} of joint `{name}` needs {expected}"
-                fail(header, "bad-unit", message, "correct its unit, or name another column in `motor_columns`")
-                continue
-            size = float(value)
-            if size < 0 if number != "reduction" else not size:
-                fail(row, "bad-cell", f"column `{column.name}`: {size:g} is no {number}", "correct the cell")
-            given.append(number)
-            if field == "transmission":
-                gear[number] = size
-                continue
-            part = next((p for p in (joint.find(field), joint.find(f"axis/{field}")) if p is not None), None)
-            if part is None and field == "limit" and joint.get("type") != "continuous":
-                message = f"joint `{name}` has no <limit>, and a row can't give it limits of position"
-                fail(row, "catalogue", message, "give it a <limit> with lower and upper")
-                continue
-            if part is None:
-                part = SubElement(joint, field)
-                reader.element_lines = {**reader.element_lines, part: line}
-            part.set(number, repr(size))
-        if not given:
-            fail(row, "catalogue", f"the row `{row.get('motor')}` has no number of a drive", "fill its cells")
-        found[name] = Row(Motor(row.get("motor", ""), tuple(given)), gear, row)
-    return found
+        part = next((joint.find(path) for path in (field, f"axis/{field}") if joint.find(path) is not None), None)
+        if part is None and field == "limit" and joint.get("type") != "continuous":
+            message = f"joint `{joint.get('name')}` has no <limit>, and a row can't give it limits of position"
+            raise SourceError.of("no-limit", message, "", line, hint="give it lower and upper in the URDF")
+        if part is None:
+            part = SubElement(joint, field)
+            reader.element_lines = {**reader.element_lines, part: line}
+        part.set(number, repr(float(value)))
+    return gear
 
 
 def with_row(reader: Reader, joint: Joint, row: Row | None) -> Joint:
@@ -206,6 +178,6 @@ def with_row(reader: Reader, joint: Joint, row: Row | None) -> Joint:
     gear = msgspec.structs.replace(joint.transmission or Transmission(), **row.gear)
     if gear.joint is not None and "reduction" in row.gear:
         message = f"the motor of joint `{joint.name}` moves `{gear.joint}`, too: a row can't give its reduction"
-        line, hint = reader.element_lines[row.element], "leave its cell empty"
-        reader.diagnostics.append(Diagnostic(Severity.ERROR, "catalogue", message, line=line, hint=hint))
+        found = Diagnostic(Severity.ERROR, "bad-cell", message, line=row.line, hint="leave its cell empty")
+        reader.diagnostics.append(found)
     return msgspec.structs.replace(joint, motor=row.motor, transmission=None if gear == Transmission() else gear)

@@ -19,7 +19,7 @@ from urdfsync.urdf import validate
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.parse import xml
 from urdfsync.urdf.parse.beside import AXES, split_joints
-from urdfsync.urdf.parse.catalogue import find_faults, read_rows, with_row
+from urdfsync.urdf.parse.catalogue import Row, read_rows, with_row
 from urdfsync.urdf.parse.drives import configured_drives, read_drives, with_drives
 from urdfsync.urdf.parse.elements import read_joint, read_link, read_material, resolve_materials
 from urdfsync.urdf.parse.fields import Reader, quoted, summary
@@ -55,8 +55,6 @@ class RobotReading(NamedTuple):
     lines: Mapping[str, int]
     unmodelled: tuple[Diagnostic, ...] = ()
     """The note on unmodelled elements, if any."""
-    option_findings: tuple[tuple[str, Diagnostic], ...] = ()
-    """See `urdfsync.domain.Reading`."""
 
 
 def read_robot(content: bytes, file: str, options: Options = _DEFAULTS, balls: Sequence[str] = ()) -> RobotReading:
@@ -72,8 +70,8 @@ def read_robot(content: bytes, file: str, options: Options = _DEFAULTS, balls: S
     except xml.ParseError as error:
         return RobotReading(None, summary([error.diagnostic], file), {})
     reader = Reader(document.lines, options.allow)
-    of_options = tuple(find_faults(document.root, options))
-    robot = _read(reader, document, options) if _is_urdf(reader, document) else None
+    rows = read_rows(reader, document.root)
+    robot = _read(reader, document, options, rows) if not reader.failed and _is_urdf(reader, document) else None
     diagnostics = summary([*document.warnings, *reader.diagnostics], file)
     if robot is None or reader.failed:
         return RobotReading(None, diagnostics, reader.lines)
@@ -84,7 +82,7 @@ def read_robot(content: bytes, file: str, options: Options = _DEFAULTS, balls: S
             message = f"joint {name!r} is a ball in a loop: three continuous joints stand for it"
             told.append(validate.diagnostic("loop-ball", message, reader.lines[f"joint {name}"]))
         return reading._replace(diagnostics=summary([*told, *reading.diagnostics], file))
-    return RobotReading(robot, diagnostics, reader.lines, summary(_note_unmodelled(reader), file), of_options)
+    return RobotReading(robot, diagnostics, reader.lines, summary(_note_unmodelled(reader), file))
 
 
 def _balls_in_loops(robot: Robot) -> list[str]:
@@ -164,11 +162,10 @@ def _read_version(reader: Reader, root: Element) -> tuple[int, int]:
     return version
 
 
-def _read(reader: Reader, document: xml.Document, options: Options) -> Robot:
+def _read(reader: Reader, document: xml.Document, options: Options, rows: Mapping[str, Row]) -> Robot:
     """Return the robot; it is complete only if no diagnostic is an error."""
     root = document.root
     reader.place(root, "robot")
-    rows = read_rows(reader, root)
     reader.expect(root, "robot", ("name", "version"), moves=False)
     reader.version = _read_version(reader, root)
     name = root.get("name", "")

@@ -44,9 +44,7 @@ def read_gears(root: Any) -> dict[str, Gear]:
                 gears.setdefault(name, each)
     for name, row in read_motors(root).items():
         gear = gears.get(name, Gear())
-        gear = gear._replace(
-            reduction=row.get("reduction", gear.reduction), rotor=row.get("rotor_inertia", gear.rotor)
-        )
+        gear = gear._replace(reduction=row.get("reduction", gear.reduction), rotor=row.get("rotor_inertia", gear.rotor))
         if gear != Gear():
             gears[name] = gear
     return gears
