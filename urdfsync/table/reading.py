@@ -22,7 +22,7 @@ _KIND = re.compile(r"[A-Za-z0-9_-]+")
 _TRUTH = {"true": True, "false": False}
 
 
-class Column(NamedTuple):
+class _Column(NamedTuple):
     """A column: its name, and its unit or the name of its type."""
 
     name: str
@@ -31,7 +31,7 @@ class Column(NamedTuple):
 
 def read(content: bytes, file: str, options: Options) -> Reading:
     """Read a source; see `Domain.read`."""
-    reader = SheetReader(file, options)
+    reader = _Reader(file, options)
     try:
         elements, connections = formats.read_sheets(content, file)
         table = reader.read(elements, connections)
@@ -41,7 +41,7 @@ def read(content: bytes, file: str, options: Options) -> Reading:
     return Reading(None if is_wrong else table, tuple(reader.findings), reader.lines, tuple(reader.of_options))
 
 
-class SheetReader:
+class _Reader:
     """Reads one source, and collects its findings."""
 
     def __init__(self, file: str, options: Options) -> None:
@@ -53,8 +53,8 @@ class SheetReader:
     def read(self, elements: Sheet, connections: Sheet) -> Table:
         """Return the table; it is whole if there is no error among the findings."""
         key = self._options.key or (name_and_unit(elements.header[0])[0] if elements.header else "")
-        columns = self.columns(elements, {key, self._options.kind} - {""})
-        links = self.columns(connections, {FROM, TO})
+        columns = self._columns(elements, {key, self._options.kind} - {""})
+        links = self._columns(connections, {FROM, TO})
         known = {column.name for column in (*columns, *links)}
         for option, name in [
             ("key", key),
@@ -84,9 +84,9 @@ class SheetReader:
         )
         return Table(types, dict(sorted(rows.items())), of_links, dict(sorted(joined.items())))
 
-    def columns(self, sheet: Sheet, texts: set[str]) -> list[Column]:
+    def _columns(self, sheet: Sheet, texts: set[str]) -> list[_Column]:
         """Return the columns; those of `texts` have texts."""
-        columns = list[Column]()
+        columns = list[_Column]()
         for number, cell in enumerate(sheet.header):
             name, unit = name_and_unit(cell)
             if not name or not name.isprintable():
@@ -94,7 +94,7 @@ class SheetReader:
             elif name in (column.name for column in columns):
                 self._error("no-column", f"there are two columns `{name}`", 1, "rename one")
             is_text = name in texts or not name
-            columns.append(Column(name, "text" if is_text else self._type(name, unit, sheet, number)))
+            columns.append(_Column(name, "text" if is_text else self._type(name, unit, sheet, number)))
         for name, reason in find_clashes([column.name for column in columns if column.name], "column"):
             if "same name" in reason and f"`{name}`" not in reason:
                 self._error("no-column", f"column `{name}` can't be told apart: {reason}", 1, "rename it")
@@ -124,9 +124,9 @@ class SheetReader:
             self._error("no-unit", f"column `{name}` has numbers, and no unit", 1, hint)
         return "text"
 
-    def _rows(self, sheet: Sheet, columns: Sequence[Column], key: str) -> dict[str, dict[str, Value]]:
+    def _rows(self, sheet: Sheet, columns: Sequence[_Column], key: str) -> dict[str, dict[str, Value]]:
         rows = dict[str, dict[str, Value]]()
-        for line, row in self.values(sheet, columns):
+        for line, row in self._values(sheet, columns):
             name = str(row.pop(key, None) or "")
             kind = row.get(self._options.kind) if self._options.kind else None
             if not name:
@@ -142,10 +142,10 @@ class SheetReader:
         return rows
 
     def _connections(
-        self, sheet: Sheet, columns: Sequence[Column], elements: Mapping[str, object]
+        self, sheet: Sheet, columns: Sequence[_Column], elements: Mapping[str, object]
     ) -> dict[str, dict[str, Value]]:
         rows = dict[str, dict[str, Value]]()
-        for line, row in self.values(sheet, columns):
+        for line, row in self._values(sheet, columns):
             ends = [str(row.get(end) or "") for end in (FROM, TO)]
             for name in ends:
                 if name not in elements:
@@ -158,7 +158,7 @@ class SheetReader:
             rows[key], self.lines[f"connection {key}"] = row, line
         return rows
 
-    def values(self, sheet: Sheet, columns: Sequence[Column]) -> Iterator[tuple[int, dict[str, Value]]]:
+    def _values(self, sheet: Sheet, columns: Sequence[_Column]) -> Iterator[tuple[int, dict[str, Value]]]:
         """Yield the rows with their values; tell of the first fault in each cell."""
         for line, cells in sheet.rows:
             if len(cells) != len(columns):
@@ -168,7 +168,7 @@ class SheetReader:
             row = dict[str, Value]()
             for column, cell in zip(columns, cells, strict=True):
                 try:
-                    if (value := _value(cell, column.type)) is not None:
+                    if (value := read_value(cell, column.type)) is not None:
                         row[column.name] = value
                 except ValueError as error:
                     self._error("bad-cell", f"column `{column.name}`: {error}", line, "correct the cell")
@@ -182,7 +182,7 @@ class SheetReader:
 
 
 def name_and_unit(header: str) -> tuple[str, str]:
-    """Return the name and the unit in a cell of a header."""
+    """Return the name and the unit in a cell of a header; both may be empty."""
     match = _HEADER.fullmatch(header)
     return (match["name"], (match["unit"] or "").strip()) if match else (header, "")
 
@@ -193,7 +193,7 @@ def _is_number(cell: object) -> bool:
     return isinstance(cell, int | float) and not isinstance(cell, bool)
 
 
-def _value(cell: object, kind: Unit | str) -> Value | None:
+def read_value(cell: object, kind: Unit | str) -> Value | None:
     """Return the value of a cell in SI; None if it is empty. Raises ValueError."""
     text = cell.strip() if isinstance(cell, str) else cell
     if text is None or text == "":

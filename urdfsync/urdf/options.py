@@ -74,8 +74,8 @@ class Options(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """The table whose rows have numbers of drives, as a path from the folder of the configuration."""
     motors: Mapping[str, str] = {}
     """Rows of the catalogue by URDF names of joints: their numbers replace those of the source."""
-    motor_columns: Mapping[MotorNumber, str] = {}
-    """Columns of the catalogue by their numbers; others have the name of the number."""
+    motor_columns: Mapping[MotorNumber, str | tuple[str, ...]] = {}
+    """Columns of the catalogue by their numbers: the first filled one counts; by default the one of that name."""
     frames: Literal["leaves", "all"] | tuple[str, ...] = "leaves"
     """URDF names of links with a frame in the robot model; leaves always have one."""
     inputs: Literal["names", "vector"] = "names"

@@ -1,26 +1,27 @@
 """Reads a catalogue: a table whose rows have numbers of drives, such as rotors, gears and limits.
 
-The rows that the option `motors` names go to the end of the URDF, as they are written. So all readers of the URDF have
-them, with their lines, and each converts the units itself:
+The rows that the option `motors` names go to the end of the URDF, as they are written, with their units:
 
-    <catalogue_header effort="stall torque [N.cm]" rotor_inertia="rotor [g.cm2]"/>
-    <catalogue_row joint="elbow" motor="MX-64" effort="600" rotor_inertia="12.5"/>
+    <catalogue_row joint="elbow" motor="S41" effort="410 [N.cm]" rotor_inertia="0.6 [g.cm2]"/>
+
+So all readers of the URDF have them, with their lines, and each converts the units itself.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 from xml.etree.ElementTree import Element, SubElement
 
 import msgspec
 
-from urdfsync.diagnostics import Diagnostic, Severity, SourceError
+from urdfsync.diagnostics import SourceError
 from urdfsync.spelling import nearest
 from urdfsync.urdf.options import MotorNumber, Options
 from urdfsync.urdf.parse.fields import Reader
 from urdfsync.urdf.robot import MOTION_KINDS, Joint, Motor, Transmission
 
+_ROW = "catalogue_row"
 _PLACES: Mapping[MotorNumber, tuple[str, str, str]] = {
     "effort": ("limit", "N.m", "N"),
     "velocity": ("limit", "rad/s", "m/s"),
@@ -51,7 +52,7 @@ def file(options: Options) -> str:
 def join(content: bytes, other: bytes, file: str, options: Options) -> tuple[bytes, Sequence[tuple[int, int]]]:
     """Return the URDF with the rows before its last tag, and the line of each in both files; see `Catalogue`.
 
-    The check of options reports missing rows. Raises SourceError for any other fault of the table.
+    The check of options reports missing rows. Raises SourceError for other faults of the table.
     """
     if (end := content.rfind(b"</robot")) < 0:
         return content, ()
@@ -62,113 +63,107 @@ def join(content: bytes, other: bytes, file: str, options: Options) -> tuple[byt
 
 
 def _elements(content: bytes, file: str, options: Options) -> Iterator[tuple[str, int]]:
-    """Yield each element, and its line in the catalogue."""
+    """Yield the element of each joint, and its line in the catalogue."""
     from xml.sax.saxutils import quoteattr  # 9 ms, and few robots need it
 
     from urdfsync.table.formats import read_sheets  # likewise
     from urdfsync.table.reading import name_and_unit
 
-    def write(tag: str, **attributes: object) -> str:
-        texts = {name: "".join(c if c.isprintable() else " " for c in str(text)) for name, text in attributes.items()}
-        return f"<{tag} {' '.join(f'{name}={quoteattr(text)}' for name, text in texts.items())}/>"
-
     sheet, _ = read_sheets(content, file)
-    names = [name_and_unit(cell)[0] for cell in sheet.header]
-    wanted = {number: options.motor_columns.get(number, number) for number in _PLACES}
-    columns = {number: names.index(column) for number, column in wanted.items() if column in names}
-    named = options.motor_columns if columns else wanted
-    if missing := [column for column in named.values() if column not in names]:
-        near = nearest(missing[0], names)
-        hint = f"did you mean `{near}`?" if near else "name its columns in `motor_columns`"
-        raise SourceError.of("no-column", f"there is no column `{missing[0]}`", file, 1, hint=hint)
-    yield write("catalogue_header", **{number: sheet.header[column] for number, column in columns.items()}), 1
-    rows = dict[str, tuple[int, Sequence[object]]]()
+    header = [name_and_unit(cell) for cell in sheet.header]
+    names, columns = [name for name, _ in header], dict[str, Sequence[str]]()
+    for number in _PLACES:
+        named = options.motor_columns.get(number, number)
+        columns[number] = (named,) if isinstance(named, str) else named
+        if missing := [column for column in columns[number] if column not in names and column != number]:
+            near = nearest(missing[0], names)
+            hint = f"did you mean `{near}`?" if near else "correct `motor_columns`"
+            raise SourceError.of("no-column", f"there is no column `{missing[0]}`", file, 1, hint=hint)
+    rows = dict[str, tuple[int, list[str]]]()
     for line, cells in sheet.rows:
-        name = str(cells[0]).strip()
-        if name in rows and name in options.motors.values():
-            message = f"the row `{name}` stands in line {rows[name][0]}, too"
-            raise SourceError.of("duplicate-key", message, file, line, hint="rename one")
-        rows[name] = line, cells
+        texts = ["" if cell is None else str(cell).strip() for cell in cells]
+        if texts[0] in rows and texts[0] in options.motors.values():
+            message = f"the row `{texts[0]}` stands in line {rows[texts[0]][0]}, too"
+            raise SourceError.of("bad-row", message, file, line, hint="rename one")
+        rows[texts[0]] = line, texts
     for joint, name in options.motors.items():
-        line, cells = rows.get(name, (0, names))
-        if len(cells) != len(names):
-            message = f"the row `{name}` has {len(cells)} cells, and the header {len(names)}"
-            raise SourceError.of("ragged-row", message, file, line, hint="fill each cell, or quote its text")
+        line, texts = rows.get(name, (0, names))
+        if len(texts) != len(names):
+            message = f"the row `{name}` has {len(texts)} cells, and the header {len(names)}"
+            raise SourceError.of("bad-row", message, file, line, hint="fill each cell, or quote its text")
+        filled = {column: f"{text} [{unit}]" for (column, unit), text in zip(header, texts, strict=True) if text}
+        found = {"joint": joint, "motor": name}
+        for key, alternatives in columns.items():
+            if column := next(filter(filled.__contains__, alternatives), ""):
+                found[key] = filled[column]
         if name in rows:
-            filled = {number: cells[column] for number, column in columns.items() if cells[column] is not None}
-            yield write("catalogue_row", joint=joint, motor=name, **filled), line
+            words = (f"{key}={quoteattr(''.join(filter(str.isprintable, text)))}" for key, text in found.items())
+            yield f"<{_ROW} {' '.join(words)}/>", line
 
 
 def read_rows(reader: Reader, root: Element) -> Mapping[str, Row]:
     """Put the numbers of the catalogue's rows into the elements of their joints; return the rows by joint.
 
-    The elements of the catalogue leave the document. Rows of joints without an axis are left out: the check of options
-    reports them.
+    The rows leave the document. Those of joints without an axis are left out: the check of options reports them. The
+    first fault becomes a diagnostic: a wrong unit is one fault, and not one in each row.
     """
-    header, rows = root.find("catalogue_header"), root.findall("catalogue_row")
-    for element in (*root.findall("catalogue_header"), *rows):
-        root.remove(element)
-    if header is None or not rows:
-        return {}
-    from urdfsync.table.model import Options as TableOptions  # 15 ms, and few robots need it
-    from urdfsync.table.model import Sheet
-    from urdfsync.table.reading import SheetReader
-
-    numbers = [number for number in _PLACES if number in header.attrib]
-    by_line = {reader.element_lines[row]: row for row in rows}
-    cells = [(line, [row.get(number) for number in numbers]) for line, row in by_line.items()]
-    table, sheet = SheetReader("", TableOptions()), Sheet([header.get(number, "") for number in numbers], cells)
-    columns = dict(zip(numbers, table.columns(sheet, set()), strict=True))
-    found, read = dict[str, Row](), list(table.values(sheet, [*columns.values()]))
     joints = {joint.get("name"): joint for joint in root.findall("joint") if joint.get("type") in MOTION_KINDS}
-    try:
-        for line, values in read if not table.findings else ():
-            row = by_line[line]
-            name = row.get("joint", "")
-            sizes = {number: values[column.name] for number, column in columns.items() if column.name in values}
-            if name in joints:
-                gear = _put(reader, joints[name], columns, sizes, line)
-                found[name] = Row(Motor(row.get("motor", ""), tuple(sizes)), gear, line)
-    except SourceError as error:
-        table.findings += error.diagnostics
-    for finding in table.findings:
-        line = finding.line if finding.line in by_line else reader.element_lines[header]
-        reader.diagnostics.append(msgspec.structs.replace(finding, line=line))
+    rows, found = root.findall(_ROW), dict[str, Row]()
+    for element in rows:
+        root.remove(element)
+    for element in (row for row in rows if row.get("joint") in joints):
+        line = reader.element_lines[element]
+        try:
+            found[element.get("joint", "")] = _read_row(reader, element, joints[element.get("joint")], line)
+        except SourceError as error:
+            reader.diagnostics += [msgspec.structs.replace(fault, line=line) for fault in error.diagnostics]
+            break
     return found
 
 
-def _put(
-    reader: Reader, joint: Element, columns: Mapping[MotorNumber, Any], values: Mapping[MotorNumber, Any], line: int
-) -> Mapping[str, float]:
-    """Put the numbers of a row into the elements of its joint; return those of its gear. Raises SourceError."""
-    from urdfsync.table.units import Unit, is_same_kind
-
-    kind, gear = MOTION_KINDS[joint.get("type")], dict[str, float]()  # type: ignore[index] # see `joints`
-    motion = "sliding" if kind == "translational" else "turning"
-    if not values:
-        raise SourceError.of("bad-cell", "the row has no number of a drive", "", line, hint="fill its cells")
-    for number, value in values.items():
-        column, (field, *units) = columns[number], _PLACES[number]
-        unit = column.type.si if isinstance(column.type, Unit) else "1" if column.type == "integer" else "text"
-        expected = units[motion == "sliding"]
-        if unit == "text" or not is_same_kind(unit, expected):
-            message = f"column `{column.name}` is in {unit}, and the {number} of a {motion} joint is in {expected}"
-            raise SourceError.of("bad-unit", message, hint="correct its unit, or name another column")
-        if value < 0 if number != "reduction" else not value:
-            message = f"column `{column.name}`: {value:g} is no {number}"
-            raise SourceError.of("bad-cell", message, "", line, hint="correct the cell")
-        if field == "transmission":
-            gear[number] = float(value)
-            continue
-        part = next((joint.find(path) for path in (field, f"axis/{field}") if joint.find(path) is not None), None)
+def _read_row(reader: Reader, element: Element, joint: Element, line: int) -> Row:
+    """Put the numbers of a row into the elements of its joint. Raises SourceError."""
+    gear, name, own = dict[str, float](), element.get("motor", ""), joint.get("name", "")
+    numbers = [number for number in _PLACES if number in element.attrib]
+    if not numbers:
+        hint = "fill its cells, or name its columns in `motor_columns`"
+        raise SourceError.of("bad-row", f"the row `{name}` has no number of a drive", hint=hint)
+    for number in numbers:
+        field, *units = _PLACES[number]
+        part = next((part for part in map(joint.find, (field, f"axis/{field}")) if part is not None), None)
         if part is None and field == "limit" and joint.get("type") != "continuous":
-            message = f"joint `{joint.get('name')}` has no <limit>, and a row can't give it limits of position"
-            raise SourceError.of("no-limit", message, "", line, hint="give it lower and upper in the URDF")
+            message = f"joint `{own}` has no <limit>, and the row `{name}` can't give it limits of position"
+            raise SourceError.of("bad-row", message, hint="write its <limit> in the URDF")
+        try:
+            size = _in_si(number, element.get(number, ""), units[MOTION_KINDS[joint.get("type")] == "translational"])  # type: ignore[index] # see `joints`
+        except ValueError as error:
+            message = f"{number} of joint `{own}` in the row `{name}`: {error}"
+            raise SourceError.of("bad-row", message, hint="correct the catalogue, or `motor_columns`") from None
+        if field == "transmission":
+            gear[number] = size
+            continue
         if part is None:
             part = SubElement(joint, field)
             reader.element_lines = {**reader.element_lines, part: line}
-        part.set(number, repr(float(value)))
-    return gear
+        part.set(number, repr(size))
+    return Row(Motor(name, tuple(numbers)), gear, line)
+
+
+def _in_si(number: MotorNumber, text: str, expected: str) -> float:
+    """Return a number with a unit, such as `410 [N.cm]`, in the `expected` unit. Raises ValueError, and SourceError."""
+    from urdfsync.table.reading import name_and_unit, read_value  # 15 ms, and few robots need it
+    from urdfsync.table.units import find_unit, is_same_kind
+
+    cell, unit = name_and_unit(text)
+    if not unit:
+        raise ValueError(f"the column has no unit, such as {expected}")
+    unit = "1" if unit == "integer" else unit
+    if not is_same_kind(unit, expected):
+        raise ValueError(f"{unit} can't be converted to {expected}")
+    size = float(read_value(cell, find_unit(unit)) or 0)
+    if size < 0 if number != "reduction" else not size:
+        raise ValueError(f"{cell} is too small")
+    return size
 
 
 def with_row(reader: Reader, joint: Joint, row: Row | None) -> Joint:
@@ -178,6 +173,6 @@ def with_row(reader: Reader, joint: Joint, row: Row | None) -> Joint:
     gear = msgspec.structs.replace(joint.transmission or Transmission(), **row.gear)
     if gear.joint is not None and "reduction" in row.gear:
         message = f"the motor of joint `{joint.name}` moves `{gear.joint}`, too: a row can't give its reduction"
-        found = Diagnostic(Severity.ERROR, "bad-cell", message, line=row.line, hint="leave its cell empty")
-        reader.diagnostics.append(found)
+        fault = SourceError.of("bad-row", message, "", row.line, hint="leave its cell empty")
+        reader.diagnostics += fault.diagnostics
     return msgspec.structs.replace(joint, motor=row.motor, transmission=None if gear == Transmission() else gear)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import re
 from collections.abc import Mapping
 from typing import Any
@@ -17,23 +18,20 @@ PATHS = {
 
 def read_motors(root: Any) -> Mapping[str, Mapping[str, float]]:
     """Return the numbers of each joint that has a row, in SI."""
-    header = root.find("catalogue_header")
-    factors = {} if header is None else {name: _factor(text) for name, text in header.items() if name in PATHS}
-    motors = dict[str, dict[str, float]]()
-    for row in root.findall("catalogue_row"):
-        cells = {name: (row.get(name) or "").strip() for name in factors}
-        motors[row.get("joint")] = {name: float(text) * factors[name] for name, text in cells.items() if text}
-    return motors
+    return {
+        row.get("joint"): {name: _read(text) for name, text in row.items() if name in PATHS}
+        for row in root.findall("catalogue_row")
+    }
 
 
-def _factor(header: str) -> float:
-    """Return the factor from the unit in a header to SI."""
-    unit = header.partition("[")[2].partition("]")[0].strip()
+@functools.lru_cache(maxsize=256)  # a registry of pint takes 0.3 s
+def _read(text: str) -> float:
+    """Return a number with a unit, such as `410 [N.cm]`, in SI."""
+    number, unit = text.removesuffix("]").split("[")
     try:
         import pint
     except ImportError:
-        return 1.0  # without pint, the first reading refuses all units but those of SI
-    if unit in ("1", "integer"):
-        return 1.0
-    product = re.sub(r"(?<=[^\W\d])\.", "*", unit)
-    return float(pint.UnitRegistry()(re.sub(r"(?<=[A-Za-z])(-?\d)", r"**\1", product)).to_base_units().magnitude)
+        return float(number)  # without pint, the first reading refuses all units but those of SI
+    product = re.sub(r"(?<=[^\W\d])\.", "*", unit.replace("integer", "1"))
+    one: Any = pint.Quantity(re.sub(r"(?<=[A-Za-z])(-?\d)", r"**\1", product))
+    return float(number) * float(one.to_base_units().magnitude)
