@@ -223,8 +223,7 @@ def _with_version(
         if _is_file(against, source, folder):
             file = folder / against
             text = source_files.read_file_source(domain, file, arguments, folders)
-            text = source_files.with_catalogue(config, robot, text)
-            other = _VersionedSource(text, (file, source))
+            other = _VersionedSource(source_files.with_catalogue(config, robot, text), (file, source))
         else:
             revision = Revision(source.parent, against)
             text = source_files.with_catalogue(config, robot, _in_revision(revision, robot, config), revision.contents)
@@ -233,6 +232,7 @@ def _with_version(
             text = source_files.read_source(config, robot, Store(config.root), options)
         else:
             text = source_files.read_file_source(domain, source, arguments, folders)
+            text = source_files.with_catalogue(config, robot, text)
         current = _VersionedSource(text, (source,))
         new, imported, told = _read(domain, robot, current, imports.Imported(), options)
         old, imported_before, told_before = _read(domain, robot, other, imported, options)
