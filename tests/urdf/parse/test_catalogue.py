@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import sys
 from typing import Any
 
 import pytest
@@ -166,6 +167,17 @@ def test_wrong_names_are_faults_of_options(options: dict[str, Any], place: str) 
     content = joined(**options) if chosen["catalogue"] else URDF.encode()
     reading = DOMAIN.read(content, "a.urdf", Options(**chosen))
     assert [option for option, fault in reading.option_findings if fault.severity is Severity.ERROR] == [place]
+
+
+def test_si_needs_no_pint(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "pint", None)
+    chosen: dict[str, Any] = {"catalogue": "motors.csv", "motors": {"elbow": "S"}}
+    rows = "name,effort [N.m],velocity [rad/s],rotor_inertia [kg.m2]\nS,4.25,3.5,1.5e-6\n"
+    content = join(URDF.encode(), rows.encode(), "motors.csv", Options(**chosen))[0]
+    assert joints(content)["elbow"].limit == Limit(-3, 3, 4.25, 3.5)
+    assert differences(content, **chosen) == []
+    other = content.replace(b"4.25 [N.m]", b"4.25 [lbf.ft]")
+    assert [fault.code for fault in read_robot(other, "a.urdf").diagnostics] == ["no-pint"]
 
 
 def test_strange_names_and_cells_are_read_as_they_are() -> None:
