@@ -160,7 +160,10 @@ def _in_si(number: MotorNumber, text: str, expected: str) -> float:
     unit = "1" if unit == "integer" else unit
     if not is_same_kind(unit, expected):
         raise ValueError(f"{unit} can't be converted to {expected}")
-    size = float(read_value(cell, find_unit(unit)) or 0)
+    found = find_unit(unit)
+    if expected.startswith("rad") and "rad" not in found.si:  # pint takes 1/min for rad/min, data sheets for rpm
+        raise ValueError(f"write `turn` or `rad` in {unit}")
+    size = float(read_value(cell, found) or 0)
     if size < 0 if number != "reduction" else not size:
         raise ValueError(f"{cell} is too small")
     return size
