@@ -3,7 +3,6 @@
 
 const SYMBOLS = { rotational: "⟳", translational: "↔", planar: "⬔", floating: "✥", ball: "◉", "": "─" };
 const DEGREES = 180 / Math.PI;
-const HINT = "Click a part to see its numbers, changes and files. Drag it to move its joint.";
 
 /* Returns a new HTML element with attributes, a text or children, and listeners. */
 function make(tag, attributes = {}, content = [], listeners = {}) {
@@ -97,7 +96,7 @@ function fillTree(panel, data, select) {
     const hinge = above.get(body.element);
     depth.set(body.element, hinge ? depth.get(hinge.parent) + 1 : 0);
     const content = [make("span", {}, nameOf(body.element)), ...mark(data.statuses, body.element)];
-    if (hinge) {
+    if (hinge?.element) {
       content.unshift(make("span", { class: "joint" }, [`${SYMBOLS[hinge.motion]} ${nameOf(hinge.element)}`, ...mark(data.statuses, hinge.element), " › "],
         { click: (event) => { event.stopPropagation(); select(hinge.element); } }));
     }
@@ -116,7 +115,7 @@ function fillTree(panel, data, select) {
     event.preventDefault();
     event.stopPropagation();
   });
-  const filter = make("input", { id: "filter", type: "search", placeholder: "Find a link or a joint", "aria-label": "Find a link or a joint" }, [], {
+  const filter = make("input", { id: "filter", type: "search", placeholder: "Find by name", "aria-label": "Find by name" }, [], {
     input: () => { for (const item of items.values()) item.hidden = !item.textContent.toLowerCase().includes(filter.value.toLowerCase()); },
   });
   panel.append(filter, list);
@@ -142,7 +141,7 @@ function fillDetails(panel, data, element, select) {
   const find = (scene) => [...scene.bodies, ...scene.hinges, ...scene.loops].find((each) => each.element === element);
   const item = element && (find(data.now) || find(old));
   if (!item) {
-    panel.replaceChildren(make("p", { class: "quiet" }, HINT));
+    panel.replaceChildren(make("p", { class: "quiet" }, `Click a part to see its numbers, changes and files.${hinges.some((each) => each.motion) ? " Drag it to move its joint." : ""}`));
     return;
   }
   const link = (name) => make("button", { type: "button", class: "name" }, name, { click: () => select(name) });
@@ -151,7 +150,7 @@ function fillDetails(panel, data, element, select) {
   if (changes.length) parts.push(make("ul", {}, changes.map((words) => make("li", { class: "changed" }, words))));
   const facts = item.facts.flatMap(([label, value]) => [make("dt", {}, label), make("dd", {}, value)]);
   const around = item.shapes
-    ? [...hinges, ...loops].filter((each) => endsOf(each).includes(element)).map((each) => each.element)
+    ? [...hinges, ...loops].filter((each) => endsOf(each).includes(element)).map((each) => each.element).filter(Boolean)
     : endsOf(item).filter((name) => bodies.some((body) => body.element === name));
   parts.push(make("dl", {}, facts));
   if (around.length) parts.push(make("p", {}, [make("span", { class: "quiet" }, "beside it: "), ...around.flatMap((name, place) => [place ? ", " : "", link(name)])]));

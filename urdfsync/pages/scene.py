@@ -53,6 +53,7 @@ class Hinge(msgspec.Struct, frozen=True):
     """A connection of two bodies, which may move."""
 
     element: str
+    """Empty if the connection is only a place in the picture."""
     component: str
     facts: Facts
     parent: str

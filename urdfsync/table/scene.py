@@ -44,7 +44,7 @@ def scene(
         hue = kinds.index(str(row.get(options.kind, ""))) / len(kinds)
         box = Shape("visual", "box", _BOX, _pose(), (*colorsys.hls_to_rgb((hue + 0.58) % 1, 0.6, 0.45), 1.0))
         bodies.append(Body(f"element {key}", name, tuple(facts), (box,)))
-        hinges.append(Hinge(f"place of {key}", name, (), root, f"element {key}", _pose(x, y), (0.0, 0.0, 1.0)))
+        hinges.append(Hinge("", name, (), root, f"element {key}", _pose(x, y), (0.0, 0.0, 1.0)))
     for row in table.connections.values():
         if (start := places.get(str(row[FROM]))) and (end := places.get(str(row[TO]))):
             size = (math.dist(start, end), _LINE, _LINE)
