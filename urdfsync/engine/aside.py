@@ -13,9 +13,10 @@ from urdfsync.diagnostics import OutputError
 from urdfsync.domain import Role
 from urdfsync.engine.actions import Action, Reason
 from urdfsync.engine.decide import Decision
-from urdfsync.engine.generation import Generation
+from urdfsync.engine.generate import Package
+from urdfsync.engine.inputs import Former, Inputs
 from urdfsync.engine.package_files import PackageFiles, encode, state_of
-from urdfsync.engine.settle import Former, Settled, known_bases
+from urdfsync.engine.settle import known_bases
 from urdfsync.files import digest
 from urdfsync.modelica.files import class_parts
 from urdfsync.state.record import FileRecord
@@ -23,31 +24,30 @@ from urdfsync.state.store import Aside
 
 
 def put_aside(
-    generation: Generation, decision: Decision, contents: Mapping[str, bytes | None], settled: Settled
+    inputs: Inputs, package: Package, decision: Decision, contents: Mapping[str, bytes | None]
 ) -> tuple[dict[str, Aside], dict[str, bytes]]:
     """Return the saved texts after a build, by path below the package, and the new texts by file.
 
     `contents` are the texts that the build writes, by key; None for a deletion.
     """
-    inputs, folder = generation.inputs, generation.inputs.folder
+    folder, settled = inputs.folder, inputs.settled
     moved = {action.origin: action.path for action in decision.actions if action.origin and action.writes}
-    names = settled.names or decision.names
-    index, replaced = dict[str, Aside](), dict(_replaced(generation, decision, contents, names))
+    index, replaced = dict[str, Aside](), dict(_replaced(inputs, package, decision, contents))
     for path, aside in inputs.last.aside.items():
         key = folder.key(path)
         is_unsaved = _is_as_written(inputs.files, key, aside)
         if key in moved and is_unsaved and (text := inputs.last.aside_text(aside.file)) is not None:
             former = Former(text, FileRecord(aside.bases), aside.texts)
-            replaced.setdefault(moved[key], _follow(generation, former, moved[key], names))
+            replaced.setdefault(moved[key], _follow(inputs, former, moved[key], decision.names))
         elif is_unsaved or not contents:
             index[path] = aside
     for key in settled.contents:
         index.pop(folder.path(key), None)  # another choice replaces it, or it is undone
     chosen = {
-        moved.get(key, key): _follow(generation, former, moved[key], names) if key in moved else former
+        moved.get(key, key): _follow(inputs, former, moved[key], decision.names) if key in moved else former
         for key, former in settled.before.items()
     }
-    beside, texts = dict(_deleted(generation, decision)) if chosen else {}, dict[str, bytes]()
+    beside, texts = dict(_deleted(inputs, decision)) if chosen else {}, dict[str, bytes]()
     for key, former in {**replaced, **chosen}.items():
         place, after = PurePosixPath(folder.path(key)), contents.get(key, settled.contents.get(key))
         file = place.with_name(f"{place.stem}.{digest(former.text)[:8]}{place.suffix}").as_posix()
@@ -66,7 +66,7 @@ def _is_as_written(files: PackageFiles, key: str, aside: Aside) -> bool:
     return (state.text_sha256 if state else None) == aside.after
 
 
-def _follow(generation: Generation, former: Former, key: str, names: Mapping[str, str]) -> Former:
+def _follow(inputs: Inputs, former: Former, key: str, names: Mapping[str, str]) -> Former:
     """Return a text and its base for the file's new path: with new names, and with its `within` clause."""
     from urdfsync.merge.renames import rename, without_clashes  # imports the parser
     from urdfsync.modelica.layout import with_within
@@ -74,13 +74,13 @@ def _follow(generation: Generation, former: Former, key: str, names: Mapping[str
     text, base = former.text.decode(errors="surrogateescape"), next(iter(former.bases.values()), None)
     if base is not None:
         base, text = rename(base, text, without_clashes(names, text))
-    class_name = (generation.inputs.robot.target.package, *class_parts(generation.inputs.folder.path(key)))
+    class_name = (inputs.robot.target.package, *class_parts(inputs.folder.path(key)))
     return Former(encode(with_within(text, ".".join(class_name))), *known_bases(base))
 
 
-def _deleted(generation: Generation, decision: Decision) -> Iterator[tuple[str, str]]:
+def _deleted(inputs: Inputs, decision: Decision) -> Iterator[tuple[str, str]]:
     """Yield the path and text of each model that a choice deletes because nothing needs it any more."""
-    files, folder = generation.inputs.files, generation.inputs.folder
+    files, folder = inputs.files, inputs.folder
     for action in decision.actions:
         is_model = action.path.startswith(folder.key("")) and action.path.endswith(".mo")
         if is_model and action.writes and action.reason is Reason.DELETE:
@@ -88,13 +88,13 @@ def _deleted(generation: Generation, decision: Decision) -> Iterator[tuple[str, 
 
 
 def _replaced(
-    generation: Generation, decision: Decision, contents: Mapping[str, bytes | None], names: Mapping[str, str]
+    inputs: Inputs, package: Package, decision: Decision, contents: Mapping[str, bytes | None]
 ) -> Iterator[tuple[str, Former]]:
     """Yield the key and text of each replaced or deleted file; leave out texts that this machine generated.
 
     A `package.order` is saved only after a union by git: then a build may remove more than its recorded lines.
     """
-    files, last, folder = generation.inputs.files, generation.inputs.last, generation.inputs.folder.key("")
+    files, last, folder = inputs.files, inputs.last, inputs.folder.key("")
     origins = {action.origin for action in decision.actions if action.origin and action.writes}
     for action in decision.actions:
         key, is_moving = action.path, action.reason is Reason.MOVE
@@ -105,22 +105,22 @@ def _replaced(
         text = files.read(action.origin or key) if is_moving else files.read_on_disk(key)
         if text is None or state_of(text).text_sha256 in last.notes.written:
             continue
-        former = Former(text, *_bases_given_back(generation, action, text))
+        former = Former(text, *_bases_given_back(inputs, package, action, text))
         if is_moving:
-            former = _follow(generation, former, key, names)
+            former = _follow(inputs, former, key, decision.names)
         if former.text != contents[key]:
             yield key, former
 
 
-def _bases_given_back(generation: Generation, action: Action, text: bytes) -> tuple[FileRecord, Mapping[str, str]]:
+def _bases_given_back(
+    inputs: Inputs, package: Package, action: Action, text: bytes
+) -> tuple[FileRecord, Mapping[str, str]]:
     """Return the bases that a text has after `--undo`."""
-    inputs = generation.inputs
-    record = inputs.last.files.get(
-        action.path if action.reason is not Reason.MOVE else action.origin or "", FileRecord()
-    )
+    place = (action.origin or "") if action.reason is Reason.MOVE else action.path
+    record = inputs.last.files.get(place, FileRecord())
     # with the old base, the next build would merge the text again, or take it for a generated one
     is_merge = (action.reason is Reason.MERGE or action.is_left_by_git) and inputs.always_merges
     is_own_base = state_of(text).text_sha256 in record.hashes
     if action.generated and action.role is not Role.IMPORT and (is_merge or is_own_base):
-        return known_bases(generation.package.content(inputs.folder.path(action.path)).decode())
+        return known_bases(package.content(inputs.folder.path(action.path)).decode())
     return (FileRecord(), {}) if is_own_base else (record, inputs.last.bases(record))

@@ -2,22 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import msgspec
 
-from urdfsync.changes import Effects
+from urdfsync.changes import Changes, Effects
 from urdfsync.config import Config
 from urdfsync.config.advice import Advice, brings_back
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.domain import ChangeClass
+from urdfsync.domain import ChangeClass, Snapshot
 from urdfsync.engine.actions import Actions
 from urdfsync.engine.decide import Decision
+from urdfsync.engine.differences import Differences
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import Inputs, orphaned_robots
 from urdfsync.engine.package_files import key_of
-from urdfsync.engine.package_names import class_of, new_name, new_names, recently_renamed
+from urdfsync.engine.package_names import class_of, new_name, new_names, renamed_identifiers
 from urdfsync.files import shown
 from urdfsync.state.store import Store
 
@@ -35,11 +36,15 @@ _NEW = 6
 """The most new connectors that are named; further ones are only counted."""
 
 
-def find_all(generation: Generation, decision: Decision) -> tuple[Diagnostic, ...]:
+def find_all(
+    inputs: Inputs, generation: Generation, differences: Differences, decision: Decision
+) -> tuple[Diagnostic, ...]:
     """Return all findings of a build in the order of their places."""
-    inputs, actions = generation.inputs, decision.actions
     findings = [*generation.diagnostics, *inputs.parents.diagnostics]
-    findings += _diagnose(generation, decision.misfits, actions)
+    if decision.misfits:
+        renamed = renamed_identifiers(inputs, generation.now.snapshot, differences)
+        renamed = {**inputs.last.notes.renamed, **renamed}  # by the last build on this machine, and by this one
+        findings += _diagnose(inputs, generation.now.snapshot, decision, renamed)
     if inputs.former_name:
         message = f"robot `{inputs.robot.name}` was called `{inputs.former_name}`; its recorded state"
         place = shown(inputs.config.file), inputs.robot.lines[""]
@@ -49,28 +54,28 @@ def find_all(generation: Generation, decision: Decision) -> tuple[Diagnostic, ..
         hint = "put urdfsync.toml into a folder of the project, and narrower folders into `users`"
         place = shown(inputs.config.file), inputs.robot.lines.get("users", 0)
         findings.append(Diagnostic(Severity.WARNING, "too-many-folders", message, *place, hint=hint))
-    findings += _left_behind(inputs, actions)
+    findings += _left_behind(inputs, decision.actions)
     findings += [inputs.damage] if inputs.damage else []
     effects: Effects | None = inputs.domain.effects
-    if effects and generation.changes is not None and inputs.last.version is not None and generation.changes.changes:
-        for path, finding in effects.find_doubtful(inputs.last.version, generation.now, generation.changes.renames):
+    changes, last = differences.changes, inputs.last.version
+    if effects and changes is not None and last is not None and changes.changes:
+        for path, finding in effects.find_doubtful(last, generation.now, changes.renames):
             line = generation.lines.get(path, 0)
             findings.append(msgspec.structs.replace(finding, file=shown(inputs.robot.source), line=line))
     if decision.is_complete:
-        findings += _changed_connectors(generation)
+        findings += _changed_connectors(inputs, generation, changes)
     findings = list(map(inputs.source.locate, findings))
     return tuple(sorted(findings, key=lambda diagnostic: (diagnostic.file, diagnostic.line)))
 
 
-def _diagnose(generation: Generation, misfits: Sequence[Misfit], actions: Actions) -> Iterator[Diagnostic]:
+def _diagnose(
+    inputs: Inputs, snapshot: Snapshot, decision: Decision, renamed: Mapping[str, str]
+) -> Iterator[Diagnostic]:
     """Yield one finding for all places in a file that have the same fault: an error if the package is broken."""
-    if not misfits:
-        return
-    inputs, renamed = generation.inputs, recently_renamed(generation)
-    written = (one.path for one in actions if one.is_waiting and not one.is_deletion and one.path.endswith(".mo"))
-    waiting = frozenset(map(class_of, written))
+    waiting = (one.path for one in decision.actions if one.is_waiting and not one.is_deletion)
+    classes = {class_of(path) for path in waiting if path.endswith(".mo")}
     places: dict[tuple[object, ...], list[Misfit]] = {}
-    for misfit in misfits:
+    for misfit in decision.misfits:
         if misfit.key or misfit.file in inputs.users_files.mentioning:  # the others are in a former folder
             finding = misfit.finding
             what = misfit.use.part if misfit.use else (misfit.lacking or finding.message, finding.code, finding.line)
@@ -79,7 +84,9 @@ def _diagnose(generation: Generation, misfits: Sequence[Misfit], actions: Action
         finding = first.finding
         lines = [*map(str, sorted({misfit.finding.line for misfit in more} - {finding.line}))]
         also = f"also in line{'s' if len(lines) > 1 else ''} {_first(lines, _LINES)}" if lines else ""
-        hint = _hint(generation, renamed, first.use, waiting) if first.use else finding.hint
+        hint = _hint(inputs, snapshot, renamed, first.use) if first.use else finding.hint
+        if first.use and first.use.part in classes and first.use.kind.value == "class":
+            hint = "settle the conflicts; its file waits for that"
         yield msgspec.structs.replace(
             finding,
             severity=Severity.ERROR if first.is_broken else Severity.WARNING,
@@ -88,18 +95,16 @@ def _diagnose(generation: Generation, misfits: Sequence[Misfit], actions: Action
         )
 
 
-def _hint(generation: Generation, renamed: Mapping[str, str], use: Unresolved, waiting: Collection[str]) -> str:
-    """Return a hint for an unresolved name; `waiting` has the classes whose files wait for resolved conflicts."""
-    if use.part in waiting and use.kind.value == "class":
-        return "settle the conflicts; its file waits for that"
-    inputs, target, options = generation.inputs, generation.inputs.robot.target, generation.inputs.robot.options
+def _hint(inputs: Inputs, snapshot: Snapshot, renamed: Mapping[str, str], use: Unresolved) -> str:
+    """Return a hint for an unresolved name; `renamed` has new identifiers by old ones."""
+    target, options = inputs.robot.target, inputs.robot.options
     if use.part == inputs.last.target.package != target.package and target.name not in use.candidates:
         return f"use `{target.package}` instead"
     if name := new_name(use.part, renamed, use.candidates):
         return f"use `{name}` instead"
     advice: Advice | None = inputs.domain.advice
     for name in dict.fromkeys((use.part, next(new_names(use.part, renamed), use.part))):
-        if advice and (option := advice.option_for(name, generation.now.snapshot, target, options)):
+        if advice and (option := advice.option_for(name, snapshot, target, options)):
             return brings_back(option, name if name != use.part else "")
     if use.near:
         return f"did you mean `{use.meant}`?"
@@ -136,9 +141,8 @@ def _first(names: Sequence[str], most: int) -> str:
     return ", ".join([*names[:most], *more])
 
 
-def _changed_connectors(generation: Generation) -> Iterator[Diagnostic]:
+def _changed_connectors(inputs: Inputs, generation: Generation, changes: Changes | None) -> Iterator[Diagnostic]:
     """Yield notes on renamed and removed connectors, and one note on new ones."""
-    inputs, changes = generation.inputs, generation.changes
     complete, robot = inputs.last.version, inputs.robot
     effects: Effects | None = inputs.domain.effects
     if (

@@ -53,6 +53,11 @@ class Package:
             self._hashes[path] = text_digest(self.content(path))
         return self._hashes[path]
 
+    @functools.cached_property
+    def paths_by_hash(self) -> Mapping[str, str]:
+        """The path of each text, by its hash."""
+        return {self.hash(path): path for path in self.artifacts}
+
     def find_like(self, path: str, owner: str) -> str | None:
         """Return the file of another owner with the same template as this file; None if there is none."""
         template = self.artifacts[path].template

@@ -12,7 +12,7 @@ import msgspec
 
 from urdfsync.config import RobotConfig
 from urdfsync.diagnostics import UrdfsyncError
-from urdfsync.domain import Domain, Import, Lookup, Role, Snapshot, Target, Version
+from urdfsync.domain import Domain, ElementKey, Features, Import, Lookup, Role, Snapshot, Target, Version
 from urdfsync.engine.generate import Package, generate
 from urdfsync.engine.imports import MOST_PARTS, RecordedFile, places_of
 from urdfsync.engine.package_files import Folder, PackageFiles
@@ -112,6 +112,11 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
         snapshot = self.read(self.record.snapshot)
         imports = {key: file.entry for key, file in self.imports.items()}
         return None if snapshot is None else Version(snapshot, imports, self.options)
+
+    @cached_property
+    def elements(self) -> Mapping[ElementKey, Features]:
+        """The elements of the model; none without a model."""
+        return {} if self.version is None else self._domain.features(self.version.snapshot)
 
     @cached_property
     def seen(self) -> Snapshot | None:

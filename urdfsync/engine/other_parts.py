@@ -18,8 +18,10 @@ from urdfsync.answers import dependencies
 from urdfsync.diagnostics import Diagnostic, Severity
 from urdfsync.engine.actions import Reason
 from urdfsync.engine.decide import Decision
-from urdfsync.engine.generation import GONE, Generation
-from urdfsync.engine.package_names import elements_by_identifier, identifier_of, known_names, other_parts
+from urdfsync.engine.differences import GONE, Differences
+from urdfsync.engine.generation import Generation
+from urdfsync.engine.inputs import Inputs
+from urdfsync.engine.package_names import elements_by_identifier, identifier_of, known_names, renamed_names
 from urdfsync.files import shown
 from urdfsync.state.notes import Use
 
@@ -28,15 +30,14 @@ MAYBE = "?"
 """Stands for the new name of a part if it is unknown whether the name means another part now."""
 
 
-def find_uses(generation: Generation, decision: Decision) -> dict[str, Use]:
+def find_uses(inputs: Inputs, generation: Generation, differences: Differences, decision: Decision) -> dict[str, Use]:
     """Return the names in each file that mean another part now; names that earlier builds found are included."""
-    inputs = generation.inputs
     uses = {path: use for path, use in inputs.last.notes.uses.items() if use.facts == _facts(Path(path))}
     if not decision.is_complete:
         return uses
     own = (inputs.files.path(action.path) for action in decision.actions if action.reason is Reason.UNKNOWN)
     files = [*inputs.users_files.mentioning, *own]
-    if files and (names := {**_doubtful_names(generation), **other_parts(generation)}):
+    if files and (names := _other_names(inputs, generation, differences)):
         for path in files:
             earlier = uses[str(path)].names if str(path) in uses else {}
             used = {name: names.get(new, new) for name, new in earlier.items()}
@@ -44,19 +45,24 @@ def find_uses(generation: Generation, decision: Decision) -> dict[str, Use]:
             uses.pop(str(path), None)
             if used := {name: new for name, new in used.items() if name != new}:
                 uses[str(path)] = Use(_facts(path), used)
-    elements = {**{name: MAYBE for _, name in generation.matching.doubts}, **generation.other_elements}
+    elements = {**{name: MAYBE for _, name in differences.matching.doubts}, **differences.other_elements}
     if used := {name: elements[name] for name in _texts(msgspec.to_builtins(inputs.robot.options)) if name in elements}:
         uses[str(inputs.config.file)] = Use(_facts(inputs.config.file), used)
     return uses
 
 
-def _doubtful_names(generation: Generation) -> dict[str, str]:
-    """Return the names in the package that may mean other parts than in the last build."""
-    if not (doubts := generation.matching.doubts):
-        return {}
-    inputs = generation.inputs
-    elements = elements_by_identifier(inputs.domain, generation.now.snapshot, inputs.robot.target)
-    return {name: MAYBE for name in known_names(generation) if elements.get(identifier_of(name, elements)) in doubts}
+def _other_names(inputs: Inputs, generation: Generation, differences: Differences) -> dict[str, str]:
+    """Return the names in the package that mean other parts than in the last build, or may do so.
+
+    Each has the new name of the part that had it before.
+    """
+    doubts, renamed = differences.matching.doubts, dict[str, str]()
+    if differences.other_elements:
+        renamed = renamed_names(inputs, generation, differences)
+    now = known_names(generation.package) if doubts or renamed else ()
+    elements = elements_by_identifier(inputs.domain, generation.now.snapshot, inputs.robot.target) if doubts else {}
+    doubtful = {name: MAYBE for name in now if elements.get(identifier_of(name, elements)) in doubts}
+    return {**doubtful, **{name: new for name, new in renamed.items() if name in now}}
 
 
 def tell_uses(uses: Mapping[str, Use]) -> Iterator[Diagnostic]:
