@@ -190,18 +190,18 @@ def _conflict(
     known = [generated if sha256 == action.generated else last.base(sha256) for sha256 in hashes]
     # a file may have several bases: if the text of one is lost, the changes since it are unknown, and so is the merge
     bases = [text for text in known if text is not None] if None not in known else []
-    base = bases[0] if bases else None
+    base, rejected, moved_to = bases[0] if bases else None, "", ""
     if mine is None:
-        mine, why = files.text(f"{key.removesuffix('.mo')}/package.mo") or "", "you made a folder of the class"
-        why = describe_doubt(doubt) if doubt else why
-        return Conflict(action.path, base, mine, generated, None, origin=action.origin, rejected=why)
-    if doubt:
+        mine = files.text(f"{key.removesuffix('.mo')}/package.mo") or ""
+        rejected = describe_doubt(doubt) if doubt else "you made a folder of the class"
+    elif doubt:
         is_own = action.owner == doubt.element
-        why, moved_to = describe_doubt(doubt, is_used=not is_own), doubt.moved_to if is_own else ""
-        return Conflict(action.path, base, mine, generated, None, rejected=why, moved_to=moved_to)
-    if contradictions := files.left_by_git.get(key):
-        why = united.describe(contradictions)
-        return Conflict(action.path, base, mine, generated, None, origin=action.origin, rejected=why)
+        rejected, moved_to = describe_doubt(doubt, is_used=not is_own), doubt.moved_to if is_own else ""
+    elif contradictions := files.left_by_git.get(key):
+        rejected = united.describe(contradictions)
+    if rejected:
+        texts = base, mine, generated, None
+        return Conflict(action.path, *texts, origin=action.origin, rejected=rejected, moved_to=moved_to)
     from urdfsync.modelica.lexer import words_in  # imports the parser
 
     if not names and bases:  # a choice was undone after the build that brought new names
@@ -229,7 +229,7 @@ def _without_misfits(
         }
         if not tried:
             continue
-        planned, merged = resolve(actions, {**sound, **_with_texts(sound, tried)}, merging=True)
+        planned, merged = resolve(actions, sound, merging=True, choice=side)
         planned = keep_needed(after.with_texts(planned, merged), origins)
         misfits = _find_misfits(after.with_texts(planned, merged, is_open=True), merged.keys())
         if misfits and before is None:
@@ -238,26 +238,15 @@ def _without_misfits(
             before = {(one.key, one.fault) for one in _find_misfits(after.with_texts(waiting, {}), paths)}
         for key in {one.key for one in misfits} & tried.keys():
             conflict = sound[key]
-            new = [
-                one for one in misfits if one.key == key and (conflict.origin or key, one.fault) not in (before or ())
-            ]
-            if not new or tried[key] == conflict.mine:
+            own = (one for one in misfits if one.key == key)
+            new = next((one.finding for one in own if (conflict.origin or key, one.fault) not in (before or ())), None)
+            if new is None or tried[key] == conflict.mine:
                 continue
-            reason = f"in the merge, {new[0].finding.message} (line {new[0].finding.line})"
+            reason = f"in the merge, {new.message} (line {new.line})"
             merge = conflict.merge and conflict.merge.rejected
             changed = {"refused": {**conflict.refused, side: reason}} if side else {"merge": merge, "rejected": reason}
             sound[key] = msgspec.structs.replace(conflict, **changed)
     return sound
-
-
-def _with_texts(conflicts: Mapping[str, Conflict], texts: Mapping[str, str]) -> dict[str, Conflict]:
-    """Return the conflicts with these texts as their merges."""
-    merges = {key: conflicts[key].merge for key in texts}
-    return {
-        key: msgspec.structs.replace(conflicts[key], merge=msgspec.structs.replace(merge, text=texts[key]))
-        for key, merge in merges.items()
-        if merge is not None
-    }
 
 
 def _find_misfits(after: PackageAfter, only: Collection[str] | None = None) -> Sequence[Misfit]:
@@ -331,8 +320,8 @@ def _removable_lines(
 ) -> list[str]:
     """Return the lines of a `package.order` to remove: deleted classes, and recorded lines without a class.
 
-    A recorded line may name a class of the user's, so the class is looked for on disk. If git has united two states,
-    the package may name classes that the other branch renamed: then the class of each line is looked for.
+    A recorded line may name a class of the user's, so the class is looked for, on disk and in `package.mo`. If git has
+    united two states, the package may name classes that the other branch renamed: then this is done for each line.
     """
     folder = order.removesuffix("package.order")
     paths = (action.path.removesuffix("/package.mo").removesuffix(".mo") for action in actions if action.is_deletion)
@@ -340,15 +329,10 @@ def _removable_lines(
     listed = {line.strip() for line in text.splitlines()}
     is_united = inputs.last.record.is_united and order.startswith(inputs.folder.key(""))
     candidates = listed if is_united else listed.intersection(recorded)
-    return [*deleted, *_dangling_lines(inputs.files, order, candidates.difference(deleted))]
-
-
-def _dangling_lines(files: PackageFiles, order: str, names: Iterable[str]) -> list[str]:
-    """Return the names in a `package.order` that have no class and that `package.mo` does not mention."""
-    folder = order.removesuffix("package.order")
-    missing = [name for name in names if is_identifier(name) and not files.has_class(folder, name)]
-    mentioned = set(re.findall(r"\w+", files.text(f"{folder}package.mo") or "")) if missing else set()
-    return [name for name in missing if name not in mentioned]
+    names = filter(is_identifier, candidates.difference(deleted))
+    missing = [name for name in names if not inputs.files.has_class(folder, name)]
+    mentioned = set(re.findall(r"\w+", inputs.files.text(f"{folder}package.mo") or "")) if missing else set()
+    return [*deleted, *(name for name in missing if name not in mentioned)]
 
 
 def _classes_beside(order: str, keys: Iterable[str]) -> list[str]:

@@ -35,8 +35,6 @@ from urdfsync.state import statefile
 from urdfsync.state.record import FileRecord, as_read
 
 if TYPE_CHECKING:
-    import pygit2
-
     from urdfsync.git.revisions import Revision
 
 _MOST = 50
@@ -111,19 +109,15 @@ def _commits(inputs: Inputs) -> Iterator[Revision]:
     names = ["MERGE_HEAD", *(str(parent) for parent in repository.head.peel(pygit2.Commit).parent_ids)]
     if inputs.last.notes.program:
         names += [f"HEAD~{number}" for number in range(2, _BACK)]
-        names += ["ORIG_HEAD", "CHERRY_PICK_HEAD", "REBASE_HEAD", *_checked_out(repository)]
+        # after a squash, the branch itself may be gone: look at the commits that were checked out last
+        recent = itertools.islice(repository.lookup_reference("HEAD").log(), _MOST)
+        names += ["ORIG_HEAD", "CHERRY_PICK_HEAD", "REBASE_HEAD", *(str(entry.oid_new) for entry in recent)]
         names += [name for name in repository.references if name.startswith(("refs/heads/", "refs/remotes/"))][:_MOST]
     for name in dict.fromkeys(names):
         try:
             yield Revision(root, name)
         except SourceError:  # there is no such commit
             continue
-
-
-def _checked_out(repository: pygit2.Repository) -> Iterator[str]:
-    """Yield the commits that were checked out last: after a squash, the branch itself may be gone."""
-    for entry in itertools.islice(repository.lookup_reference("HEAD").log(), _MOST):
-        yield str(entry.oid_new)
 
 
 class _Edit(NamedTuple):

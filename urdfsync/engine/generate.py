@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import msgspec
 
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
-from urdfsync.domain import Artifact, Domain, Import, Order, Role, Snapshot, Target
+from urdfsync.domain import Artifact, Domain, Order, Role, Target, Version
 from urdfsync.files import Templates, digest, normalised, shown, text_digest
 from urdfsync.modelica.files import class_path
 from urdfsync.modelica.literals import without_literals
@@ -102,15 +102,9 @@ class Package:
         return {self.artifacts[path].owner for path in changed}
 
 
-def generate(
-    domain: Domain,
-    snapshot: Snapshot,
-    imports: Mapping[str, Import],
-    target: Target,
-    options: Any,
-    templates: Templates,
-) -> Package:
+def generate(domain: Domain, version: Version, target: Target, options: Any, templates: Templates) -> Package:
     """Return the package of a model. Raises OutputError for paths that can't be written."""
+    snapshot, imports = version.snapshot, version.imports or {}
     # as bytes, since 0.0 == -0.0, but their texts differ
     key = domain.artifacts, msgspec.json.encode((snapshot, imports, target, options), order="sorted")
     artifacts = _recent.pop(key, None)

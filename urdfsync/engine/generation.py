@@ -8,11 +8,12 @@ from typing import Any
 import msgspec
 
 from urdfsync.diagnostics import Diagnostic
-from urdfsync.domain import Lookup, Version
+from urdfsync.domain import Lookup, Role, Version
 from urdfsync.engine import imports, source
 from urdfsync.engine.generate import Package, generate
 from urdfsync.engine.imports import Imported
 from urdfsync.engine.inputs import Inputs
+from urdfsync.engine.package_files import with_line_ends
 from urdfsync.engine.renames import check_declared
 from urdfsync.files import shown
 
@@ -28,6 +29,12 @@ class Generation(msgspec.Struct, frozen=True):
     """Findings about source, options and imports."""
     imported: Imported
     package: Package
+
+    def content(self, path: str, role: Role, mine: bytes) -> bytes | None:
+        """Return a file of the package, a text with the line ends of `mine`; None for a missing source of an import."""
+        if role is Role.IMPORT:
+            return self.imported.contents.get(path)
+        return with_line_ends(self.package.content(path), mine)
 
 
 def generate_robot(inputs: Inputs) -> Generation:
@@ -61,10 +68,11 @@ def _generate(inputs: Inputs) -> Generation:
     findings += imported.diagnostics
     for key, finding in domain.imports.findings(imported.imports, snapshot) if domain.imports else ():
         findings.append(msgspec.structs.replace(finding, file=file, line=lines.get(key, 0)))
-    package = generate(domain, snapshot, imported.imports, robot.target, robot.options, inputs.templates)
+    version = Version(snapshot, imported.imports)
+    package = generate(domain, version, robot.target, robot.options, inputs.templates)
     if last.notes.program == inputs.program and not options.full:
         package.skip(last.notes.texts, last.base)
-    return Generation(Version(snapshot, imported.imports), reading.lines, tuple(findings), imported, package)
+    return Generation(version, reading.lines, tuple(findings), imported, package)
 
 
 def generated_texts(
@@ -75,7 +83,7 @@ def generated_texts(
     if amended is not None:
         content, options = amended
         snapshot, _ = source.read(inputs.domain, options, content, shown(inputs.robot.source))
-        imported, target = generation.imported.imports, inputs.robot.target
-        package = generate(inputs.domain, snapshot, imported, target, options, inputs.templates)
+        version = Version(snapshot, generation.imported.imports)
+        package = generate(inputs.domain, version, inputs.robot.target, options, inputs.templates)
     orders = {path: "".join(f"{name}\n" for name in names).encode() for path, names in package.orders.items()}
     return {path: package.content(path) for path in package.artifacts} | orders

@@ -84,11 +84,6 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
         return self.last.name if self.last.name != self.robot.name else None
 
     @property
-    def always_merges(self) -> bool:
-        """Whether the configuration asks to merge, and not only this command."""
-        return any(robot.name == self.robot.name and robot.on_conflict == "merge" for robot in self.config.robots)
-
-    @property
     def has_moved(self) -> bool:
         """Whether the package has another folder than in the last build."""
         return self.folder != self.last.folder

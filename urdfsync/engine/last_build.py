@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from functools import cached_property
 from typing import Any
 
@@ -96,15 +96,15 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
     @cached_property
     def imports(self) -> Mapping[str, RecordedFile]:
         """The imported files and their copies. If a file has several records, the one that fits the copy is taken."""
-        return {key: self._recorded_file(entries) for key, entries in self.record.imports.items()}
-
-    def _recorded_file(self, entries: Sequence[Import]) -> RecordedFile:
-        files = list[RecordedFile]()
-        for entry in entries:
-            key = self.folder.key(entry.target)
-            written = self.files.get(key, NEVER_WRITTEN).hashes
-            files.append(RecordedFile(entry, self._files.read(key), written, import_hash(entry) in self.notes.imports))
-        return next((file for file in files if file.is_intact), files[0])
+        imports = dict[str, RecordedFile]()
+        for name, entries in self.record.imports.items():
+            files = list[RecordedFile]()
+            for entry in entries:
+                key, is_noted = self.folder.key(entry.target), import_hash(entry) in self.notes.imports
+                written = self.files.get(key, NEVER_WRITTEN).hashes
+                files.append(RecordedFile(entry, self._files.read(key), written, is_noted))
+            imports[name] = next((file for file in files if file.is_intact), files[0])
+        return imports
 
     @cached_property
     def version(self) -> Version | None:
@@ -137,9 +137,9 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
         """The package from the recorded model with today's templates; None if that fails."""
         if self.version is None:
             return None
-        options, imports = self.options or self._robot.options, self.version.imports or {}
+        options = self.options or self._robot.options
         try:
-            return generate(self._domain, self.version.snapshot, imports, self.target, options, self._templates)
+            return generate(self._domain, self.version, self.target, options, self._templates)
         except NO_MODEL:
             return None
 

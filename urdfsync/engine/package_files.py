@@ -146,22 +146,19 @@ class PackageFiles:
     def state_on_disk(self, key: str) -> FileState | None:
         """Return the state of a file on disk at its first reading. Raises OutputError as `read`."""
         path = self._place(key)
-        if path not in self._states:
-            self._states[path] = self._read_state(path)
-        return self._states[path]
-
-    def _read_state(self, path: str) -> FileState | None:
-        folder = path.rpartition(os.sep)[0]
+        if path in self._states:
+            return self._states[path]
+        folder, state = path.rpartition(os.sep)[0], None
         tree = self._tree(folder)
-        if tree is None or not tree.check_folder(folder):
-            return None
-        try:
-            facts = dependencies.read_stat(path)
-        except OSError:  # which `read` explains
-            facts = (0,)
-        state = unchanged_state(path, facts)
-        if state is None and (content := tree.read(path)) is not None:
-            state = note_state(path, facts, content)
+        if tree is not None and tree.check_folder(folder):
+            try:
+                facts = dependencies.read_stat(path)
+            except OSError:  # which `read` explains
+                facts = (0,)
+            state = unchanged_state(path, facts)
+            if state is None and (content := tree.read(path)) is not None:
+                state = note_state(path, facts, content)
+        self._states[path] = state
         return state
 
     def hash(self, key: str, role: Role) -> str | None:

@@ -80,24 +80,23 @@ class _Choices:
             if choice is Choice.TAKE:
                 content, reason, record = None, Reason.DELETE, inputs.last.files.get(key, FileRecord())
         elif choice is Choice.TAKE and action.mine is not None and (action.is_conflict or action.reason in _EDITED):
-            content, reason = self._generated(action, mine or b""), Reason.UPDATE
+            path = inputs.folder.path(action.path)
+            content, reason = self._generation.content(path, action.role, mine or b""), Reason.UPDATE
             if content is None:
                 return False
         elif not (action.is_conflict or conflict):
             return False
         elif choice is Choice.KEEP:
             content = inputs.files.read(key)
-            if (
-                action.reason is Reason.ASKED
-            ):  # the user says that it is the same part: later exports still merge into it
+            # the user says that it is the same part: later exports still merge into it
+            if action.reason is Reason.ASKED:
                 record = inputs.last.files.get(key, record)
             if conflict and action.origin:
                 from urdfsync.merge.renames import rename, without_clashes  # imports the parser
+                from urdfsync.modelica.layout import with_within
 
                 # the file gets its new names once it moves
                 names = {new: old for old, new in without_clashes(decision.names, conflict.mine).items()}
-                from urdfsync.modelica.layout import with_within  # imports the parser
-
                 package = ".".join((inputs.last.target.package, *class_parts(inputs.last.folder.path(key))))
                 record, texts = known_bases(with_within(rename(conflict.generated, "", names)[0], package))
                 settled.texts.update(texts)
@@ -139,10 +138,8 @@ class _Choices:
         is_asked = any(one.path == target and one.reason is Reason.ASKED for one in decision.actions)
         message = ""
         if is_asked and not is_leaving:
-            message, hint = (
-                "its edit may belong to another part, too",
-                "settle it first, or name both files with --moved",
-            )
+            message = "its edit may belong to another part, too"
+            hint = "settle it first, or name both files with --moved"
         elif inputs.files.read(f"{target.removesuffix('.mo')}/package.mo") or inputs.files.read(key) is None:
             message, hint = "one of the two classes is a folder", "move the edit by hand, then use --keep"
         elif target in decision.origins:
@@ -159,7 +156,8 @@ class _Choices:
             message, hint = "your edit does not fit into this file", "move the edit by hand, then use --take"
             raise ConfigError.of("wrong-rename", message, shown(inputs.files.path(target)), hint=hint)
         if key not in settled.contents:  # otherwise another edit has moved here already
-            source = self._generated(action, inputs.files.read(key) or b"")
+            mine_bytes = inputs.files.read(key) or b""
+            source = self._generation.content(inputs.folder.path(key), action.role, mine_bytes)
             self._add(action, source, FileRecord((str(action.generated),)), Reason.UPDATE, Choice.MOVED)
         content = with_line_ends(encode(merged), inputs.files.read(target) or b"")
         other = Action(target, Reason.MERGE, action.role, f"{kind} {new}", generated=sha256, mine=mine)
@@ -193,22 +191,13 @@ class _Choices:
         from urdfsync.modelica.lexer import words_in
 
         inputs, generation = self._inputs, self._generation
-        bases = [*inputs.last.bases(inputs.last.files.get(conflict.path, FileRecord())).values()] or [
-            conflict.generated
-        ]
-        edits = over_bases(bases, conflict.mine, is_modelica=True) or [(bases[0], conflict.mine)]
-        base, mine = edits[0]
+        record = inputs.last.files.get(conflict.path, FileRecord())
+        bases = [*inputs.last.bases(record).values()] or [conflict.generated]
+        base, mine = (over_bases(bases, conflict.mine, is_modelica=True) or [(bases[0], conflict.mine)])[0]
         identifiers = inputs.domain.names(generation.now.snapshot, inputs.robot.target)[kind]
         names = names_of(inputs, generation, {identifiers[old]: identifiers[new]}, frozenset(words_in(base)))
         merged = merge(base, mine, text, is_modelica=True, names=names)
         return None if merged.flaw else merged.text
-
-    def _generated(self, action: Action, mine: bytes) -> bytes | None:
-        """Return the generated content of a file; None for an imported file whose source is missing."""
-        path = self._inputs.folder.path(action.path)
-        if action.role is Role.IMPORT:
-            return self._generation.imported.contents.get(path)
-        return with_line_ends(self._generation.package.content(path), mine)
 
 
 def known_bases(base: str | None) -> tuple[FileRecord, Mapping[str, str]]:

@@ -1,35 +1,42 @@
-"""Stages one robot's plan with all its writes: files, conflict files, bases, and last the record."""
+"""Stages one robot's plan with all its writes: files, texts saved beside them, bases, and last the record.
+
+Two kinds of texts are saved below `.urdfsync/`. `aside` has a copy of each replaced text that this machine did not
+generate, for `--undo`. Its list drops a text once its file is saved again and another build writes files; the copy
+itself stays. `conflicts` has the versions of each file in conflict: base, generated, and a proposed merge. A proposal
+that a person has changed is never overwritten, and `resolve --edit` begins with it.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
-from pathlib import Path
+import itertools
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from pathlib import Path, PurePosixPath
 from typing import Any, TypeAlias
 
 import msgspec
 
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.domain import ChangeClass, ElementKey, Import, Role, Snapshot, Target
-from urdfsync.engine.actions import Action, Actions, Reason
-from urdfsync.engine.aside import put_aside
+from urdfsync.engine.actions import Action, Actions, Reason, sides_hash
+from urdfsync.engine.conflicts import Conflict
 from urdfsync.engine.decide import Decision
 from urdfsync.engine.differences import Differences
 from urdfsync.engine.edit_origins import EDITED, model_hash
-from urdfsync.engine.findings import find_all
+from urdfsync.engine.findings import find_all, find_uses, tell_uses
 from urdfsync.engine.generate import Package
 from urdfsync.engine.generation import Generation
-from urdfsync.engine.inputs import Inputs, Settled
+from urdfsync.engine.inputs import Former, Inputs, Settled
 from urdfsync.engine.last_build import import_hash, option_values
-from urdfsync.engine.other_parts import find_uses, tell_uses
-from urdfsync.engine.package_files import encode, state_of, with_line_ends
+from urdfsync.engine.package_files import PackageFiles, encode, state_of, text_hash
 from urdfsync.engine.package_names import renamed_identifiers
 from urdfsync.engine.parents import SharedFile
-from urdfsync.engine.proposals import save_versions
 from urdfsync.engine.renames import match_with_last, pending
 from urdfsync.engine.result import Result
 from urdfsync.engine.rules import files_after
+from urdfsync.engine.settle import known_bases
 from urdfsync.engine.source import expansion_hash
-from urdfsync.files import shown
+from urdfsync.files import digest, shown
+from urdfsync.modelica.files import class_parts
 from urdfsync.spelling import counted
 from urdfsync.state import bases, expansion, statefile
 from urdfsync.state.notes import Notes
@@ -39,6 +46,17 @@ from urdfsync.state.transaction import FileChange
 
 Drawing: TypeAlias = Callable[[Snapshot, Mapping[str, Import], Target, Any], str | None]
 """Returns the main model's diagram as SVG text, or None if it has none. Pure. A domain's attribute `drawing`."""
+
+
+class Versions(msgspec.Struct, frozen=True):
+    """The versions of all conflicts of a robot."""
+
+    conflicts: tuple[Conflict, ...]
+    """The conflicts, with the files of their versions."""
+    changes: tuple[FileChange, ...]
+    noted: Mapping[str, tuple[str, str]]
+    """Hash of each proposal as urdfsync wrote it, and of its two sides, by path."""
+    diagnostics: tuple[Diagnostic, ...]
 
 
 class Plan(msgspec.Struct, frozen=True):
@@ -267,17 +285,13 @@ def _content(inputs: Inputs, generation: Generation, decision: Decision, action:
     key, files = action.path, inputs.files
     if key in decision.texts:
         return encode(decision.texts[key])
-    path = inputs.folder.path(key)
-    if action.role is Role.IMPORT:
-        content = generation.imported.contents.get(path)
-        if content is None:
-            message, file = "it can't be written: its source file is missing", shown(files.path(key))
-            hint = "restore that file, or the imported copy"
-            raise OutputError.of("no-source", message, file, hint=hint)
-        return content
     state = files.state(key)
     mine = (files.read(key) or b"") if state and state.sha256 != state.text_sha256 else b""
-    return with_line_ends(generation.package.content(path), mine)
+    content = generation.content(inputs.folder.path(key), action.role, mine)
+    if content is None:
+        message, hint = "it can't be written: its source file is missing", "restore that file, or the imported copy"
+        raise OutputError.of("no-source", message, shown(files.path(key)), hint=hint)
+    return content
 
 
 def _record_changes(inputs: Inputs, record: Record) -> tuple[list[FileChange], list[FileChange]]:
@@ -313,3 +327,136 @@ def _base_changes(
         after |= {sha256: text for sha256, text in missing.items() if sha256[0] == digit}
         if is_whole or texts is None or after.keys() != texts.keys():
             yield from store.save(store.base_file(inputs.robot.name, digit), bases.dumps(after))
+
+
+def save_versions(inputs: Inputs, conflicts: Sequence[Conflict]) -> Versions:
+    """Return the writes that save the versions, and their files."""
+    store, robot, noted = inputs.store, inputs.robot.name, inputs.last.notes.proposals
+    existing = store.conflict_files(robot)
+    persons = store.persons_proposals(robot, noted)
+    contents, saved, findings = dict[str, bytes](), list[Conflict](), list[Diagnostic]()
+    notes = {path: facts for path, facts in noted.items() if path in persons}
+    for conflict in conflicts:
+        path, merge = PurePosixPath(inputs.folder.path(conflict.path)), conflict.merge
+        stem, suffix = path.with_suffix("").as_posix(), path.suffix
+        files = dict[str, str]()
+        for kind, text in (("base", conflict.base), ("generated", conflict.generated)):
+            if text is not None:
+                files[kind] = f"{stem}.{kind}{suffix}"
+                contents[files[kind]] = encode(text)
+        if merge is not None:  # a text with markers is no Modelica
+            ending, proposal = ".txt" if merge.text is None else suffix, encode(merge.proposal)
+            sides = sides_hash(text_hash(conflict.mine), text_hash(conflict.generated))
+            numbers = itertools.chain(("",), map("-{}".format, itertools.count(2)))
+            for number in numbers:
+                name = f"{stem}.merge{number}{ending}"
+                if name not in persons or noted.get(name, ("", ""))[1] == sides or existing[name] == proposal:
+                    break
+                message = "you changed this proposal, so it stays: a new one is beside it"
+                place = shown(store.conflicts(robot) / name)
+                findings.append(Diagnostic(Severity.NOTE, "proposal-kept", message, place))
+            files["merge"] = name
+            if name not in persons:
+                contents[name], notes[name] = proposal, (digest(proposal), sides)
+        name = files.get("merge", "")
+        edited = existing[name].decode(errors="replace") if name in persons else None
+        saved.append(msgspec.structs.replace(conflict, files=files, edited=edited))
+    changes = store.save_conflicts(robot, contents, persons)
+    return Versions(tuple(saved), tuple(changes), notes, tuple(findings))
+
+
+def put_aside(
+    inputs: Inputs, package: Package, decision: Decision, contents: Mapping[str, bytes | None]
+) -> tuple[dict[str, Aside], dict[str, bytes]]:
+    """Return the saved texts after a build, by path below the package, and the new texts by file.
+
+    `contents` are the texts that the build writes, by key; None for a deletion.
+    """
+    folder, settled = inputs.folder, inputs.settled
+    moved = {action.origin: action.path for action in decision.actions if action.origin and action.writes}
+    index, replaced = dict[str, Aside](), dict(_replaced(inputs, package, decision, contents))
+    for path, aside in inputs.last.aside.items():
+        key = folder.key(path)
+        is_unsaved = _is_as_written(inputs.files, key, aside)
+        if key in moved and is_unsaved and (text := inputs.last.aside_text(aside.file)) is not None:
+            former = Former(text, FileRecord(aside.bases), aside.texts)
+            replaced.setdefault(moved[key], _follow(inputs, former, moved[key], decision.names))
+        elif is_unsaved or not contents:
+            index[path] = aside
+    for key in settled.contents:
+        index.pop(folder.path(key), None)  # another choice replaces it, or it is undone
+    chosen = {
+        moved.get(key, key): _follow(inputs, former, moved[key], decision.names) if key in moved else former
+        for key, former in settled.before.items()
+    }
+    deleted = [one for one in decision.actions if one.writes and one.reason is Reason.DELETE] if chosen else []
+    models = (one.path for one in deleted if one.path.startswith(folder.key("")) and one.path.endswith(".mo"))
+    beside, texts = {folder.path(key): inputs.files.text(key) or "" for key in models}, dict[str, bytes]()
+    for key, former in {**replaced, **chosen}.items():
+        place, after = PurePosixPath(folder.path(key)), contents.get(key, settled.contents.get(key))
+        file = place.with_name(f"{place.stem}.{digest(former.text)[:8]}{place.suffix}").as_posix()
+        sha256, bases = None if after is None else state_of(after).text_sha256, (former.record.hashes, former.bases)
+        index[str(place)] = Aside(file, sha256, *bases, beside if key in chosen else {})
+        texts[file] = former.text
+    return index, texts
+
+
+def _is_as_written(files: PackageFiles, key: str, aside: Aside) -> bool:
+    """Return whether a file is unchanged since the build that put its former text aside."""
+    try:
+        state = files.state_on_disk(key)
+    except OutputError:  # the user replaced it by a link or a folder
+        return False
+    return (state.text_sha256 if state else None) == aside.after
+
+
+def _follow(inputs: Inputs, former: Former, key: str, names: Mapping[str, str]) -> Former:
+    """Return a text and its base for the file's new path: with new names, and with its `within` clause."""
+    from urdfsync.merge.renames import rename, without_clashes  # imports the parser
+    from urdfsync.modelica.layout import with_within
+
+    text, base = former.text.decode(errors="surrogateescape"), next(iter(former.bases.values()), None)
+    if base is not None:
+        base, text = rename(base, text, without_clashes(names, text))
+    class_name = (inputs.robot.target.package, *class_parts(inputs.folder.path(key)))
+    return Former(encode(with_within(text, ".".join(class_name))), *known_bases(base))
+
+
+def _replaced(
+    inputs: Inputs, package: Package, decision: Decision, contents: Mapping[str, bytes | None]
+) -> Iterator[tuple[str, Former]]:
+    """Yield the key and text of each replaced or deleted file; leave out texts that this machine generated.
+
+    A `package.order` is saved only after a union by git: then a build may remove more than its recorded lines.
+    """
+    files, last, folder = inputs.files, inputs.last, inputs.folder.key("")
+    origins = {action.origin for action in decision.actions if action.origin and action.writes}
+    for action in decision.actions:
+        key, is_moving = action.path, action.reason is Reason.MOVE
+        if not action.writes or key not in contents or (key in origins and not is_moving):
+            continue  # the user's text moves to another file
+        if action.role is Role.ORDER and not (last.record.is_united and key.startswith(folder)):
+            continue
+        text = files.read(action.origin or key) if is_moving else files.read_on_disk(key)
+        if text is None or state_of(text).text_sha256 in last.notes.written:
+            continue
+        former = Former(text, *_bases_given_back(inputs, package, action, text))
+        if is_moving:
+            former = _follow(inputs, former, key, decision.names)
+        if former.text != contents[key]:
+            yield key, former
+
+
+def _bases_given_back(
+    inputs: Inputs, package: Package, action: Action, text: bytes
+) -> tuple[FileRecord, Mapping[str, str]]:
+    """Return the bases that a text has after `--undo`."""
+    place = (action.origin or "") if action.reason is Reason.MOVE else action.path
+    record = inputs.last.files.get(place, FileRecord())
+    # with the old base, the next build would merge the text again, or take it for a generated one
+    merging = {robot.name for robot in inputs.config.robots if robot.on_conflict == "merge"}  # not only this command
+    is_merge = (action.reason is Reason.MERGE or action.is_left_by_git) and inputs.robot.name in merging
+    is_own_base = state_of(text).text_sha256 in record.hashes
+    if action.generated and action.role is not Role.IMPORT and (is_merge or is_own_base):
+        return known_bases(package.content(inputs.folder.path(action.path)).decode())
+    return (FileRecord(), {}) if is_own_base else (record, inputs.last.bases(record))
