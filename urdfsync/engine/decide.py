@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import re
 from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
@@ -221,6 +222,7 @@ def _without_misfits(
     Clean merges are tried first. Then contradictions are tried in favour of each side. `after` has no merges yet.
     """
     sound, before, actions = dict(conflicts), None, after.actions
+    files_after = functools.partial(PackageAfter, after.inputs, after.package)
     for side in (None, *sorted(PREFERENCES)):
         tried = {
             key: text
@@ -230,12 +232,12 @@ def _without_misfits(
         if not tried:
             continue
         planned, merged = resolve(actions, sound, merging=True, choice=side)
-        planned = keep_needed(after.with_texts(planned, merged), origins)
-        misfits = _find_misfits(after.with_texts(planned, merged, is_open=True), merged.keys())
+        planned = keep_needed(files_after(planned, merged), origins)
+        misfits = _find_misfits(files_after(planned, merged, is_open=True), merged.keys())
         if misfits and before is None:
             waiting = [msgspec.structs.replace(one, is_waiting=True) for one in actions]
             paths = {one.origin or one.path for one in conflicts.values()}
-            before = {(one.key, one.fault) for one in _find_misfits(after.with_texts(waiting, {}), paths)}
+            before = {(one.key, one.fault) for one in _find_misfits(files_after(waiting, {}), paths)}
         for key in {one.key for one in misfits} & tried.keys():
             conflict = sound[key]
             own = (one for one in misfits if one.key == key)

@@ -201,10 +201,6 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
         """The texts that builds and choices replaced, by path below the package."""
         return self._store.aside(self.name)
 
-    def aside_text(self, file: str) -> bytes | None:
-        """Return a text that was replaced; None if it is lost."""
-        return self._store.aside_text(self.name, file)
-
 
 def _without_name(path: str, text: str) -> tuple[str, str]:
     """Return a class's folder, and its text without its name."""

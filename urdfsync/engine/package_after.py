@@ -68,12 +68,6 @@ class PackageAfter(Mapping[str, bytes]):
         self.merged, self.is_open = merged, is_open
         self._contents, self._generated = dict[str, bytes](), set[bytes]()
 
-    def with_texts(
-        self, actions: Sequence[Action], merged: Mapping[str, str], *, is_open: bool = False
-    ) -> PackageAfter:
-        """Return the files after other actions and texts."""
-        return PackageAfter(self.inputs, self.package, actions, merged, is_open=is_open)
-
     @cached_property
     def _files(self) -> dict[str, _File]:
         """The files of the package after the build, by their paths below it."""

@@ -65,7 +65,7 @@ class _Choices:
             aside = inputs.last.aside.get(inputs.folder.path(key))
             if aside is None or action.role is Role.IMPORT or inputs.files.hash(key, action.role) != aside.after:
                 return False
-            content, reason = inputs.last.aside_text(aside.file), Reason.UNDO
+            content, reason = inputs.store.aside_text(inputs.last.name, aside.file), Reason.UNDO
             if content is None:
                 return False
             record = FileRecord(aside.bases)

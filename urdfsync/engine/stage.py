@@ -224,6 +224,7 @@ def _record(inputs: Inputs, generation: Generation, differences: Differences, de
             confirmed=old.confirmed | {state_of(text).text_sha256 for text in contents},
         )
     files = files_after(decision.actions, inputs.last.files, is_complete=True)
+    edited, is_chosen = (one for one in decision.actions if one.reason in EDITED and one.mine), inputs.files.is_chosen
     is_same = inputs.last.version is not None and inputs.last.version.snapshot == generation.now.snapshot
     new = Record(
         package=inputs.robot.target.package,
@@ -232,7 +233,7 @@ def _record(inputs: Inputs, generation: Generation, differences: Differences, de
         generator=inputs.generator,
         options=option_values(inputs.robot.options),
         renamed=_brought(inputs, differences.renames),
-        confirmed=_confirmed(inputs, decision),
+        confirmed=frozenset(str(one.mine) for one in edited if one.mine in old.confirmed or is_chosen(one.path)),
         snapshot=old.snapshot if is_same else as_recorded(generation.now.snapshot),
         imports={key: (entry,) for key, entry in imports.items()},
         files={key: file for key, file in files.items() if key.startswith(inside)},
@@ -251,13 +252,6 @@ def _brought(inputs: Inputs, renames: Mapping[ElementKey, str]) -> Mapping[str, 
         return dict(declared)
     brought = {(name, new) for (_, name), new in renames.items()}
     return {old: new for old, new in declared.items() if done.get(old) == new or (old, new) in brought}
-
-
-def _confirmed(inputs: Inputs, decision: Decision) -> frozenset[str]:
-    """Return the hashes of the texts that the user has confirmed to be in the right place, now or before."""
-    before, files = inputs.last.record.confirmed, inputs.files
-    edited = [action for action in decision.actions if action.reason in EDITED and action.mine]
-    return frozenset(str(one.mine) for one in edited if one.mine in before or files.is_chosen(one.path))
 
 
 def _file_changes(inputs: Inputs, generation: Generation, decision: Decision) -> dict[str, FileChange]:
@@ -378,7 +372,7 @@ def put_aside(
     for path, aside in inputs.last.aside.items():
         key = folder.key(path)
         is_unsaved = _is_as_written(inputs.files, key, aside)
-        if key in moved and is_unsaved and (text := inputs.last.aside_text(aside.file)) is not None:
+        if key in moved and is_unsaved and (text := inputs.store.aside_text(inputs.last.name, aside.file)) is not None:
             former = Former(text, FileRecord(aside.bases), aside.texts)
             replaced.setdefault(moved[key], _follow(inputs, former, moved[key], decision.names))
         elif is_unsaved or not contents:
