@@ -62,10 +62,10 @@ def compare_with_last(inputs: Inputs, generation: Generation) -> Differences:
         others = {name: f"{name}{GONE}" for _, name in displaced(renames)}
         others |= {key[1]: new for key, new in renames.items() if key in after}
         has_exchanges = any((kind, new) in last.elements for (kind, _), new in renames.items())
-    found = Differences(matching, news, respelled, {}, others, has_exchanges)
-    if not (found.is_structural or inputs.has_moved):
-        return found
-    return msgspec.structs.replace(found, moves=_find_moves(inputs, package, found))
+    differences = Differences(matching, news, respelled, {}, others, has_exchanges)
+    if differences.is_structural or inputs.has_moved:
+        differences = msgspec.structs.replace(differences, moves=_find_moves(inputs, package, differences))
+    return differences
 
 
 def _find_matching(inputs: Inputs, now: Snapshot) -> Matching:

@@ -11,9 +11,7 @@ import itertools
 import re
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
-from typing import TYPE_CHECKING, Any, NamedTuple
-
-import msgspec
+from typing import TYPE_CHECKING, NamedTuple
 
 from urdfsync import git
 from urdfsync.answers import dependencies
@@ -24,11 +22,10 @@ from urdfsync.engine.differences import Differences
 from urdfsync.engine.generate import Package
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import Inputs
-from urdfsync.engine.last_build import NO_MODEL
+from urdfsync.engine.last_build import NO_MODEL, hash_of
 from urdfsync.engine.package_files import text_hash
 from urdfsync.engine.package_names import elements_by_identifier, identifier_of
 from urdfsync.engine.renames import find_matching
-from urdfsync.files import digest
 from urdfsync.matching import Doubt
 from urdfsync.modelica.files import code_of, text_of
 from urdfsync.state import statefile
@@ -58,7 +55,7 @@ def find_doubts(
     doubts = dict[str, Doubt | None]()
     for action in unconfirmed if is_told else edited:
         doubts[action.path] = _doubt(inputs, generation, differences, action)
-    if unconfirmed and notes.model == model_hash(record.snapshot):  # else git may have changed what names mean
+    if unconfirmed and notes.model == hash_of(record.snapshot):  # else git may have changed what names mean
         unconfirmed = [one for one in unconfirmed if notes.edited.get(one.path) != one.mine]
     unconfirmed = [one for one in unconfirmed if one.mine]  # a class that became a folder: no commit has this file
     if unconfirmed and inputs.last.version is not None and git.find_top(inputs.config.root) is not None:
@@ -86,11 +83,6 @@ def _doubt(inputs: Inputs, generation: Generation, differences: Differences, act
     if is_orphan and not (is_new or last.record.is_united or differences.respelled):
         return Doubt(" ".join(element), is_certain=True)  # the user edited it for an element that is gone
     return None
-
-
-def model_hash(snapshot: Mapping[str, Any] | None) -> str:
-    """Return one hash for a model."""
-    return digest(msgspec.json.encode(snapshot, order="sorted"))
 
 
 def _commits(inputs: Inputs) -> Iterator[Revision]:

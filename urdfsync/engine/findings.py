@@ -52,7 +52,7 @@ _LINES = 20
 """The most lines that are named for one fault; further lines are only counted."""
 _NEW = 6
 """The most new connectors that are named; further ones are only counted."""
-MAYBE = "?"
+_MAYBE = "?"
 """Stands for the new name of a part if it is unknown whether the name means another part now."""
 
 
@@ -216,7 +216,7 @@ def find_uses(inputs: Inputs, generation: Generation, differences: Differences, 
             uses.pop(str(path), None)
             if used := {name: new for name, new in used.items() if name != new}:
                 uses[str(path)] = Use(_facts(path), used)
-    elements = {**{name: MAYBE for _, name in differences.matching.doubts}, **differences.other_elements}
+    elements = {**{name: _MAYBE for _, name in differences.matching.doubts}, **differences.other_elements}
     if used := {name: elements[name] for name in _texts(msgspec.to_builtins(inputs.robot.options)) if name in elements}:
         uses[str(inputs.config.file)] = Use(_facts(inputs.config.file), used)
     return uses
@@ -232,7 +232,7 @@ def _other_names(inputs: Inputs, generation: Generation, differences: Difference
         renamed = renamed_names(inputs, generation, differences)
     now = known_names(generation.package) if doubts or renamed else ()
     elements = elements_by_identifier(inputs.domain, generation.now.snapshot, inputs.robot.target) if doubts else {}
-    doubtful = {name: MAYBE for name in now if elements.get(identifier_of(name, elements)) in doubts}
+    doubtful = {name: _MAYBE for name in now if elements.get(identifier_of(name, elements)) in doubts}
     return {**doubtful, **{name: new for name, new in renamed.items() if name in now}}
 
 
@@ -247,7 +247,7 @@ def tell_uses(uses: Mapping[str, Use]) -> Iterator[Diagnostic]:
             if new.endswith(GONE):
                 message = f"`{name}` names another part now; the former one is gone"
                 hint = "change it, or save the file as it is if it is right"
-            elif new == MAYBE:
+            elif new == _MAYBE:
                 message, hint = f"`{name}` may name another part now", "look at it, and save the file"
             yield Diagnostic(Severity.WARNING, "other-part", message, shown(Path(path)), line, hint=hint)
 

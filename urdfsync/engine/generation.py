@@ -45,34 +45,30 @@ def generate_robot(inputs: Inputs) -> Generation:
     if inputs.options.removes:
         nothing = Package((), inputs.templates, inputs.robot.target.package)
         return Generation(inputs.last.version or Version(None), {}, (), Imported(), nothing)
-    with inputs.source.locating():
-        return _generate(inputs)
-
-
-def _generate(inputs: Inputs) -> Generation:
     domain, robot, options, last = inputs.domain, inputs.robot, inputs.options, inputs.last
     file = shown(robot.source)
-    snapshot, reading = source.read(domain, robot.options, inputs.source.content, file)
-    findings = [
-        *inputs.source.diagnostics,
-        *reading.diagnostics,
-        *source.check_options(inputs.config, robot, reading),
-        *check_declared(inputs, snapshot),
-    ]
-    lookup = Lookup(robot.source, robot.package_paths + options.package_paths)
-    dependencies = imports.find_dependencies(domain, snapshot, lookup, robot.options, reading.lines)
-    imported = imports.import_files(
-        domain, robot, options, dependencies, last.imports, file, has_moved=inputs.has_moved
-    )
-    lines = {dependency.key: dependency.line for dependency in dependencies}
-    findings += imported.diagnostics
-    for key, finding in domain.imports.findings(imported.imports, snapshot) if domain.imports else ():
-        findings.append(msgspec.structs.replace(finding, file=file, line=lines.get(key, 0)))
-    version = Version(snapshot, imported.imports)
-    package = generate(domain, version, robot.target, robot.options, inputs.templates)
-    if last.notes.program == inputs.program and not options.full:
-        package.skip(last.notes.texts, last.base)
-    return Generation(version, reading.lines, tuple(findings), imported, package)
+    with inputs.source.locating():
+        snapshot, reading = source.read(domain, robot.options, inputs.source.content, file)
+        findings = [
+            *inputs.source.diagnostics,
+            *reading.diagnostics,
+            *source.check_options(inputs.config, robot, reading),
+            *check_declared(inputs, snapshot),
+        ]
+        lookup = Lookup(robot.source, robot.package_paths + options.package_paths)
+        dependencies = imports.find_dependencies(domain, snapshot, lookup, robot.options, reading.lines)
+        imported = imports.import_files(
+            domain, robot, options, dependencies, last.imports, file, has_moved=inputs.has_moved
+        )
+        lines = {dependency.key: dependency.line for dependency in dependencies}
+        findings += imported.diagnostics
+        for key, finding in domain.imports.findings(imported.imports, snapshot) if domain.imports else ():
+            findings.append(msgspec.structs.replace(finding, file=file, line=lines.get(key, 0)))
+        version = Version(snapshot, imported.imports)
+        package = generate(domain, version, robot.target, robot.options, inputs.templates)
+        if last.notes.program == inputs.program and not options.full:
+            package.skip(last.notes.texts, last.base)
+        return Generation(version, reading.lines, tuple(findings), imported, package)
 
 
 def generated_texts(

@@ -12,7 +12,7 @@ import msgspec
 
 from urdfsync.config import RobotConfig
 from urdfsync.diagnostics import UrdfsyncError
-from urdfsync.domain import Domain, ElementKey, Features, Import, Lookup, Role, Snapshot, Target, Version
+from urdfsync.domain import Domain, ElementKey, Features, Lookup, Role, Snapshot, Target, Version
 from urdfsync.engine.generate import Package, generate
 from urdfsync.engine.imports import MOST_PARTS, RecordedFile, places_of
 from urdfsync.engine.package_files import Folder, PackageFiles
@@ -100,7 +100,7 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
         for name, entries in self.record.imports.items():
             files = list[RecordedFile]()
             for entry in entries:
-                key, is_noted = self.folder.key(entry.target), import_hash(entry) in self.notes.imports
+                key, is_noted = self.folder.key(entry.target), hash_of(entry) in self.notes.imports
                 written = self.files.get(key, NEVER_WRITTEN).hashes
                 files.append(RecordedFile(entry, self._files.read(key), written, is_noted))
             imports[name] = next((file for file in files if file.is_intact), files[0])
@@ -208,9 +208,9 @@ def _without_name(path: str, text: str) -> tuple[str, str]:
     return folder, re.sub(rf"\b{re.escape(name)}(?=(Parameters)?\b)", "\0", text)
 
 
-def import_hash(entry: Import) -> str:
-    """Return one hash of a recorded import."""
-    return digest(msgspec.json.encode(entry, order="sorted"))
+def hash_of(recorded: Any) -> str:
+    """Return the hash by which this machine notes a recorded value."""
+    return digest(msgspec.json.encode(recorded, order="sorted"))
 
 
 def option_values(options: msgspec.Struct) -> dict[str, Any]:

@@ -171,7 +171,7 @@ def keep_needed(after: PackageAfter, origins: Collection[str]) -> tuple[Action, 
     )
 
 
-def code_words(content: bytes) -> set[str]:
+def _code_words(content: bytes) -> set[str]:
     """Return all names and keywords in a text, without strings, comments, its own classes and its packages.
 
     Its own classes are left out because an edited file may still have the old name of its class, and its packages
@@ -189,13 +189,13 @@ def _find_mentioned(after: PackageAfter, origins: Collection[str]) -> frozenset[
     name. A kept file keeps all files that it mentions; these keep the files that they mention, and so on.
     """
     inputs, before, actions = after.inputs, after.inputs.last.package, after.actions
-    words = {inputs.files.key(file): code_words(content) for file, content in after.users.items()}
+    words = {inputs.files.key(file): _code_words(content) for file, content in after.users.items()}
     all_words = set().union(*words.values())
     # the user kept these files with the names of older generated texts
     kept_words = set[str]()
     for key in {action.path for action in actions if action.reason is Reason.KEEP} & words.keys():
         if before is not None and (path := inputs.last.folder.path(key)) in before.artifacts:
-            kept_words |= words[key] & code_words(before.content(path))
+            kept_words |= words[key] & _code_words(before.content(path))
     pending = {action.path: action.role for action in actions if action.reason is Reason.DELETE}
     needed = set[str]()
     for path, role in pending.items():
@@ -206,7 +206,7 @@ def _find_mentioned(after: PackageAfter, origins: Collection[str]) -> frozenset[
     all_needed = set(needed)
     while needed:
         texts = [*map(inputs.files.any_text, needed)]
-        mentioned = set().union(*(code_words(encode(text)) for text in texts))
+        mentioned = set().union(*(_code_words(encode(text)) for text in texts))
         needed = {
             path
             for path in pending.keys() - all_needed

@@ -56,7 +56,7 @@ def unchanged_state(path: str, facts: tuple[int, ...]) -> FileState | None:
 
 def note_state(path: str, facts: tuple[int, ...], content: bytes) -> FileState:
     """Return the state of a file that was read, and remember it; `facts` are its stat values before the reading."""
-    state = state_of(content)
+    state = _state_of(content)
     if len(facts) > 1 and not is_young(facts, time.time_ns()):  # a missing file has one fact
         _unchanged[path] = facts, state
     return state
@@ -113,7 +113,7 @@ class PackageFiles:
         """Return a file as text. Raises OutputError as `read`, and for other encodings than UTF-8."""
         content = self.read(key)
         if key not in self.overlay:
-            self._states.setdefault(self._place(key), None if content is None else state_of(content))
+            self._states.setdefault(self._place(key), None if content is None else _state_of(content))
         try:
             return None if content is None else content.decode()
         except UnicodeDecodeError as error:
@@ -141,7 +141,7 @@ class PackageFiles:
         if key not in self.overlay:
             return self.state_on_disk(key)
         content = self.overlay[key]
-        return None if content is None else state_of(content)
+        return None if content is None else _state_of(content)
 
     def state_on_disk(self, key: str) -> FileState | None:
         """Return the state of a file on disk at its first reading. Raises OutputError as `read`."""
@@ -226,7 +226,7 @@ def key_of(path: Path, root: Path) -> str:
     return Path(os.path.relpath(path, root)).as_posix()
 
 
-def state_of(content: bytes) -> FileState:
+def _state_of(content: bytes) -> FileState:
     """Return the state of a file with this content."""
     sha256 = digest(content)
     return FileState(sha256, text_digest(content) if b"\r" in content else sha256)

@@ -21,13 +21,13 @@ from urdfsync.engine.actions import Action, Actions, Reason, sides_hash
 from urdfsync.engine.conflicts import Conflict
 from urdfsync.engine.decide import Decision
 from urdfsync.engine.differences import Differences
-from urdfsync.engine.edit_origins import EDITED, model_hash
+from urdfsync.engine.edit_origins import EDITED
 from urdfsync.engine.findings import find_all, find_uses, tell_uses
 from urdfsync.engine.generate import Package
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import Former, Inputs, Settled
-from urdfsync.engine.last_build import import_hash, option_values
-from urdfsync.engine.package_files import PackageFiles, encode, state_of, text_hash
+from urdfsync.engine.last_build import hash_of, option_values
+from urdfsync.engine.package_files import PackageFiles, encode, text_hash
 from urdfsync.engine.package_names import renamed_identifiers
 from urdfsync.engine.parents import SharedFile
 from urdfsync.engine.renames import match_with_last, pending
@@ -35,7 +35,7 @@ from urdfsync.engine.result import Result
 from urdfsync.engine.rules import files_after
 from urdfsync.engine.settle import known_bases
 from urdfsync.engine.source import expansion_hash
-from urdfsync.files import digest, shown
+from urdfsync.files import digest, shown, text_digest
 from urdfsync.modelica.files import class_parts
 from urdfsync.spelling import counted
 from urdfsync.state import bases, expansion, statefile
@@ -48,7 +48,7 @@ Drawing: TypeAlias = Callable[[Snapshot, Mapping[str, Import], Target, Any], str
 """Returns the main model's diagram as SVG text, or None if it has none. Pure. A domain's attribute `drawing`."""
 
 
-class Versions(msgspec.Struct, frozen=True):
+class _Versions(msgspec.Struct, frozen=True):
     """The versions of all conflicts of a robot."""
 
     conflicts: tuple[Conflict, ...]
@@ -81,7 +81,7 @@ def stage(inputs: Inputs, generation: Generation, differences: Differences, deci
     uses = find_uses(inputs, generation, differences, decision)
     findings = [*find_all(inputs, generation, differences, decision), *tell_uses(uses)]
     actions = _actions_after(decision.actions, inputs.settled)
-    files, versions = _file_changes(inputs, generation, decision), save_versions(inputs, decision.conflicts)
+    files, versions = _file_changes(inputs, generation, decision), _save_versions(inputs, decision.conflicts)
     is_writing = bool(files) or any(action.writes for action in actions)
     model = generation.now.snapshot, generation.imported.imports, robot.target, robot.options
     draw: Drawing | None = inputs.domain.drawing
@@ -94,7 +94,7 @@ def stage(inputs: Inputs, generation: Generation, differences: Differences, deci
     else:
         record = _record(inputs, generation, differences, decision)
         contents = {key: one.content for key, one in files.items()}
-        index, texts = put_aside(inputs, generation.package, decision, contents)
+        index, texts = _put_aside(inputs, generation.package, decision, contents)
         findings += _tell_aside(inputs, actions, index, texts)
         changes += [*versions.changes, *store.save_aside(robot.name, index, texts)]
         state = []
@@ -189,10 +189,10 @@ def _notes(inputs: Inputs, generation: Generation, record: Record) -> Notes:
         old,
         program=inputs.program,
         texts=texts,
-        imports=frozenset(import_hash(entry) for key, entry in imports.imports.items() if key in made_here),
+        imports=frozenset(hash_of(entry) for key, entry in imports.imports.items() if key in made_here),
         expansion=expansion_hash(expanded) if expanded and inputs.source.is_made_here else "",
         written=frozenset(made | (set(old.written) & recorded)),
-        model=model_hash(record.snapshot),
+        model=hash_of(record.snapshot),
     )
 
 
@@ -221,7 +221,7 @@ def _record(inputs: Inputs, generation: Generation, differences: Differences, de
             files=files,
             imports={**old.imports, **renewed},
             open=open_,
-            confirmed=old.confirmed | {state_of(text).text_sha256 for text in contents},
+            confirmed=old.confirmed | {text_digest(text) for text in contents},
         )
     files = files_after(decision.actions, inputs.last.files, is_complete=True)
     edited, is_chosen = (one for one in decision.actions if one.reason in EDITED and one.mine), inputs.files.is_chosen
@@ -323,7 +323,7 @@ def _base_changes(
             yield from store.save(store.base_file(inputs.robot.name, digit), bases.dumps(after))
 
 
-def save_versions(inputs: Inputs, conflicts: Sequence[Conflict]) -> Versions:
+def _save_versions(inputs: Inputs, conflicts: Sequence[Conflict]) -> _Versions:
     """Return the writes that save the versions, and their files."""
     store, robot, noted = inputs.store, inputs.robot.name, inputs.last.notes.proposals
     existing = store.conflict_files(robot)
@@ -356,10 +356,10 @@ def save_versions(inputs: Inputs, conflicts: Sequence[Conflict]) -> Versions:
         edited = existing[name].decode(errors="replace") if name in persons else None
         saved.append(msgspec.structs.replace(conflict, files=files, edited=edited))
     changes = store.save_conflicts(robot, contents, persons)
-    return Versions(tuple(saved), tuple(changes), notes, tuple(findings))
+    return _Versions(tuple(saved), tuple(changes), notes, tuple(findings))
 
 
-def put_aside(
+def _put_aside(
     inputs: Inputs, package: Package, decision: Decision, contents: Mapping[str, bytes | None]
 ) -> tuple[dict[str, Aside], dict[str, bytes]]:
     """Return the saved texts after a build, by path below the package, and the new texts by file.
@@ -389,7 +389,7 @@ def put_aside(
     for key, former in {**replaced, **chosen}.items():
         place, after = PurePosixPath(folder.path(key)), contents.get(key, settled.contents.get(key))
         file = place.with_name(f"{place.stem}.{digest(former.text)[:8]}{place.suffix}").as_posix()
-        sha256, bases = None if after is None else state_of(after).text_sha256, (former.record.hashes, former.bases)
+        sha256, bases = None if after is None else text_digest(after), (former.record.hashes, former.bases)
         index[str(place)] = Aside(file, sha256, *bases, beside if key in chosen else {})
         texts[file] = former.text
     return index, texts
@@ -432,7 +432,7 @@ def _replaced(
         if action.role is Role.ORDER and not (last.record.is_united and key.startswith(folder)):
             continue
         text = files.read(action.origin or key) if is_moving else files.read_on_disk(key)
-        if text is None or state_of(text).text_sha256 in last.notes.written:
+        if text is None or text_digest(text) in last.notes.written:
             continue
         former = Former(text, *_bases_given_back(inputs, package, action, text))
         if is_moving:
@@ -450,7 +450,7 @@ def _bases_given_back(
     # with the old base, the next build would merge the text again, or take it for a generated one
     merging = {robot.name for robot in inputs.config.robots if robot.on_conflict == "merge"}  # not only this command
     is_merge = (action.reason is Reason.MERGE or action.is_left_by_git) and inputs.robot.name in merging
-    is_own_base = state_of(text).text_sha256 in record.hashes
+    is_own_base = text_digest(text) in record.hashes
     if action.generated and action.role is not Role.IMPORT and (is_merge or is_own_base):
         return known_bases(package.content(inputs.folder.path(action.path)).decode())
     return (FileRecord(), {}) if is_own_base else (record, inputs.last.bases(record))
