@@ -16,7 +16,7 @@ from urdfsync.domain import ChangeClass, Role
 from urdfsync.engine import united
 from urdfsync.engine.actions import DISPUTED, ORPHANS, Action, Actions, Reason
 from urdfsync.engine.conflicts import PREFERENCES, Conflict, find_conflict, resolve
-from urdfsync.engine.differences import Differences
+from urdfsync.engine.differences import Differences, compare_with_last
 from urdfsync.engine.edit_origins import find_doubts
 from urdfsync.engine.generate import Package
 from urdfsync.engine.generation import Generation
@@ -41,6 +41,8 @@ if TYPE_CHECKING:
 class Decision(msgspec.Struct, frozen=True):
     """All actions of one robot, and the findings about them."""
 
+    differences: Differences
+    """The differences from the last complete build, on which the actions rest."""
     actions: Actions
     texts: Mapping[str, str]
     """New texts of every `package.order` and of merged files, by key."""
@@ -52,8 +54,6 @@ class Decision(msgspec.Struct, frozen=True):
     """Unknown names in the user's files, and texts that are no Modelica."""
     names: Mapping[str, str] = {}
     """New names by old ones, of the time before choices; empty if no edit and no text put aside needs them."""
-    origins: Collection[str] = ()
-    """The files that renamed elements leave, by key."""
 
     @property
     def conflicts(self) -> tuple[Conflict, ...]:
@@ -67,13 +67,15 @@ class Decision(msgspec.Struct, frozen=True):
         return not any(action.is_waiting or action.is_conflict for action in self.actions)
 
 
-def decide_package(inputs: Inputs, generation: Generation, differences: Differences) -> Decision:
+def decide_package(inputs: Inputs, generation: Generation) -> Decision:
     """Decide on every file of a robot.
 
     Raises OutputError for links and for merge markers.
     """
-    files, package, origins = inputs.files, generation.package, frozenset(differences.moves.values())
-    decided = decide(_find_files(inputs, generation), differences.moves)
+    files, package = inputs.files, generation.package
+    existing = _find_files(inputs, generation)  # finds what git's merges mean, which the comparison reads
+    differences = compare_with_last(inputs, generation)
+    origins, decided = frozenset(differences.moves.values()), decide(existing, differences.moves)
     doubts = find_doubts(inputs, generation, differences, decided)
     actions = tuple(_adjust(inputs, package, action, doubts) for action in decided)
     needing = DISPUTED | {Reason.KEEP} if differences.other_elements else DISPUTED
@@ -102,7 +104,8 @@ def decide_package(inputs: Inputs, generation: Generation, differences: Differen
     shared = [file for file in shared if files.key(file.path) not in waiting]
     misfits = _find_misfits(PackageAfter(inputs, package, all_actions, {**orders, **merged}))
     names = inputs.settled.names or names
-    return Decision(all_actions, {**orders, **merged}, conflicts, tuple(shared), tuple(misfits), names, origins)
+    texts = {**orders, **merged}
+    return Decision(differences, all_actions, texts, conflicts, tuple(shared), tuple(misfits), names)
 
 
 def _find_unknown(inputs: Inputs, known: Collection[str]) -> Iterator[str]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
+from pathlib import PurePosixPath
 
 import msgspec
 
@@ -15,6 +16,7 @@ from urdfsync.engine.inputs import Inputs
 from urdfsync.engine.last_build import NO_MODEL, option_values
 from urdfsync.engine.renames import match_with_last, pending
 from urdfsync.matching import Matching, without_exchanges
+from urdfsync.modelica.files import class_path
 from urdfsync.state.record import FileRecord
 
 GONE = "_gone"
@@ -32,6 +34,8 @@ class Differences(msgspec.Struct, frozen=True):
     """Recorded classes to which this program gives another name, see `LastBuild.respelled`."""
     moves: Mapping[str, str]
     """The old key of each text file that moves with its element or with the package, by its new key."""
+    identifiers: Mapping[str, str]
+    """The renamed identifiers: the new ones, by those of the last complete build."""
     other_elements: Mapping[str, str]
     """Maps each name that another element has now to the new name of the element that had it before."""
     has_exchanges: bool
@@ -62,7 +66,10 @@ def compare_with_last(inputs: Inputs, generation: Generation) -> Differences:
         others = {name: f"{name}{GONE}" for _, name in displaced(renames)}
         others |= {key[1]: new for key, new in renames.items() if key in after}
         has_exchanges = any((kind, new) in last.elements for (kind, _), new in renames.items())
-    differences = Differences(matching, news, respelled, {}, others, has_exchanges)
+    differences = Differences(matching, news, respelled, {}, {}, others, has_exchanges)
+    if differences.is_structural:
+        identifiers = _find_identifiers(inputs, now, differences)
+        differences = msgspec.structs.replace(differences, identifiers=identifiers)
     if differences.is_structural or inputs.has_moved:
         differences = msgspec.structs.replace(differences, moves=_find_moves(inputs, package, differences))
     return differences
@@ -122,6 +129,24 @@ def _find_changes(inputs: Inputs, generation: Generation, matching: Matching) ->
         names = robot.options.__struct_fields__
         options = [name for name in names if getattr(last.options, name) != getattr(robot.options, name)]
     return msgspec.structs.replace(news, generator=True, options=tuple(options))
+
+
+def _find_identifiers(inputs: Inputs, now: Snapshot, differences: Differences) -> dict[str, str]:
+    """Return the renamed identifiers: the new ones, by those of the last complete build."""
+    last, target = inputs.last, inputs.robot.target
+    if last.version is None or differences.changes is None:
+        return {}
+    old, new = inputs.domain.names(last.version.snapshot, last.target), inputs.domain.names(now, target)
+    renamed = {last.target.name: target.name}
+    for kind, identifiers in old.items():
+        for name, identifier in identifiers.items():
+            new_name = differences.renames.get((kind.removesuffix("s"), name), name)
+            renamed[identifier] = new.get(kind, {}).get(new_name, identifier)
+    for path, (respelled, _) in differences.respelled.items():
+        names = (class_path(PurePosixPath(each)).name for each in (path, respelled))
+        former, present = (f"{name[0].lower()}{name[1:]}" for name in names)
+        renamed[former] = renamed.pop(present, present)
+    return {name: new for name, new in renamed.items() if name != new}
 
 
 def _find_moves(inputs: Inputs, package: Package, differences: Differences) -> dict[str, str]:

@@ -13,7 +13,6 @@ from urdfsync.diagnostics import Diagnostic, findings_of
 from urdfsync.domain import Role
 from urdfsync.engine.actions import Action, Reason
 from urdfsync.engine.decide import decide_package
-from urdfsync.engine.differences import compare_with_last
 from urdfsync.engine.generation import Generation, generate_robot
 from urdfsync.engine.inputs import Inputs, inspect
 from urdfsync.engine.options import BuildOptions
@@ -62,7 +61,7 @@ def find_edited(
     """
     files = inputs.files
     if actions is None:
-        actions = decide_package(inputs, generation, compare_with_last(inputs, generation)).actions
+        actions = decide_package(inputs, generation).actions
     for action in actions:
         key = action.origin or action.path
         is_text = action.role not in (Role.IMPORT, Role.ORDER) and action.reason is not Reason.MOVED_AWAY

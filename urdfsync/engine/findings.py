@@ -33,7 +33,6 @@ from urdfsync.engine.package_names import (
     known_names,
     new_name,
     new_names,
-    renamed_identifiers,
     renamed_names,
 )
 from urdfsync.files import shown
@@ -56,14 +55,12 @@ _MAYBE = "?"
 """Stands for the new name of a part if it is unknown whether the name means another part now."""
 
 
-def find_all(
-    inputs: Inputs, generation: Generation, differences: Differences, decision: Decision
-) -> tuple[Diagnostic, ...]:
-    """Return all findings of a build in the order of their places."""
+def find_all(inputs: Inputs, generation: Generation, decision: Decision) -> list[Diagnostic]:
+    """Return all findings of a build, except those about uses of other parts."""
     findings = [*generation.diagnostics, *inputs.parents.diagnostics]
     if decision.misfits:
-        renamed = renamed_identifiers(inputs, generation.now.snapshot, differences)
-        renamed = {**inputs.last.notes.renamed, **renamed}  # by the last build on this machine, and by this one
+        renamed = inputs.last.notes.renamed  # by the last build on this machine
+        renamed = {**renamed, **decision.differences.identifiers}
         findings += _diagnose(inputs, generation.now.snapshot, decision, renamed)
     if inputs.former_name:
         message = f"robot `{inputs.robot.name}` was called `{inputs.former_name}`; its recorded state"
@@ -77,15 +74,14 @@ def find_all(
     findings += _left_behind(inputs, decision.actions)
     findings += [inputs.damage] if inputs.damage else []
     effects: Effects | None = inputs.domain.effects
-    changes, last = differences.changes, inputs.last.version
+    changes, last = decision.differences.changes, inputs.last.version
     if effects and changes is not None and last is not None and changes.changes:
         for path, finding in effects.find_doubtful(last, generation.now, changes.renames):
             line = generation.lines.get(path, 0)
             findings.append(msgspec.structs.replace(finding, file=shown(inputs.robot.source), line=line))
     if decision.is_complete:
         findings += _changed_connectors(inputs, generation, changes)
-    findings = list(map(inputs.source.locate, findings))
-    return tuple(sorted(findings, key=lambda diagnostic: (diagnostic.file, diagnostic.line)))
+    return list(map(inputs.source.locate, findings))
 
 
 def _diagnose(
@@ -201,8 +197,9 @@ def orphaned_state(config: Config) -> list[Diagnostic]:
     return [Diagnostic(Severity.NOTE, "stray-state", message, shown(config.file), hint=hint)]
 
 
-def find_uses(inputs: Inputs, generation: Generation, differences: Differences, decision: Decision) -> dict[str, Use]:
+def find_uses(inputs: Inputs, generation: Generation, decision: Decision) -> dict[str, Use]:
     """Return the names in each file that mean another part now; names that earlier builds found are included."""
+    differences = decision.differences
     uses = {path: use for path, use in inputs.last.notes.uses.items() if use.facts == _facts(Path(path))}
     if not decision.is_complete:
         return uses

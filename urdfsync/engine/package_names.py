@@ -13,30 +13,12 @@ from urdfsync.engine.inputs import Inputs
 from urdfsync.modelica.files import class_path
 
 
-def renamed_identifiers(inputs: Inputs, snapshot: Snapshot, differences: Differences) -> dict[str, str]:
-    """Return the renamed identifiers: the new ones, by those of the last complete build."""
-    if inputs.last.version is None or differences.changes is None:
-        return {}
-    old = inputs.domain.names(inputs.last.version.snapshot, inputs.last.target)
-    new = inputs.domain.names(snapshot, inputs.robot.target)
-    renamed = {inputs.last.target.name: inputs.robot.target.name}
-    for kind, identifiers in old.items():
-        for name, identifier in identifiers.items():
-            now = differences.renames.get((kind.removesuffix("s"), name), name)
-            renamed[identifier] = new.get(kind, {}).get(now, identifier)
-    for path, (respelled, _) in differences.respelled.items():
-        before, now = (f"{name[0].lower()}{name[1:]}" for name in (class_of(path), class_of(respelled)))
-        renamed[before] = renamed.pop(now, now)
-    return {name: new for name, new in renamed.items() if name != new}
-
-
 def renamed_names(inputs: Inputs, generation: Generation, differences: Differences) -> dict[str, str]:
     """Return new names by the old ones: of classes, and of declarations in classes at the top of the package.
 
     It has only names that the package lacks now, and names that belong to other elements now.
     """
-    renamed = renamed_identifiers(inputs, generation.now.snapshot, differences) if differences.is_structural else {}
-    if not renamed:
+    if not (renamed := differences.identifiers):
         return {}
     recorded = {inputs.last.folder.path(key): one for key, one in inputs.last.files.items() if one.hashes}
     files = {path: one for path, one in recorded.items() if path.endswith(".mo")}

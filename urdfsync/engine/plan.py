@@ -1,4 +1,4 @@
-"""The pipeline of one robot: inspect, generate, compare, decide, stage. Writes nothing.
+"""The pipeline of one robot: inspect, generate, decide, stage. Writes nothing.
 
 `build` writes this plan, a dry run shows it, and a hook judges it.
 """
@@ -8,7 +8,6 @@ from __future__ import annotations
 from urdfsync.answers import dependencies
 from urdfsync.config import Config, RobotConfig
 from urdfsync.engine.decide import decide_package
-from urdfsync.engine.differences import compare_with_last
 from urdfsync.engine.generation import generate_robot
 from urdfsync.engine.inputs import inspect
 from urdfsync.engine.options import BuildOptions
@@ -25,13 +24,11 @@ def plan_robot(config: Config, robot: RobotConfig, options: BuildOptions) -> Pla
         result = Result(name, package, robot.folder, config.root, dry=options.dry, stale=stale)
         return Plan(result, inputs.store.hashes())
     generation = generate_robot(inputs)
-    differences = compare_with_last(inputs, generation)
-    decision = decide_package(inputs, generation, differences)
+    decision = decide_package(inputs, generation)
     if options.choices:
         inputs = with_choices(inputs, settle(inputs, generation, decision))
-        differences = compare_with_last(inputs, generation)
-        decision = decide_package(inputs, generation, differences)
-    plan = stage(inputs, generation, differences, decision)
+        decision = decide_package(inputs, generation)
+    plan = stage(inputs, generation, decision)
     if options.full or options.draw or plan.result.writes:
         dependencies.mark_incomplete()  # some files that this work reads are not recorded as dependencies of the answer
     return plan

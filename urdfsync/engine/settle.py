@@ -142,7 +142,7 @@ class _Choices:
             hint = "settle it first, or name both files with --moved"
         elif inputs.files.read(f"{target.removesuffix('.mo')}/package.mo") or inputs.files.read(key) is None:
             message, hint = "one of the two classes is a folder", "move the edit by hand, then use --keep"
-        elif target in decision.origins:
+        elif target in decision.differences.moves.values():
             message, hint = "its own text moves to another file", "build first, then move the edit by hand"
         if message:
             raise ConfigError.of("wrong-rename", message, shown(inputs.files.path(target)), hint=hint)

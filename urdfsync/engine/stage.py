@@ -20,7 +20,6 @@ from urdfsync.domain import ChangeClass, ElementKey, Import, Role, Snapshot, Tar
 from urdfsync.engine.actions import Action, Actions, Reason, sides_hash
 from urdfsync.engine.conflicts import Conflict
 from urdfsync.engine.decide import Decision
-from urdfsync.engine.differences import Differences
 from urdfsync.engine.edit_origins import EDITED
 from urdfsync.engine.findings import find_all, find_uses, tell_uses
 from urdfsync.engine.generate import Package
@@ -28,7 +27,6 @@ from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import Former, Inputs, Settled
 from urdfsync.engine.last_build import hash_of, option_values
 from urdfsync.engine.package_files import PackageFiles, encode, text_hash
-from urdfsync.engine.package_names import renamed_identifiers
 from urdfsync.engine.parents import SharedFile
 from urdfsync.engine.renames import match_with_last, pending
 from urdfsync.engine.result import Result
@@ -75,11 +73,11 @@ class Plan(msgspec.Struct, frozen=True):
     """This machine's notes after the build, if they change."""
 
 
-def stage(inputs: Inputs, generation: Generation, differences: Differences, decision: Decision) -> Plan:
+def stage(inputs: Inputs, generation: Generation, decision: Decision) -> Plan:
     """Return the plan with all its writes. A dry run gets the same plan, so it gives the same verdict."""
-    store, robot, old = inputs.store, inputs.robot, inputs.last.notes
-    uses = find_uses(inputs, generation, differences, decision)
-    findings = [*find_all(inputs, generation, differences, decision), *tell_uses(uses)]
+    store, robot, old, differences = inputs.store, inputs.robot, inputs.last.notes, decision.differences
+    uses = find_uses(inputs, generation, decision)
+    findings = [*find_all(inputs, generation, decision), *tell_uses(uses)]
     actions = _actions_after(decision.actions, inputs.settled)
     files, versions = _file_changes(inputs, generation, decision), _save_versions(inputs, decision.conflicts)
     is_writing = bool(files) or any(action.writes for action in actions)
@@ -92,7 +90,7 @@ def stage(inputs: Inputs, generation: Generation, differences: Differences, deci
     if inputs.options.removes:
         state = [change for name in {inputs.last.name, robot.name} for change in store.remove(name)]
     else:
-        record = _record(inputs, generation, differences, decision)
+        record = _record(inputs, generation, decision)
         contents = {key: one.content for key, one in files.items()}
         index, texts = _put_aside(inputs, generation.package, decision, contents)
         findings += _tell_aside(inputs, actions, index, texts)
@@ -100,14 +98,16 @@ def stage(inputs: Inputs, generation: Generation, differences: Differences, deci
         state = []
         # `status` and some other commands do not renew a complete state if there is nothing else to write
         if not (inputs.last.record.files and decision.is_complete) or is_writing or inputs.options.renews:
-            renewed, recorded = _record_changes(inputs, record)
+            state, recorded = (
+                _source_changes(inputs),
+                store.save(store.path(robot.name), statefile.dumps(record).encode()),
+            )
+            is_renewing = is_writing or bool(state or recorded)
             needed = {*inputs.last.record.hashes, *record.hashes, *(sha for one in index.values() for sha in one.bases)}
-            kept, is_renewing = needed if decision.is_complete else None, is_writing or bool(renewed or recorded)
-            state = [*renewed, *_base_changes(inputs, generation.package, record, kept, is_writing=is_renewing)]
-            state += recorded
-        renamed: Mapping[str, str] = {}
-        if differences.renames or differences.respelled:
-            renamed = renamed_identifiers(inputs, generation.now.snapshot, differences)
+            kept = needed if decision.is_complete else None
+            state += _base_changes(inputs, generation.package, record, kept, is_writing=is_renewing)
+            state += recorded  # the last one
+        renamed = differences.identifiers if differences.renames or differences.respelled else {}
         is_later = is_writing and not inputs.options.choices  # a choice like --undo may bring old names back
         notes = msgspec.structs.replace(
             _notes(inputs, generation, record),
@@ -196,9 +196,9 @@ def _notes(inputs: Inputs, generation: Generation, record: Record) -> Notes:
     )
 
 
-def _record(inputs: Inputs, generation: Generation, differences: Differences, decision: Decision) -> Record:
+def _record(inputs: Inputs, generation: Generation, decision: Decision) -> Record:
     """Return the record after a build."""
-    old, news = inputs.last.record, differences.changes
+    old, differences, news = inputs.last.record, decision.differences, decision.differences.changes
     imports, inside = generation.imported.imports, inputs.folder.key("")
     if not decision.is_complete:
         # keep the model of the last complete build; record the files that are renewed, but not those in a former folder
@@ -288,13 +288,13 @@ def _content(inputs: Inputs, generation: Generation, decision: Decision, action:
     return content
 
 
-def _record_changes(inputs: Inputs, record: Record) -> tuple[list[FileChange], list[FileChange]]:
-    """Return the changes of a robot's name and expansion, and that of the record: it has to be the last one."""
+def _source_changes(inputs: Inputs) -> list[FileChange]:
+    """Return the changes of the state that follow from the robot's name and its expansion."""
     store, name, last, expanded = inputs.store, inputs.robot.name, inputs.last, inputs.source.expansion
     changes = [*(store.remove(last.name) if last.name != name else ()), *store.for_git()]
     if not inputs.source.stale:
         changes += store.save(store.expansion(name), expansion.dumps(expanded) if expanded else None)
-    return changes, [*store.save(store.path(name), statefile.dumps(record).encode())]
+    return changes
 
 
 def _base_changes(
