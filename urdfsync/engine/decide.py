@@ -89,7 +89,7 @@ def decide_package(inputs: Inputs, generation: Generation) -> Decision:
     conflicts = _without_misfits(PackageAfter(inputs, package, actions, {}), conflicts, origins)
     actions, merged = resolve(actions, conflicts, merging=inputs.robot.on_conflict == "merge")
     after = PackageAfter(inputs, package, actions, merged)
-    actions, merged = united.settle(files, keep_needed(after, origins), merged)
+    actions, merged = united.write_meanings(files, keep_needed(after, origins), merged)
 
     order_actions, orders, shared = _decide_orders(inputs, package, differences, actions)
     _refuse_markers(files, actions, (key for key, text in orders.items() if find_markers(text)))

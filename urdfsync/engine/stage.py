@@ -98,10 +98,8 @@ def stage(inputs: Inputs, generation: Generation, decision: Decision) -> Plan:
         state = []
         # `status` and some other commands do not renew a complete state if there is nothing else to write
         if not (inputs.last.record.files and decision.is_complete) or is_writing or inputs.options.renews:
-            state, recorded = (
-                _source_changes(inputs),
-                store.save(store.path(robot.name), statefile.dumps(record).encode()),
-            )
+            state = _source_changes(inputs)
+            recorded = store.save(store.path(robot.name), statefile.dumps(record).encode())
             is_renewing = is_writing or bool(state or recorded)
             needed = {*inputs.last.record.hashes, *record.hashes, *(sha for one in index.values() for sha in one.bases)}
             kept = needed if decision.is_complete else None

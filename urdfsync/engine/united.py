@@ -102,7 +102,7 @@ def describe(contradictions: Sequence[str]) -> str:
     return f"git's markers are in it, since both branches changed {' and '.join(elements) or 'the same lines'}"
 
 
-def settle(
+def write_meanings(
     files: PackageFiles, actions: Iterable[Action], merged: Mapping[str, str]
 ) -> tuple[tuple[Action, ...], dict[str, str]]:
     """Return actions that write the meanings of files in which git left another text, and all merged texts, by key."""
