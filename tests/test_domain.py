@@ -74,7 +74,7 @@ class Case:
     def generated(self) -> generate.Package:
         folders = (config.templates_folder(self.domain),)
         templates = Templates(folders, templates_digest(folders))
-        return generate.generate(self.domain, self.snapshot, self.imports, TARGET, self.options, templates)
+        return generate.generate(self.domain, Version(self.snapshot, self.imports), TARGET, self.options, templates)
 
 
 def make(name: str) -> Case:

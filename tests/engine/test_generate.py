@@ -12,7 +12,7 @@ from support.networks import RC_FOLDER, configure, edit, failure, own_model, run
 from support.replay import contents
 
 from urdfsync.diagnostics import OutputError
-from urdfsync.domain import Artifact, Domain, Order, Role, Target
+from urdfsync.domain import Artifact, Domain, Order, Role, Target, Version
 from urdfsync.engine.generate import Package, check_paths, generate
 from urdfsync.files import Templates
 
@@ -69,7 +69,7 @@ def test_artifacts_are_made_once_of_the_same_numbers(tmp_path: Path) -> None:
     domain = OneFile()  # type: ignore[abstract]
     for number in (0.0, 0.0, -0.0, 0, 1, 0.0):
         snapshot = {"number": number}
-        package = generate(domain, snapshot, {}, Target("P", "M"), None, Templates((tmp_path,), ""))
+        package = generate(domain, Version(snapshot), Target("P", "M"), None, Templates((tmp_path,), ""))
         assert repr(package.artifacts["A.mo"].data) == repr(snapshot)
     assert domain.count == 4
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from urdfsync.diagnostics import SourceError
-from urdfsync.engine.expansion import Inputs, expand
+from urdfsync.engine.expansion import SourceFiles, expand
 
 HEAD = '<robot name="{0}" xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
 ARM = (
@@ -59,16 +59,16 @@ def write(folder: Path, files: dict[str, str] | None = None, config: str = CONFI
     (folder / "urdfsync.toml").write_text(config)
 
 
-def write_line(folder: Path, line: str, **files: str) -> Inputs:
+def write_line(folder: Path, line: str, **files: str) -> SourceFiles:
     """Write a source whose second line is this one, with other files beside it."""
     for name, text in files.items():
         (folder / f"{name}.yaml").write_text(text)
     file = folder / "arm.urdf.xacro"
     file.write_text(f'{HEAD.format("arm")}{line}\n<link name="a"/>\n</robot>\n')
-    return Inputs(folder, file, ())
+    return SourceFiles(folder, file, ())
 
 
-def problem(inputs: Inputs) -> str:
+def problem(inputs: SourceFiles) -> str:
     """The one error of an expansion."""
     with pytest.raises(SourceError) as error:
         expand(inputs, {})

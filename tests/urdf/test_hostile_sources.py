@@ -22,7 +22,7 @@ from support.cases import SMALL_ROBOTS, damaged, often, seldom
 
 from urdfsync.config import templates_folder
 from urdfsync.diagnostics import Severity
-from urdfsync.domain import Lookup, Target
+from urdfsync.domain import Lookup, Target, Version
 from urdfsync.engine.generate import generate
 from urdfsync.files import Templates
 from urdfsync.modelica.parser import parse
@@ -198,7 +198,7 @@ def test_a_source_is_read_and_generated_or_has_complete_diagnostics(content: byt
     assert msgspec.json.decode(msgspec.json.encode(reading.snapshot), type=Robot) == reading.snapshot
     DOMAIN.dependencies(reading.snapshot, Lookup(Path("bot.urdf").absolute()), options, reading.lines)
     DOMAIN.advice.propose(reading.snapshot, reading.diagnostics)
-    package = generate(DOMAIN, reading.snapshot, {}, TARGET, options, Templates((templates_folder(DOMAIN),), ""))
+    package = generate(DOMAIN, Version(reading.snapshot), TARGET, options, Templates((templates_folder(DOMAIN),), ""))
     for path in package.artifacts:
         text = package.content(path).decode()
         assert CONTROLS.findall(text) == [], path

@@ -108,8 +108,8 @@ class Compilation:
         package = self._package
         move = [_task(trial) for trial in experiment.trials]
         amended = experiment.content, experiment.options
-        is_same = amended == (package.generation.inputs.source.content, package.robot.options)
-        self._completed = package.generated if is_same else generated_texts(package.generation, amended)
+        is_same = amended == (package.inputs.source.content, package.robot.options)
+        self._completed = package.generated if is_same else generated_texts(package.inputs, package.generation, amended)
         jobs: dict[str, _Job] = {"completed": (with_flags(self._completed), move)}
         if experiment.laws:
             jobs["laws"] = package.generated, [_task(experiment.laws)]

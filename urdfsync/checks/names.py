@@ -110,7 +110,7 @@ def _diagnostic(package: RobotPackage, file: Path, places: Sequence[Unresolved])
         if earliest.kind is UnresolvedKind.ELEMENT:
             robot, snapshot = package.robot, package.generation.now.snapshot
             if earliest.owner in [f"{robot.target.package}.{model}" for model in package.models]:
-                advice: Advice | None = package.generation.inputs.domain.advice
+                advice: Advice | None = package.inputs.domain.advice
                 option = advice.option_for(earliest.part, snapshot, robot.target, robot.options) if advice else ""
                 hint = brings_back(option) or hint
     lines = sorted({place.line for place in places} - {earliest.line})

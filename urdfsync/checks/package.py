@@ -20,8 +20,9 @@ from urdfsync.diagnostics import Diagnostic, Severity, UrdfsyncError
 from urdfsync.domain import Role
 from urdfsync.engine.actions import Reason
 from urdfsync.engine.build import build
+from urdfsync.engine.generate import Package
 from urdfsync.engine.generation import Generation, generate_robot, generated_texts
-from urdfsync.engine.inputs import inspect
+from urdfsync.engine.inputs import Inputs, inspect
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.users_files import find_users_files
 from urdfsync.files import normalised, shown
@@ -67,6 +68,7 @@ class RobotPackage(msgspec.Struct):
     """The package of one robot as it is now."""
 
     robot: RobotConfig
+    inputs: Inputs
     generation: Generation
     errors: tuple[Diagnostic, ...]
     """Errors that a build would report, except those in Modelica files."""
@@ -101,13 +103,16 @@ def read_package(config: Config, robot: RobotConfig, options: BuildOptions) -> R
     (built,) = build(config, [robot], options)
     if built.failed:
         raise UrdfsyncError(*built.diagnostics)
-    generation = generate_robot(inspect(config, robot, options))
-    domain, snapshot = generation.inputs.domain, generation.now.snapshot
+    inputs = inspect(config, robot, options)
+    generation = generate_robot(inputs)
+    snapshot = generation.now.snapshot
     errors = [finding for finding in built.diagnostics if finding.severity is Severity.ERROR]
-    on_disk, generated = package_texts(robot.folder), generated_texts(generation)
+    on_disk, generated = package_texts(robot.folder), generated_texts(inputs, generation)
     texts, in_step = on_disk or generated, bool(on_disk) and built.are_files_in_step
-    checks: Checks | None = domain.checks
-    models = checks.models(snapshot, robot.target, robot.options) if checks else _generated_models(generation)
+    checks: Checks | None = inputs.domain.checks
+    models = (
+        checks.models(snapshot, robot.target, robot.options) if checks else _generated_models(generation.package, robot)
+    )
     benches = {f"{name.replace('.', '/')}.mo" for name in models[1:]}
     shared = [path for path in sorted(generated.keys() & on_disk.keys()) if path.endswith(".mo")]
     edited = [path for path in shared if normalised(on_disk[path]) != generated[path]] if in_step else []
@@ -121,6 +126,7 @@ def read_package(config: Config, robot: RobotConfig, options: BuildOptions) -> R
     owners = {path: artifact.owner for path, artifact in generation.package.artifacts.items()}
     return RobotPackage(
         robot=robot,
+        inputs=inputs,
         generation=generation,
         errors=tuple(dict.fromkeys(error for error in errors if not error.file.endswith(".mo"))),
         on_disk=on_disk,
@@ -137,9 +143,9 @@ def read_package(config: Config, robot: RobotConfig, options: BuildOptions) -> R
     )
 
 
-def _generated_models(generation: Generation) -> Sequence[str]:
+def _generated_models(package: Package, robot: RobotConfig) -> Sequence[str]:
     """Return the model of the package's name; if there is none, all generated models."""
-    artifacts, name = generation.package.artifacts, generation.inputs.robot.target.name
+    artifacts, name = package.artifacts, robot.target.name
     if f"{name}.mo" in artifacts:
         return (name,)
     paths = (path for path, artifact in artifacts.items() if artifact.role is Role.MODEL)

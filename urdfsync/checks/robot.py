@@ -80,7 +80,7 @@ def _check(
     config: Config, package: RobotPackage, options: CheckOptions, result: CheckResult, limits: Limits, folder: Path
 ) -> None:
     """Check a package as far as this machine can; add all findings to the result."""
-    robot, inputs = package.robot, package.generation.inputs
+    robot, inputs = package.robot, package.inputs
     result.built, result.in_step, result.conflicting = bool(package.on_disk), package.in_step, package.conflicting
     checks: Checks | None = inputs.domain.checks
     result.freedoms = checks.freedoms(package.generation.now.snapshot, robot.options) if checks else None
@@ -121,7 +121,7 @@ def _check(
 def _compare_numbers(checks: Checks, package: RobotPackage, result: CheckResult) -> None:
     """Compare the numbers of a package with its source. A difference only of the package on disk is the user's edit."""
     tell(f"{package.robot.name}: reading the source again")
-    source, result.edited = package.generation.inputs.source, package.changed
+    source, result.edited = package.inputs.source, package.changed
     on_disk = package.on_disk if package.in_step else package.generated
     models = {path for path, text in package.generated.items() if b"\nmodel " in text} - {f"{package.models[0]}.mo"}
     # the user's templates may write other models than that of the robot in another way
@@ -148,7 +148,7 @@ def _compare_numbers(checks: Checks, package: RobotPackage, result: CheckResult)
 
 def _sample(package: RobotPackage) -> Sample:
     robot, generation = package.robot, package.generation
-    content, imports = generation.inputs.source.content, generation.now.imports or {}
+    content, imports = package.inputs.source.content, generation.now.imports or {}
     return Sample(content, shown(robot.source), robot.target, robot.options, imports)
 
 

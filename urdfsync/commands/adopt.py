@@ -62,7 +62,8 @@ def _lines(
     configuration: Config, robot: RobotConfig, result: Result, looking: BuildOptions, *, verbose: bool
 ) -> Iterator[StyledLine]:
     """Yield the edited files with what is edited, then those that nothing generates."""
-    files = tuple(find_edited(generate_robot(inspect(configuration, robot, looking))))
+    inputs = inspect(configuration, robot, looking)
+    files = tuple(find_edited(inputs, generate_robot(inputs)))
     edits = to_section(RobotEdits(robot.name, result.root, files), verbose=verbose, most=_EDITS)
     yield from details(edits, verbose=verbose)
     generated = {action.path for action in result.actions if action.reason is not Reason.UNKNOWN}

@@ -93,17 +93,18 @@ def over_bases(bases: Sequence[str], mine: str, *, is_modelica: bool) -> list[tu
 
 
 def resolve(
-    actions: Iterable[Action], conflicts: Mapping[str, Conflict], *, merging: bool
+    actions: Iterable[Action], conflicts: Mapping[str, Conflict], *, merging: bool, choice: Choice | None = None
 ) -> tuple[tuple[Action, ...], dict[str, str]]:
     """Decide on every file that both sides changed.
 
     Returns the actions, and the texts of merged files by path. `conflicts` has the disputed text files by path. A merge
-    is taken if the file moves with its element, or if the configuration allows clean merges (`merging`).
+    is taken if the file moves with its element, or if the configuration allows clean merges (`merging`). A `choice` of
+    `PREFERENCES` settles contradictions in favour of a side.
     """
     resolved, texts = [], {}
     for action in actions:
         conflict = conflicts.get(action.path)
-        merged = conflict.merged(None) if conflict else None
+        merged = conflict.merged(choice) if conflict else None
         reason = action.reason
         if reason is Reason.MOVE and conflict:
             reason = Reason.CONFLICT if merged is None else Reason.MOVE

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import re
 from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
@@ -9,16 +10,18 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
+from urdfsync.changes import Changes
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
 from urdfsync.domain import ChangeClass, Role
 from urdfsync.engine import united
 from urdfsync.engine.actions import DISPUTED, ORPHANS, Action, Actions, Reason
 from urdfsync.engine.conflicts import PREFERENCES, Conflict, find_conflict, resolve
+from urdfsync.engine.differences import Differences, compare_with_last
 from urdfsync.engine.edit_origins import find_doubts
+from urdfsync.engine.generate import Package
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import Inputs
-from urdfsync.engine.needed import keep_needed
-from urdfsync.engine.package_after import PackageAfter
+from urdfsync.engine.package_after import PackageAfter, keep_needed
 from urdfsync.engine.package_files import PackageFiles
 from urdfsync.engine.package_names import known_names, names_of, renamed_names
 from urdfsync.engine.parents import SharedFile, merge_order
@@ -38,6 +41,8 @@ if TYPE_CHECKING:
 class Decision(msgspec.Struct, frozen=True):
     """All actions of one robot, and the findings about them."""
 
+    differences: Differences
+    """The differences from the last complete build, on which the actions rest."""
     actions: Actions
     texts: Mapping[str, str]
     """New texts of every `package.order` and of merged files, by key."""
@@ -48,7 +53,7 @@ class Decision(msgspec.Struct, frozen=True):
     misfits: tuple[Misfit, ...] = ()
     """Unknown names in the user's files, and texts that are no Modelica."""
     names: Mapping[str, str] = {}
-    """New names by old ones; empty if no edit and no text put aside needs them."""
+    """New names by old ones, of the time before choices; empty if no edit and no text put aside needs them."""
 
     @property
     def conflicts(self) -> tuple[Conflict, ...]:
@@ -62,39 +67,45 @@ class Decision(msgspec.Struct, frozen=True):
         return not any(action.is_waiting or action.is_conflict for action in self.actions)
 
 
-def decide_package(generation: Generation) -> Decision:
+def decide_package(inputs: Inputs, generation: Generation) -> Decision:
     """Decide on every file of a robot.
 
     Raises OutputError for links and for merge markers.
     """
-    inputs, files = generation.inputs, generation.inputs.files
-    decided = decide(_find_files(generation), generation.moves)
-    doubts = find_doubts(generation, decided)
-    actions = tuple(_adjust(generation, action, doubts) for action in decided)
-    if generation.other_elements:
-        actions = tuple(_with_other_names(generation, actions))
+    files, package = inputs.files, generation.package
+    existing = _find_files(inputs, generation)  # finds what git's merges mean, which the comparison reads
+    differences = compare_with_last(inputs, generation)
+    origins, decided = frozenset(differences.moves.values()), decide(existing, differences.moves)
+    doubts = find_doubts(inputs, generation, differences, decided)
+    actions = tuple(_adjust(inputs, package, action, doubts) for action in decided)
+    needing = DISPUTED | {Reason.KEEP} if differences.other_elements else DISPUTED
+    names: Mapping[str, str] = {}
+    if inputs.last.aside or any(one.reason in needing and one.role is not Role.IMPORT for one in actions):
+        names = renamed_names(inputs, generation, differences)
+    if differences.other_elements:
+        actions = tuple(_with_other_names(inputs, package, actions, names))
     disputed = [action for action in actions if action.reason in DISPUTED and action.role is not Role.IMPORT]
-    names = renamed_names(generation) if disputed or inputs.last.aside else {}
-    conflicts = {one.path: _conflict(generation, one, names, doubts) for one in disputed}
-    conflicts = _without_misfits(generation, actions, conflicts)
+    conflicts = {one.path: _conflict(inputs, generation, one, doubts.get(one.path), names) for one in disputed}
+    conflicts = _without_misfits(PackageAfter(inputs, package, actions, {}), conflicts, origins)
     actions, merged = resolve(actions, conflicts, merging=inputs.robot.on_conflict == "merge")
-    actions = tuple(united.settle(action) for action in keep_needed(generation, actions, merged))
-    merged |= united.settled_texts(files, actions, merged)
+    after = PackageAfter(inputs, package, actions, merged)
+    actions, merged = united.write_meanings(files, keep_needed(after, origins), merged)
 
-    order_actions, orders, shared = _decide_orders(generation, actions)
+    order_actions, orders, shared = _decide_orders(inputs, package, differences, actions)
     _refuse_markers(files, actions, (key for key, text in orders.items() if find_markers(text)))
     has_conflicts = any(action.is_conflict for action in actions)
     numbers: Collection[str] = ()
-    if has_conflicts and not generation.has_exchanges:  # with exchanges, each build would move edits again
-        numbers = _renumbered(generation, actions, merged, conflicts)
-    origins = set(generation.moves.values())
+    if has_conflicts and not differences.has_exchanges:  # with exchanges, each build would move edits again
+        numbers = _renumbered(PackageAfter(inputs, package, actions, merged), differences.changes, conflicts)
     known = {action.path for action in (*actions, *order_actions)}
     unknown = [Action(key, Reason.UNKNOWN, Role.MODEL) for key in _find_unknown(inputs, known)]
     all_actions = Actions(put_off((*actions, *order_actions, *unknown), numbers, origins, inputs.has_moved))
     waiting = {action.path for action in all_actions if action.is_waiting}
     shared = [file for file in shared if files.key(file.path) not in waiting]
-    misfits = _find_misfits(generation, all_actions, {**orders, **merged})
-    return Decision(all_actions, {**orders, **merged}, conflicts, tuple(shared), tuple(misfits), names)
+    misfits = _find_misfits(PackageAfter(inputs, package, all_actions, {**orders, **merged}))
+    names = inputs.settled.names or names
+    texts = {**orders, **merged}
+    return Decision(differences, all_actions, texts, conflicts, tuple(shared), tuple(misfits), names)
 
 
 def _find_unknown(inputs: Inputs, known: Collection[str]) -> Iterator[str]:
@@ -105,10 +116,9 @@ def _find_unknown(inputs: Inputs, known: Collection[str]) -> Iterator[str]:
             yield key
 
 
-def _find_files(generation: Generation) -> dict[str, File]:
+def _find_files(inputs: Inputs, generation: Generation) -> dict[str, File]:
     """Return every recorded or generated file as it is before the build, by key."""
-    inputs, last = generation.inputs, generation.inputs.last
-    files = dict[str, File]()
+    last, files = inputs.last, dict[str, File]()
 
     def add(key: str, role: Role, owner: str, generated: str | None) -> None:
         on_disk = inputs.files.on_disk(key, role)
@@ -136,9 +146,8 @@ def _find_files(generation: Generation) -> dict[str, File]:
     return files
 
 
-def _adjust(generation: Generation, action: Action, doubts: Mapping[str, Doubt]) -> Action:
+def _adjust(inputs: Inputs, package: Package, action: Action, doubts: Mapping[str, Doubt]) -> Action:
     """Correct an action by contents and options; so far it follows from hashes alone."""
-    inputs = generation.inputs
     contradictions = inputs.files.left_by_git.get(action.path)
     if contradictions and action.reason is Reason.KEEP:
         return msgspec.structs.replace(action, reason=Reason.MARKERS)
@@ -147,7 +156,7 @@ def _adjust(generation: Generation, action: Action, doubts: Mapping[str, Doubt])
     if action.path in doubts:
         return msgspec.structs.replace(action, reason=Reason.ASKED)
     mine = action.mine
-    if action.reason is Reason.DELETE and mine is not None and mine not in generation.paths_by_hash:
+    if action.reason is Reason.DELETE and mine is not None and mine not in package.paths_by_hash:
         is_generated = inputs.last.has_generated(action.path, mine, action.role)
         return action if is_generated else msgspec.structs.replace(action, reason=Reason.ORPHAN)
     if action.reason is Reason.UNOWNED and inputs.options.adopts:
@@ -155,66 +164,67 @@ def _adjust(generation: Generation, action: Action, doubts: Mapping[str, Doubt])
     return action
 
 
-def _with_other_names(generation: Generation, actions: Iterable[Action]) -> Iterator[Action]:
+def _with_other_names(
+    inputs: Inputs, package: Package, actions: Iterable[Action], names: Mapping[str, str]
+) -> Iterator[Action]:
     """Yield the actions. An edit that uses an outdated name is merged, even if nothing else is new."""
-    inputs, names = generation.inputs, None
     for action in actions:
         is_settled = inputs.files.is_chosen(action.path) or action.mine in inputs.last.record.confirmed
         is_edit = action.reason is Reason.KEEP and action.role is not Role.IMPORT and not is_settled
         if is_edit and action.base == action.generated:
             from urdfsync.modelica.lexer import words_in  # imports the parser
 
-            names = renamed_names(generation) if names is None else names
             mine = Counter(words_in(inputs.files.text(action.path) or ""))
-            mine.subtract(words_in(generation.package.content(inputs.folder.path(action.path)).decode()))
+            mine.subtract(words_in(package.content(inputs.folder.path(action.path)).decode()))
             if any(count > 0 and word in names for word, count in mine.items()):
                 action = msgspec.structs.replace(action, reason=Reason.CONFLICT)
         yield action
 
 
 def _conflict(
-    generation: Generation, action: Action, names: Mapping[str, str], doubts: Mapping[str, Doubt]
+    inputs: Inputs, generation: Generation, action: Action, doubt: Doubt | None, names: Mapping[str, str]
 ) -> Conflict:
     """Return the texts of a file that both sides changed; if its class is a folder now, *mine* is its `package.mo`."""
-    key, files, last = action.origin or action.path, generation.inputs.files, generation.inputs.last
-    path = generation.inputs.folder.path(action.path)
+    key, files, last = action.origin or action.path, inputs.files, inputs.last
+    path = inputs.folder.path(action.path)
     mine, generated = files.text(key), generation.package.content(path).decode()
     record = last.files.get(key)
     hashes = record.hashes if record and action.base in record.hashes else (action.base,)
     known = [generated if sha256 == action.generated else last.base(sha256) for sha256 in hashes]
     # a file may have several bases: if the text of one is lost, the changes since it are unknown, and so is the merge
     bases = [text for text in known if text is not None] if None not in known else []
-    doubt, base = doubts.get(action.path), bases[0] if bases else None
+    base, rejected, moved_to = bases[0] if bases else None, "", ""
     if mine is None:
-        mine, why = files.text(f"{key.removesuffix('.mo')}/package.mo") or "", "you made a folder of the class"
-        why = describe_doubt(doubt) if doubt else why
-        return Conflict(action.path, base, mine, generated, None, origin=action.origin, rejected=why)
-    if doubt:
+        mine = files.text(f"{key.removesuffix('.mo')}/package.mo") or ""
+        rejected = describe_doubt(doubt) if doubt else "you made a folder of the class"
+    elif doubt:
         is_own = action.owner == doubt.element
-        why, moved_to = describe_doubt(doubt, is_used=not is_own), doubt.moved_to if is_own else ""
-        return Conflict(action.path, base, mine, generated, None, rejected=why, moved_to=moved_to)
-    if contradictions := files.left_by_git.get(key):
-        texts, why = (bases[0] if bases else None, mine, generated, None), united.describe(contradictions)
-        return Conflict(action.path, *texts, origin=action.origin, rejected=why)
+        rejected, moved_to = describe_doubt(doubt, is_used=not is_own), doubt.moved_to if is_own else ""
+    elif contradictions := files.left_by_git.get(key):
+        rejected = united.describe(contradictions)
+    if rejected:
+        texts = base, mine, generated, None
+        return Conflict(action.path, *texts, origin=action.origin, rejected=rejected, moved_to=moved_to)
     from urdfsync.modelica.lexer import words_in  # imports the parser
 
     if not names and bases:  # a choice was undone after the build that brought new names
-        names = names_of(generation, last.notes.renamed, frozenset(words_in(bases[0])))
-        before = last.package if last.record.generator == generation.inputs.generator else None
+        names = names_of(inputs, generation, last.notes.renamed, frozenset(words_in(bases[0])))
+        before = last.package if last.record.generator == inputs.generator else None
         if before is None or path not in before.artifacts or before.hash(path) == action.base:
-            now = known_names(generation)  # a base with exchanged names has the new names already
+            now = known_names(generation.package)  # a base with exchanged names has the new names already
             names = {name: new for name, new in names.items() if name not in now}
     return find_conflict(action, bases, mine, generated, names)
 
 
 def _without_misfits(
-    generation: Generation, actions: Sequence[Action], conflicts: Mapping[str, Conflict]
+    after: PackageAfter, conflicts: Mapping[str, Conflict], origins: Collection[str]
 ) -> dict[str, Conflict]:
     """Return the conflicts; leave out merges that would use unknown names.
 
-    Clean merges are tried first. Then contradictions are tried in favour of each side.
+    Clean merges are tried first. Then contradictions are tried in favour of each side. `after` has no merges yet.
     """
-    sound, before = dict(conflicts), None
+    sound, before, actions = dict(conflicts), None, after.actions
+    files_after = functools.partial(PackageAfter, after.inputs, after.package)
     for side in (None, *sorted(PREFERENCES)):
         tried = {
             key: text
@@ -223,73 +233,50 @@ def _without_misfits(
         }
         if not tried:
             continue
-        planned, merged = resolve(actions, {**sound, **_with_texts(sound, tried)}, merging=True)
-        misfits = _misfits_of(generation, keep_needed(generation, planned, merged), merged, merged.keys())
+        planned, merged = resolve(actions, sound, merging=True, choice=side)
+        planned = keep_needed(files_after(planned, merged), origins)
+        misfits = _find_misfits(files_after(planned, merged, is_open=True), merged.keys())
         if misfits and before is None:
             waiting = [msgspec.structs.replace(one, is_waiting=True) for one in actions]
             paths = {one.origin or one.path for one in conflicts.values()}
-            before = {(one.key, one.fault) for one in _misfits_of(generation, waiting, {}, paths)}
+            before = {(one.key, one.fault) for one in _find_misfits(files_after(waiting, {}), paths)}
         for key in {one.key for one in misfits} & tried.keys():
             conflict = sound[key]
-            new = [
-                one for one in misfits if one.key == key and (conflict.origin or key, one.fault) not in (before or ())
-            ]
-            if not new or tried[key] == conflict.mine:
+            own = (one for one in misfits if one.key == key)
+            new = next((one.finding for one in own if (conflict.origin or key, one.fault) not in (before or ())), None)
+            if new is None or tried[key] == conflict.mine:
                 continue
-            reason = f"in the merge, {new[0].finding.message} (line {new[0].finding.line})"
+            reason = f"in the merge, {new.message} (line {new.line})"
             merge = conflict.merge and conflict.merge.rejected
             changed = {"refused": {**conflict.refused, side: reason}} if side else {"merge": merge, "rejected": reason}
             sound[key] = msgspec.structs.replace(conflict, **changed)
     return sound
 
 
-def _with_texts(conflicts: Mapping[str, Conflict], texts: Mapping[str, str]) -> dict[str, Conflict]:
-    """Return the conflicts with these texts as their merges."""
-    merges = {key: conflicts[key].merge for key in texts}
-    return {
-        key: msgspec.structs.replace(conflicts[key], merge=msgspec.structs.replace(merge, text=texts[key]))
-        for key, merge in merges.items()
-        if merge is not None
-    }
-
-
-def _misfits_of(
-    generation: Generation, actions: Sequence[Action], texts: Mapping[str, str], only: Collection[str]
-) -> list[Misfit]:
-    from urdfsync.engine.fit import Package  # imports the parser
-
-    return Package(generation, actions, texts, is_open=bool(texts)).misfits(only)
-
-
-def _find_misfits(generation: Generation, actions: Sequence[Action], texts: Mapping[str, str]) -> Sequence[Misfit]:
-    """Find misfits in the user's files, as they will be after all actions that do not wait."""
-    if generation.inputs.has_moved and any(action.is_waiting for action in actions):
+def _find_misfits(after: PackageAfter, only: Collection[str] | None = None) -> Sequence[Misfit]:
+    """Find misfits in the user's files after all actions that do not wait; `only`: in the files with these keys."""
+    if only is None and after.inputs.has_moved and any(action.is_waiting for action in after.actions):
         return ()  # the package stays where it was
-    package = PackageAfter(generation, actions, texts)
-    if not package.users and not package.extended_orders:
+    if not (after.users or (only is None and after.extended_orders)):
         return ()
-    from urdfsync.engine.fit import Package  # imports the parser: 15 of 220 ms of a build
+    from urdfsync.engine.fit import find_misfits  # imports the parser: 15 of 220 ms of a build
 
-    return Package(generation, actions, texts).misfits()
+    return find_misfits(after, only)
 
 
-def _renumbered(
-    generation: Generation, actions: Iterable[Action], merged: Mapping[str, str], conflicts: Mapping[str, Conflict]
-) -> frozenset[str]:
+def _renumbered(after: PackageAfter, changes: Changes | None, conflicts: Mapping[str, Conflict]) -> frozenset[str]:
     """Return the records in which only numbers change, including those in conflict."""
-    files, keys = generation.inputs.files, set()
-    changes = generation.changes.by_element() if generation.changes else {}
-    for action in actions:
+    inputs, keys, by_element = after.inputs, set(), changes.by_element() if changes else {}
+    for action in after.actions:
         if action.role is not Role.RECORD or action.origin is not None:
             continue
         if action.reason in (Reason.UPDATE, Reason.MERGE):
-            generated = generation.package.content(generation.inputs.folder.path(action.path))
-            text = merged.get(action.path) or generated.decode()
-            if numbers_only(files.text(action.path) or "", text):
+            text = after[inputs.folder.path(action.path)].decode(errors="surrogateescape")
+            if numbers_only(inputs.files.text(action.path) or "", text):
                 keys.add(action.path)
         elif action.reason is Reason.CONFLICT and (base := conflicts[action.path].base) is not None:
             # the record of a whole robot has no changes of its own: a number in its tables may be structural
-            own = changes.get(action.owner, ())
+            own = by_element.get(action.owner, ())
             is_parameter = own and all(change.change_class.rank <= ChangeClass.PARAMETER.rank for change in own)
             if is_parameter and numbers_only(base, conflicts[action.path].generated):
                 keys.add(action.path)
@@ -314,13 +301,12 @@ def _refuse_markers(files: PackageFiles, actions: Iterable[Action], orders: Iter
         raise OutputError(*errors)
 
 
-def _recorded_orders(generation: Generation) -> dict[str, Collection[str]]:
+def _recorded_orders(inputs: Inputs, package: Package | None) -> dict[str, Collection[str]]:
     """Return the lines of each `package.order` that the last build wrote, by key, in their order.
 
-    Without a recorded model, the lines follow from the recorded files, and their order is lost.
+    `package` is the last one. Without it, the lines follow from the recorded files, and their order is lost.
     """
-    inputs, last, orders = generation.inputs, generation.inputs.last, dict[str, dict[str, None]]()
-    package = last.package if generation.is_structural or inputs.has_moved else generation.package
+    last, orders = inputs.last, dict[str, dict[str, None]]()
     if last.record.files and package:
         orders = {last.folder.key(path): dict.fromkeys(names) for path, names in package.orders.items()}
     for key in last.files:
@@ -334,28 +320,23 @@ def _recorded_orders(generation: Generation) -> dict[str, Collection[str]]:
 
 
 def _removable_lines(
-    generation: Generation, order: str, text: str, recorded: Collection[str], actions: Iterable[Action]
+    inputs: Inputs, order: str, text: str, recorded: Collection[str], actions: Iterable[Action]
 ) -> list[str]:
     """Return the lines of a `package.order` to remove: deleted classes, and recorded lines without a class.
 
-    A recorded line may name a class of the user's, so the class is looked for on disk. If git has united two states,
-    the package may name classes that the other branch renamed: then the class of each line is looked for.
+    A recorded line may name a class of the user's, so the class is looked for, on disk and in `package.mo`. If git has
+    united two states, the package may name classes that the other branch renamed: then this is done for each line.
     """
-    inputs, folder = generation.inputs, order.removesuffix("package.order")
+    folder = order.removesuffix("package.order")
     paths = (action.path.removesuffix("/package.mo").removesuffix(".mo") for action in actions if action.is_deletion)
     deleted = [path.removeprefix(folder) for path in paths if path.rpartition("/")[0] == folder.rstrip("/")]
     listed = {line.strip() for line in text.splitlines()}
     is_united = inputs.last.record.is_united and order.startswith(inputs.folder.key(""))
     candidates = listed if is_united else listed.intersection(recorded)
-    return [*deleted, *_dangling_lines(inputs.files, order, candidates.difference(deleted))]
-
-
-def _dangling_lines(files: PackageFiles, order: str, names: Iterable[str]) -> list[str]:
-    """Return the names in a `package.order` that have no class and that `package.mo` does not mention."""
-    folder = order.removesuffix("package.order")
-    missing = [name for name in names if is_identifier(name) and not files.has_class(folder, name)]
-    mentioned = set(re.findall(r"\w+", files.text(f"{folder}package.mo") or "")) if missing else set()
-    return [name for name in missing if name not in mentioned]
+    names = filter(is_identifier, candidates.difference(deleted))
+    missing = [name for name in names if not inputs.files.has_class(folder, name)]
+    mentioned = set(re.findall(r"\w+", inputs.files.text(f"{folder}package.mo") or "")) if missing else set()
+    return [*deleted, *(name for name in missing if name not in mentioned)]
 
 
 def _classes_beside(order: str, keys: Iterable[str]) -> list[str]:
@@ -366,15 +347,16 @@ def _classes_beside(order: str, keys: Iterable[str]) -> list[str]:
 
 
 def _decide_orders(
-    generation: Generation, actions: Iterable[Action]
+    inputs: Inputs, package: Package, differences: Differences, actions: Iterable[Action]
 ) -> tuple[list[Action], dict[str, str], list[SharedFile]]:
     """Decide on `package.order` files, and on the packages around the robot's.
 
     Returns the actions, the new texts of orders, and the files around this package and that of the last build.
     """
-    inputs, files, robot = generation.inputs, generation.inputs.files, generation.inputs.robot
-    recorded = _recorded_orders(generation)
-    desired = {inputs.folder.key(path): names for path, names in generation.package.orders.items()}
+    files, robot = inputs.files, inputs.robot
+    is_same = not (differences.is_structural or inputs.has_moved)
+    recorded = _recorded_orders(inputs, package if is_same else inputs.last.package)
+    desired = {inputs.folder.key(path): names for path, names in package.orders.items()}
     if robot.folder.parent != robot.output and inputs.parents.listed:
         desired[files.key(robot.folder.parent / "package.order")] = (robot.folder.name,)
     inside = (inputs.folder.key(""), inputs.last.folder.key(""))
@@ -389,7 +371,7 @@ def _decide_orders(
             written, wanted = recorded.get(key, ()), set(names)
             # a look at the disk for each name would take 15 ms with 100 links
             unwanted = [name for name in written if name not in wanted]
-            removable = _removable_lines(generation, key, text, unwanted, actions)
+            removable = _removable_lines(inputs, key, text, unwanted, actions)
             owned = [*(name for name in written if name in wanted), *removable]
         if inputs.options.adopts and old is None:  # list the user's classes, too: tools hide unlisted ones
             users = _classes_beside(key, files.classes(key.removesuffix("package.order")))

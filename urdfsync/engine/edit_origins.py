@@ -11,29 +11,27 @@ import itertools
 import re
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
-from typing import TYPE_CHECKING, Any, NamedTuple
-
-import msgspec
+from typing import TYPE_CHECKING, NamedTuple
 
 from urdfsync import git
 from urdfsync.answers import dependencies
 from urdfsync.diagnostics import SourceError, StateError
 from urdfsync.domain import ElementKey, Role, Snapshot
 from urdfsync.engine.actions import Action, Reason
+from urdfsync.engine.differences import Differences
+from urdfsync.engine.generate import Package
 from urdfsync.engine.generation import Generation
-from urdfsync.engine.last_build import NO_MODEL
+from urdfsync.engine.inputs import Inputs
+from urdfsync.engine.last_build import NO_MODEL, hash_of
 from urdfsync.engine.package_files import text_hash
 from urdfsync.engine.package_names import elements_by_identifier, identifier_of
 from urdfsync.engine.renames import find_matching
-from urdfsync.files import digest
 from urdfsync.matching import Doubt
 from urdfsync.modelica.files import code_of, text_of
 from urdfsync.state import statefile
 from urdfsync.state.record import FileRecord, as_read
 
 if TYPE_CHECKING:
-    import pygit2
-
     from urdfsync.git.revisions import Revision
 
 _MOST = 50
@@ -44,60 +42,56 @@ EDITED = (Reason.KEEP, Reason.CONFLICT)
 """Reasons of files that the user edited and that stay where they are."""
 
 
-def find_doubts(generation: Generation, actions: Iterable[Action]) -> dict[str, Doubt]:
+def find_doubts(
+    inputs: Inputs, generation: Generation, differences: Differences, actions: Iterable[Action]
+) -> dict[str, Doubt]:
     """Return why edited files may belong to other elements than before, by key."""
-    inputs, notes = generation.inputs, generation.inputs.last.notes
     edited = [one for one in actions if one.reason in EDITED and one.role is not Role.IMPORT]
     edited = [one for one in edited if not inputs.files.is_chosen(one.path)]
-    record = inputs.last.record
+    record, notes = inputs.last.record, inputs.last.notes
     unconfirmed = [one for one in edited if one.mine not in record.confirmed]
     # the user's answer about an export holds until the next export
     is_told = inputs.last.seen == generation.now.snapshot
     doubts = dict[str, Doubt | None]()
     for action in unconfirmed if is_told else edited:
-        doubts[action.path] = _doubt(generation, action)
-    if unconfirmed and notes.model == model_hash(record.snapshot):  # else git may have changed what names mean
+        doubts[action.path] = _doubt(inputs, generation, differences, action)
+    if unconfirmed and notes.model == hash_of(record.snapshot):  # else git may have changed what names mean
         unconfirmed = [one for one in unconfirmed if notes.edited.get(one.path) != one.mine]
     unconfirmed = [one for one in unconfirmed if one.mine]  # a class that became a folder: no commit has this file
     if unconfirmed and inputs.last.version is not None and git.find_top(inputs.config.root) is not None:
         dependencies.mark_incomplete()  # a commit may change the answer without changing a file
-        edits = {action: _edit_of(generation, action) for action in unconfirmed}
-        for commit in _commits(generation):
-            doubts |= _look(generation, commit, edits)
+        edits = {action: _edit_of(inputs, generation.package, action) for action in unconfirmed}
+        for commit in _commits(inputs):
+            doubts |= _look(inputs, generation, commit, edits)
     return {path: doubt for path, doubt in doubts.items() if doubt}
 
 
-def _doubt(generation: Generation, action: Action) -> Doubt | None:
+def _doubt(inputs: Inputs, generation: Generation, differences: Differences, action: Action) -> Doubt | None:
     """Return why an edit may belong to another element than its file does, judged by the last build."""
-    found, last = generation.matching.doubts, generation.inputs.last
+    found, last = differences.matching.doubts, inputs.last
     if not (element := _element(action)):
-        lines = _edit_of(generation, action).added if found else ()
-        return _named(generation, lines, found, generation.now.snapshot)
+        lines = _edit_of(inputs, generation.package, action).added if found else ()
+        return _named(inputs, lines, found, generation.now.snapshot)
     if element in found:
         return found[element]
-    if moved_to := generation.renames.get(element):  # its file can't move to the new name
+    if moved_to := differences.renames.get(element):  # its file can't move to the new name
         return Doubt(" ".join(element), "", (), moved_to, is_certain=True)
     # if only numbers changed, no element is new, and most builds need no features
-    is_new_element = last.version is not None and generation.is_structural and element not in generation.elements_before
+    is_new_element = last.version is not None and differences.is_structural and element not in last.elements
     is_orphan = is_new_element and action.path in last.files
     is_new = last.record.open is not None and action.path not in last.record.open.asked  # a later build wrote it
-    if is_orphan and not (is_new or last.record.is_united or generation.respelled):
+    if is_orphan and not (is_new or last.record.is_united or differences.respelled):
         return Doubt(" ".join(element), is_certain=True)  # the user edited it for an element that is gone
     return None
 
 
-def model_hash(snapshot: Mapping[str, Any] | None) -> str:
-    """Return one hash for a model."""
-    return digest(msgspec.json.encode(snapshot, order="sorted"))
-
-
-def _commits(generation: Generation) -> Iterator[Revision]:
+def _commits(inputs: Inputs) -> Iterator[Revision]:
     """Yield the commits that an edit may come from: merged ones, and recent ones if this machine has built here."""
     import pygit2  # 55 ms, which most builds do without
 
     from urdfsync.git.revisions import Revision, open_repository
 
-    root = generation.inputs.config.root
+    root = inputs.config.root
     try:
         repository = open_repository(root)
     except SourceError:  # it can't be read: for example, it belongs to another user
@@ -105,21 +99,17 @@ def _commits(generation: Generation) -> Iterator[Revision]:
     if repository is None or repository.is_empty or repository.head_is_unborn:
         return
     names = ["MERGE_HEAD", *(str(parent) for parent in repository.head.peel(pygit2.Commit).parent_ids)]
-    if generation.inputs.last.notes.program:
+    if inputs.last.notes.program:
         names += [f"HEAD~{number}" for number in range(2, _BACK)]
-        names += ["ORIG_HEAD", "CHERRY_PICK_HEAD", "REBASE_HEAD", *_checked_out(repository)]
+        # after a squash, the branch itself may be gone: look at the commits that were checked out last
+        recent = itertools.islice(repository.lookup_reference("HEAD").log(), _MOST)
+        names += ["ORIG_HEAD", "CHERRY_PICK_HEAD", "REBASE_HEAD", *(str(entry.oid_new) for entry in recent)]
         names += [name for name in repository.references if name.startswith(("refs/heads/", "refs/remotes/"))][:_MOST]
     for name in dict.fromkeys(names):
         try:
             yield Revision(root, name)
         except SourceError:  # there is no such commit
             continue
-
-
-def _checked_out(repository: pygit2.Repository) -> Iterator[str]:
-    """Yield the commits that were checked out last: after a squash, the branch itself may be gone."""
-    for entry in itertools.islice(repository.lookup_reference("HEAD").log(), _MOST):
-        yield str(entry.oid_new)
 
 
 class _Edit(NamedTuple):
@@ -133,12 +123,16 @@ class _Edit(NamedTuple):
         lines = _lines(text)
         return self.added & lines if self.added else self.removed - lines
 
+    def has_moved(self, shared: Counter[str], text: str) -> bool:
+        """Return whether the file under the element's new name has the shared lines of the edit already."""
+        return not shared - _lines(text) if self.added else not shared & _lines(text)
 
-def _edit_of(generation: Generation, action: Action) -> _Edit:
+
+def _edit_of(inputs: Inputs, package: Package, action: Action) -> _Edit:
     """Return the user's edit of a generated text; a line that one of its bases has is no edit."""
-    inputs, last = generation.inputs, generation.inputs.last
+    last = inputs.last
     mine = _lines(inputs.files.text(action.path) or "")
-    generated = _lines(generation.package.content(inputs.folder.path(action.path)).decode())
+    generated = _lines(package.content(inputs.folder.path(action.path)).decode())
     bases = last.bases(last.files.get(action.path, FileRecord())).values()
     return _Edit(mine - (generated | _lines("\n".join(bases))), generated - mine)
 
@@ -147,9 +141,8 @@ def _lines(text: str) -> Counter[str]:
     return Counter(line.strip() for line in text.splitlines() if line.strip())
 
 
-def _look(generation: Generation, commit: Revision, edits: Mapping[Action, _Edit]) -> dict[str, Doubt]:
+def _look(inputs: Inputs, generation: Generation, commit: Revision, edits: Mapping[Action, _Edit]) -> dict[str, Doubt]:
     """Return a doubt for each edit that a commit has in the same file, if its element was renamed since the commit."""
-    inputs = generation.inputs
     state = inputs.store.path(inputs.last.name)
     try:
         contents = commit.contents([state, *(inputs.files.path(action.path) for action in edits)])
@@ -173,17 +166,20 @@ def _look(generation: Generation, commit: Revision, edits: Mapping[Action, _Edit
             moved_to = matching.renames.get(key, "")
             moved[key] = Doubt(" ".join(key), formers.get(key, ""), (), moved_to, is_certain=True)
     # names that are gone are reported elsewhere
-    existing = {key: doubt for key, doubt in moved.items() if key in generation.elements_now}
+    elements = inputs.domain.features(generation.now.snapshot)
+    existing = {key: doubt for key, doubt in moved.items() if key in elements}
     doubts = dict[str, Doubt]()
     for action, lines in shared.items():
         recorded = record.files.get(action.path)
         if recorded is None or text_hash(texts[action]) in recorded.hashes:
             continue  # the commit has the file unedited
         if element := _element(action):
-            doubt = moved.get(element)
-            if doubt and not _has_followed(generation, action, doubt.moved_to, edits[action], lines):
+            if (doubt := moved.get(element)) is None:
+                continue
+            path = generation.package.find_like(inputs.folder.path(action.path), f"{element[0]} {doubt.moved_to}")
+            if path is None or not edits[action].has_moved(lines, inputs.files.text(inputs.folder.key(path)) or ""):
                 doubts[action.path] = doubt
-        elif doubt := _named(generation, lines, existing, snapshot):
+        elif doubt := _named(inputs, lines, existing, snapshot):
             doubts[action.path] = doubt
     return doubts
 
@@ -195,22 +191,13 @@ def _element(action: Action) -> ElementKey | None:
 
 
 def _named(
-    generation: Generation, lines: Iterable[str], doubts: Mapping[ElementKey, Doubt], snapshot: Snapshot
+    inputs: Inputs, lines: Iterable[str], doubts: Mapping[ElementKey, Doubt], snapshot: Snapshot
 ) -> Doubt | None:
     """Return the doubt about the first doubtful element that these lines of a common file name; None without one."""
     if not doubts:
         return None
-    elements = elements_by_identifier(generation.inputs.domain, snapshot, generation.inputs.last.target)
+    elements = elements_by_identifier(inputs.domain, snapshot, inputs.last.target)
     code = text_of(code_of("\n".join(lines).encode()))
     words = dict.fromkeys(re.findall(r"\w+", code))
     found = (elements.get(identifier_of(word, elements)) for word in words)
     return next((doubts[key] for key in found if key and key in doubts), None)
-
-
-def _has_followed(generation: Generation, action: Action, name: str, edit: _Edit, lines: Counter[str]) -> bool:
-    """Return whether the file under the element's new name has this edit, too: then the edit has followed already."""
-    inputs, owner = generation.inputs, f"{action.owner.partition(' ')[0]} {name}"
-    if (path := generation.package.find_like(inputs.folder.path(action.path), owner)) is None:
-        return False
-    text = _lines(inputs.files.text(inputs.folder.key(path)) or "")
-    return not lines - text if edit.added else not lines & text

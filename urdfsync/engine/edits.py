@@ -14,7 +14,7 @@ from urdfsync.domain import Role
 from urdfsync.engine.actions import Action, Reason
 from urdfsync.engine.decide import decide_package
 from urdfsync.engine.generation import Generation, generate_robot
-from urdfsync.engine.inputs import inspect
+from urdfsync.engine.inputs import Inputs, inspect
 from urdfsync.engine.options import BuildOptions
 from urdfsync.merge import edits as merge_edits
 
@@ -52,19 +52,23 @@ class RobotEdits(msgspec.Struct, frozen=True):
     failed: bool = False
 
 
-def find_edited(generation: Generation, actions: Iterable[Action] | None = None) -> Iterator[EditedFile]:
+def find_edited(
+    inputs: Inputs, generation: Generation, actions: Iterable[Action] | None = None
+) -> Iterator[EditedFile]:
     """Yield the edited files of a robot, in the order of their paths.
 
     Raises UrdfsyncError. `actions` are the package's actions; None to decide them.
     """
-    files = generation.inputs.files
-    for action in decide_package(generation).actions if actions is None else actions:
+    files = inputs.files
+    if actions is None:
+        actions = decide_package(inputs, generation).actions
+    for action in actions:
         key = action.origin or action.path
         is_text = action.role not in (Role.IMPORT, Role.ORDER) and action.reason is not Reason.MOVED_AWAY
         if is_text and action.mine not in (None, action.base, action.generated):
-            base = generation.inputs.last.base(action.base) if action.base else None
+            base = inputs.last.base(action.base) if action.base else None
             if action.base == action.generated:  # before a package is adopted, the base is not stored yet
-                base = generation.package.content(generation.inputs.folder.path(action.path)).decode()
+                base = generation.package.content(inputs.folder.path(action.path)).decode()
             yield EditedFile(key, action.owner, base, files.any_text(key))
 
 
@@ -72,7 +76,8 @@ def find_edits(paths: Sequence[str], config: Config, options: BuildOptions) -> I
     """Yield the edits in the files at these paths, or in all files. Raises ConfigError for a path without a robot."""
     for robot in config.select(paths):
         try:
-            files = tuple(find_edited(generate_robot(inspect(config, robot, options))))
+            inputs = inspect(config, robot, options)
+            files = tuple(find_edited(inputs, generate_robot(inputs)))
         except Exception as error:  # noqa: BLE001 - one robot's error does not stop the others
             yield RobotEdits(robot.name, config.root, diagnostics=findings_of(error), failed=True)
             continue

@@ -30,7 +30,7 @@ MEMORY = 1_000_000_000
 """Bytes that the process of an expansion may allocate, on Linux."""
 WALL_SECONDS = 120.0
 """Time for one expansion, on every system: on a busy machine, `CPU_SECONDS` may take that long."""
-COMMAND_SECONDS = 600.0
+_COMMAND_SECONDS = 600.0
 """Time for a command, which may ask a server."""
 _PACKAGE = "package://"
 _HINTS = {
@@ -42,7 +42,7 @@ _HINTS = {
 }
 
 
-class Inputs:
+class SourceFiles:
     """The input files of one source: their places, and their names in the state."""
 
     def __init__(self, root: Path, source: Path, package_paths: Sequence[Path]) -> None:
@@ -77,17 +77,17 @@ class Inputs:
             files = {self.name(path, {}): None for path in robot.command_inputs}
         for name in files:
             if (path := self.path(name)) is not None:
-                files[name] = file_hash(path)
+                files[name] = _file_hash(path)
         for name in patterns:
             if (path := self.path(name)) is not None:
-                patterns[name] = names_hash(path)
+                patterns[name] = _names_hash(path)
         return Expansion(
             source=robot.source_text,
             arguments=robot.arguments or {},
             command=robot.command,
             files=files,
             patterns=patterns,
-            variables={name: variable_hash(name) for name in names.variables},
+            variables={name: _variable_hash(name) for name in names.variables},
         )
 
     def find_changes(self, robot: RobotConfig, made: Expansion) -> tuple[str, ...]:
@@ -122,7 +122,7 @@ def _is_there(path: Path | None) -> bool:
         return False
 
 
-def file_hash(path: Path) -> str | None:
+def _file_hash(path: Path) -> str | None:
     """Return the hash of a file, without regard to line ends; None for an unreadable file."""
     try:
         return text_digest(read_file(path))
@@ -130,19 +130,19 @@ def file_hash(path: Path) -> str | None:
         return None
 
 
-def names_hash(pattern: Path) -> str:
+def _names_hash(pattern: Path) -> str:
     """Return a hash of the names of files that match a pattern."""
     names = "\0".join(os.path.basename(path) for path in find_matches(str(pattern)))  # noqa: PTH119
     return digest(names.encode(errors="surrogateescape"))
 
 
-def variable_hash(name: str) -> str | None:
+def _variable_hash(name: str) -> str | None:
     """Return the hash of an environment variable; None if it is not set."""
     value = read_variable(name)
     return None if value is None else digest(value.encode(errors="surrogateescape"))
 
 
-def expand(inputs: Inputs, arguments: Mapping[str, str]) -> Expansion:
+def expand(inputs: SourceFiles, arguments: Mapping[str, str]) -> Expansion:
     """Expand a source by xacro, in a process of its own. Raises SourceError."""
     folders = tuple(map(str, inputs.package_paths))
     answer = _ask(Request(str(inputs.source), arguments, folders, CPU_SECONDS, MEMORY, str(inputs.root)))
@@ -153,19 +153,19 @@ def expand(inputs: Inputs, arguments: Mapping[str, str]) -> Expansion:
         file = shown(Path(problem.file)) if problem.file else shown(inputs.source)
         place, hint = (file, problem.line), problem.hint or _HINTS.get(problem.code, _HINTS["xacro"])
         for path in answer.files:  # record the inputs as dependencies: after a success, `find_changes` does
-            file_hash(Path(path))
+            _file_hash(Path(path))
         for pattern in answer.patterns:
-            names_hash(Path(pattern))
+            _names_hash(Path(pattern))
         for name in answer.variables:
-            variable_hash(name)
+            _variable_hash(name)
         raise SourceError.of(problem.code, message, *place, hint=hint)
     names = {path: inputs.name(path, answer.packages) for path in answer.files}
     number = {path: index for index, path in enumerate(sorted(names, key=names.__getitem__))}
     return Expansion(
         arguments=arguments,
         files={names[path]: answer.files[path] for path in number},
-        patterns={inputs.name(path, answer.packages): names_hash(Path(path)) for path in answer.patterns},
-        variables={name: variable_hash(name) for name in answer.variables},
+        patterns={inputs.name(path, answer.packages): _names_hash(Path(path)) for path in answer.patterns},
+        variables={name: _variable_hash(name) for name in answer.variables},
         unused=answer.unknown,
         warnings=answer.warnings,
         places=" ".join(f"{line}={number[file]}:{origin}" for line, file, origin in answer.places),
@@ -209,7 +209,7 @@ def run_command(config: Config, robot: RobotConfig) -> None:
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             cwd=config.root,
-            timeout=COMMAND_SECONDS,
+            timeout=_COMMAND_SECONDS,
             check=False,
         )
         words = done.stdout.decode(errors="replace").strip().splitlines()[-1:]
@@ -217,7 +217,7 @@ def run_command(config: Config, robot: RobotConfig) -> None:
         if not reason and not robot.source.is_file():
             reason = f"it did not write {shown(robot.source)}"
     except subprocess.TimeoutExpired:
-        reason = f"it takes more than {COMMAND_SECONDS:g} s"
+        reason = f"it takes more than {_COMMAND_SECONDS:g} s"
     except OSError as error:
         reason = error.strerror or str(error)
     if reason:

@@ -1,24 +1,42 @@
-"""Findings of a build: removed names and connectors, moved or outdated packages."""
+"""Findings of a build: removed names and connectors, moved or outdated packages, names that mean other parts now.
+
+A file of the user's that uses a name which an export has given to another part still works, but with that part. So each
+build warns until the user saves the file. The notes of this machine list each file with such names.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING
+import itertools
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import msgspec
 
-from urdfsync.changes import Effects
+from urdfsync.answers import dependencies
+from urdfsync.changes import Changes, Effects
 from urdfsync.config import Config
 from urdfsync.config.advice import Advice, brings_back
 from urdfsync.diagnostics import Diagnostic, Severity
-from urdfsync.domain import ChangeClass
-from urdfsync.engine.actions import Actions
+from urdfsync.domain import ChangeClass, Snapshot
+from urdfsync.engine.actions import Actions, Reason
 from urdfsync.engine.decide import Decision
+from urdfsync.engine.differences import GONE, Differences
 from urdfsync.engine.generation import Generation
 from urdfsync.engine.inputs import Inputs, orphaned_robots
 from urdfsync.engine.package_files import key_of
-from urdfsync.engine.package_names import class_of, new_name, new_names, recently_renamed
+from urdfsync.engine.package_names import (
+    class_of,
+    elements_by_identifier,
+    identifier_of,
+    known_names,
+    new_name,
+    new_names,
+    renamed_names,
+)
 from urdfsync.files import shown
+from urdfsync.state.notes import Use
 from urdfsync.state.store import Store
 
 if TYPE_CHECKING:
@@ -33,13 +51,17 @@ _LINES = 20
 """The most lines that are named for one fault; further lines are only counted."""
 _NEW = 6
 """The most new connectors that are named; further ones are only counted."""
+_MAYBE = "?"
+"""Stands for the new name of a part if it is unknown whether the name means another part now."""
 
 
-def find_all(generation: Generation, decision: Decision) -> tuple[Diagnostic, ...]:
-    """Return all findings of a build in the order of their places."""
-    inputs, actions = generation.inputs, decision.actions
+def find_all(inputs: Inputs, generation: Generation, decision: Decision) -> list[Diagnostic]:
+    """Return all findings of a build, except those about uses of other parts."""
     findings = [*generation.diagnostics, *inputs.parents.diagnostics]
-    findings += _diagnose(generation, decision.misfits, actions)
+    if decision.misfits:
+        renamed = inputs.last.notes.renamed  # by the last build on this machine
+        renamed = {**renamed, **decision.differences.identifiers}
+        findings += _diagnose(inputs, generation.now.snapshot, decision, renamed)
     if inputs.former_name:
         message = f"robot `{inputs.robot.name}` was called `{inputs.former_name}`; its recorded state"
         place = shown(inputs.config.file), inputs.robot.lines[""]
@@ -49,28 +71,27 @@ def find_all(generation: Generation, decision: Decision) -> tuple[Diagnostic, ..
         hint = "put urdfsync.toml into a folder of the project, and narrower folders into `users`"
         place = shown(inputs.config.file), inputs.robot.lines.get("users", 0)
         findings.append(Diagnostic(Severity.WARNING, "too-many-folders", message, *place, hint=hint))
-    findings += _left_behind(inputs, actions)
+    findings += _left_behind(inputs, decision.actions)
     findings += [inputs.damage] if inputs.damage else []
     effects: Effects | None = inputs.domain.effects
-    if effects and generation.changes is not None and inputs.last.version is not None and generation.changes.changes:
-        for path, finding in effects.find_doubtful(inputs.last.version, generation.now, generation.changes.renames):
+    changes, last = decision.differences.changes, inputs.last.version
+    if effects and changes is not None and last is not None and changes.changes:
+        for path, finding in effects.find_doubtful(last, generation.now, changes.renames):
             line = generation.lines.get(path, 0)
             findings.append(msgspec.structs.replace(finding, file=shown(inputs.robot.source), line=line))
     if decision.is_complete:
-        findings += _changed_connectors(generation)
-    findings = list(map(inputs.source.locate, findings))
-    return tuple(sorted(findings, key=lambda diagnostic: (diagnostic.file, diagnostic.line)))
+        findings += _changed_connectors(inputs, generation, changes)
+    return list(map(inputs.source.locate, findings))
 
 
-def _diagnose(generation: Generation, misfits: Sequence[Misfit], actions: Actions) -> Iterator[Diagnostic]:
+def _diagnose(
+    inputs: Inputs, snapshot: Snapshot, decision: Decision, renamed: Mapping[str, str]
+) -> Iterator[Diagnostic]:
     """Yield one finding for all places in a file that have the same fault: an error if the package is broken."""
-    if not misfits:
-        return
-    inputs, renamed = generation.inputs, recently_renamed(generation)
-    written = (one.path for one in actions if one.is_waiting and not one.is_deletion and one.path.endswith(".mo"))
-    waiting = frozenset(map(class_of, written))
+    waiting = (one.path for one in decision.actions if one.is_waiting and not one.is_deletion)
+    classes = {class_of(path) for path in waiting if path.endswith(".mo")}
     places: dict[tuple[object, ...], list[Misfit]] = {}
-    for misfit in misfits:
+    for misfit in decision.misfits:
         if misfit.key or misfit.file in inputs.users_files.mentioning:  # the others are in a former folder
             finding = misfit.finding
             what = misfit.use.part if misfit.use else (misfit.lacking or finding.message, finding.code, finding.line)
@@ -79,7 +100,9 @@ def _diagnose(generation: Generation, misfits: Sequence[Misfit], actions: Action
         finding = first.finding
         lines = [*map(str, sorted({misfit.finding.line for misfit in more} - {finding.line}))]
         also = f"also in line{'s' if len(lines) > 1 else ''} {_first(lines, _LINES)}" if lines else ""
-        hint = _hint(generation, renamed, first.use, waiting) if first.use else finding.hint
+        hint = _hint(inputs, snapshot, renamed, first.use) if first.use else finding.hint
+        if first.use and first.use.part in classes and first.use.kind.value == "class":
+            hint = "settle the conflicts; its file waits for that"
         yield msgspec.structs.replace(
             finding,
             severity=Severity.ERROR if first.is_broken else Severity.WARNING,
@@ -88,18 +111,16 @@ def _diagnose(generation: Generation, misfits: Sequence[Misfit], actions: Action
         )
 
 
-def _hint(generation: Generation, renamed: Mapping[str, str], use: Unresolved, waiting: Collection[str]) -> str:
-    """Return a hint for an unresolved name; `waiting` has the classes whose files wait for resolved conflicts."""
-    if use.part in waiting and use.kind.value == "class":
-        return "settle the conflicts; its file waits for that"
-    inputs, target, options = generation.inputs, generation.inputs.robot.target, generation.inputs.robot.options
+def _hint(inputs: Inputs, snapshot: Snapshot, renamed: Mapping[str, str], use: Unresolved) -> str:
+    """Return a hint for an unresolved name; `renamed` has new identifiers by old ones."""
+    target, options = inputs.robot.target, inputs.robot.options
     if use.part == inputs.last.target.package != target.package and target.name not in use.candidates:
         return f"use `{target.package}` instead"
     if name := new_name(use.part, renamed, use.candidates):
         return f"use `{name}` instead"
     advice: Advice | None = inputs.domain.advice
     for name in dict.fromkeys((use.part, next(new_names(use.part, renamed), use.part))):
-        if advice and (option := advice.option_for(name, generation.now.snapshot, target, options)):
+        if advice and (option := advice.option_for(name, snapshot, target, options)):
             return brings_back(option, name if name != use.part else "")
     if use.near:
         return f"did you mean `{use.meant}`?"
@@ -136,9 +157,8 @@ def _first(names: Sequence[str], most: int) -> str:
     return ", ".join([*names[:most], *more])
 
 
-def _changed_connectors(generation: Generation) -> Iterator[Diagnostic]:
+def _changed_connectors(inputs: Inputs, generation: Generation, changes: Changes | None) -> Iterator[Diagnostic]:
     """Yield notes on renamed and removed connectors, and one note on new ones."""
-    inputs, changes = generation.inputs, generation.changes
     complete, robot = inputs.last.version, inputs.robot
     effects: Effects | None = inputs.domain.effects
     if (
@@ -175,3 +195,91 @@ def orphaned_state(config: Config) -> list[Diagnostic]:
     folder = shown(store.folder / "robots")
     hint = f"bring the robot back, or delete {folder}/{stray[0]}.* and what is left of its package"
     return [Diagnostic(Severity.NOTE, "stray-state", message, shown(config.file), hint=hint)]
+
+
+def find_uses(inputs: Inputs, generation: Generation, decision: Decision) -> dict[str, Use]:
+    """Return the names in each file that mean another part now; names that earlier builds found are included."""
+    differences = decision.differences
+    uses = {path: use for path, use in inputs.last.notes.uses.items() if use.facts == _facts(Path(path))}
+    if not decision.is_complete:
+        return uses
+    own = (inputs.files.path(action.path) for action in decision.actions if action.reason is Reason.UNKNOWN)
+    files = [*inputs.users_files.mentioning, *own]
+    if files and (names := _other_names(inputs, generation, differences)):
+        for path in files:
+            earlier = uses[str(path)].names if str(path) in uses else {}
+            used = {name: names.get(new, new) for name, new in earlier.items()}
+            used = {name: names[name] for name in _lines(path, names) if name not in earlier} | used
+            uses.pop(str(path), None)
+            if used := {name: new for name, new in used.items() if name != new}:
+                uses[str(path)] = Use(_facts(path), used)
+    elements = {**{name: _MAYBE for _, name in differences.matching.doubts}, **differences.other_elements}
+    if used := {name: elements[name] for name in _texts(msgspec.to_builtins(inputs.robot.options)) if name in elements}:
+        uses[str(inputs.config.file)] = Use(_facts(inputs.config.file), used)
+    return uses
+
+
+def _other_names(inputs: Inputs, generation: Generation, differences: Differences) -> dict[str, str]:
+    """Return the names in the package that mean other parts than in the last build, or may do so.
+
+    Each has the new name of the part that had it before.
+    """
+    doubts, renamed = differences.matching.doubts, dict[str, str]()
+    if differences.other_elements:
+        renamed = renamed_names(inputs, generation, differences)
+    now = known_names(generation.package) if doubts or renamed else ()
+    elements = elements_by_identifier(inputs.domain, generation.now.snapshot, inputs.robot.target) if doubts else {}
+    doubtful = {name: _MAYBE for name in now if elements.get(identifier_of(name, elements)) in doubts}
+    return {**doubtful, **{name: new for name, new in renamed.items() if name in now}}
+
+
+def tell_uses(uses: Mapping[str, Use]) -> Iterator[Diagnostic]:
+    """Yield a warning for the first use of each name in a file."""
+    for path, use in uses.items():
+        lines = _lines(Path(path), use.names)
+        for name, line in sorted(lines.items(), key=lambda item: item[1]):
+            new = use.names[name]
+            message = f"`{name}` names another part now; the former one is called `{new}`"
+            hint = f"use `{new}`, or save the file as it is"
+            if new.endswith(GONE):
+                message = f"`{name}` names another part now; the former one is gone"
+                hint = "change it, or save the file as it is if it is right"
+            elif new == _MAYBE:
+                message, hint = f"`{name}` may name another part now", "look at it, and save the file"
+            yield Diagnostic(Severity.WARNING, "other-part", message, shown(Path(path)), line, hint=hint)
+
+
+def _facts(path: Path) -> tuple[int, ...]:
+    try:
+        return dependencies.read_stat(path)
+    except OSError:
+        return (0,)
+
+
+def _lines(path: Path, names: Mapping[str, str]) -> dict[str, int]:
+    """Return the first line in which a file uses each name; names that a model only declares do not count."""
+    from urdfsync.merge.renames import find_uses_of  # the lexer takes a while to load
+    from urdfsync.modelica.files import text_of
+
+    try:
+        text = text_of(dependencies.read_file(path))
+    except OSError:
+        return {}
+    if path.suffix == ".mo":
+        places = find_uses_of(text, names)
+    else:
+        places = ((found[0], found.start()) for found in re.finditer(r"[\w-]+", text) if found[0] in names)
+    lines = dict[str, int]()
+    for name, start in places:
+        lines.setdefault(name, text.count("\n", 0, start) + 1)
+    return lines
+
+
+def _texts(value: Any) -> Iterator[str]:
+    """Yield all texts and keys in plain data."""
+    if isinstance(value, str):
+        yield value
+    elif isinstance(value, Mapping):
+        yield from (*value, *itertools.chain.from_iterable(map(_texts, value.values())))
+    elif isinstance(value, list | tuple):
+        yield from itertools.chain.from_iterable(map(_texts, value))

@@ -80,26 +80,30 @@ class Misfit(msgspec.Struct, frozen=True):
         return self.use.part if self.use else self.finding.code
 
 
-class Package(PackageAfter):
+def find_misfits(after: PackageAfter, only: Collection[str] | None = None) -> list[Misfit]:
+    """Return all findings about the user's texts; with `only`, those in the files with these keys, merged now.
+
+    In a merge, a removed name counts as a fault even if a class may inherit it from an unread library.
+    """
+    return _Package(after).misfits(only)
+
+
+class _Package(PackageAfter):
     """The package after a build; resolves the names in it."""
 
-    @cached_property
-    def _readings(self) -> dict[bytes, Reading]:
-        return {}
-
-    @cached_property
-    def _differences(self) -> dict[str, Difference]:
-        return {}
+    def __init__(self, after: PackageAfter) -> None:
+        super().__init__(after.inputs, after.package, after.actions, after.merged, is_open=after.is_open)
+        self._readings, self._differences = dict[bytes, Reading](), dict[str, Difference]()
 
     def class_name(self, path: str) -> ClassName:
         """Return the full name of the class that a file is for, by its path below the package."""
-        return (*self._inputs.robot.target.package.split("."), *class_parts(path))
+        return (*self.inputs.robot.target.package.split("."), *class_parts(path))
 
     # --- classes --------------------------------------------------------------------------------------------------
 
     def classes(self) -> StoredClasses:
         """Return all classes, to resolve names in."""
-        inputs, target = self._inputs, self._inputs.robot.target
+        inputs, target = self.inputs, self.inputs.robot.target
         parents = {one.path: one.content for one in inputs.parents.shared if one.content is not None}
         former = inputs.last.target.package if inputs.last.target.package != target.package else ""
         folder, around = inputs.files.path(inputs.folder), {**self.around, **parents}
@@ -109,13 +113,13 @@ class Package(PackageAfter):
 
     def _find(self, name: str) -> Path | None:
         """Return the folder or file of a top-level class that is not in the package."""
-        robot = self._inputs.robot
+        robot = self.inputs.robot
         if own := find_own_library(name, robot.target.package):
             return own
         for path in (robot.output / name, robot.output / f"{name}.mo"):
             if is_file(path / "package.mo" if path.suffix != ".mo" else path):
                 return path
-        return self._inputs.users_files.tops.get(name)
+        return self.inputs.users_files.tops.get(name)
 
     def _reading(self, content: bytes) -> Reading:
         """Parse a file; in a generated file, read only the statements that matter to other files."""
@@ -128,10 +132,7 @@ class Package(PackageAfter):
     # --- findings -------------------------------------------------------------------------------------------------
 
     def misfits(self, only: Collection[str] | None = None) -> list[Misfit]:
-        """Return all findings; with `only`, those in the files with these keys, which are merged now.
-
-        In a merge, a removed name counts as a fault even if a class may inherit it from an unread library.
-        """
+        """See `find_misfits`."""
         if not self.users:
             return [*self._look_at_orders()] if only is None else []
         passed = self._passed_statements()
@@ -148,10 +149,10 @@ class Package(PackageAfter):
 
     def _passed_statements(self) -> dict[str, frozenset[str]]:
         """Return the files to check, each with its statements that need no check: they equal generated ones."""
-        artifacts, statements = self._generation.package.artifacts, dict[str, frozenset[str]]()
+        artifacts, statements = self.package.artifacts, dict[str, frozenset[str]]()
         # first look for missing classes that generated texts mention
-        before = self._inputs.last.files
-        expected = set(map(self._inputs.folder.path, before)) if self._is_waiting else set(artifacts)
+        before = self.inputs.last.files
+        expected = set(map(self.inputs.folder.path, before)) if self._is_waiting else set(artifacts)
         missing = expected - set(map(as_file, self)) - self._files.keys()
         names, classes = {class_of(path) for path in missing if path.endswith(".mo")}, set[str]()
         edited = [path for path, file in self._files.items() if file.is_edited]
@@ -172,14 +173,14 @@ class Package(PackageAfter):
     @cached_property
     def _is_waiting(self) -> bool:
         """Whether files stay as in the package of the last complete build."""
-        return any(action.is_waiting for action in self._actions)
+        return any(action.is_waiting for action in self.actions)
 
     def _generated_text(self, path: str) -> str:
         """Return the generated text of an edited file; empty if there is none."""
-        inputs, artifacts = self._inputs, self._generation.package.artifacts
+        inputs, artifacts = self.inputs, self.package.artifacts
         place = path if path in artifacts else as_file(path)
         if not self._is_waiting:
-            return self._generation.package.content(place).decode() if place in artifacts else ""
+            return self.package.content(place).decode() if place in artifacts else ""
         if inputs.last.package and place in inputs.last.package.artifacts:
             return inputs.last.package.content(place).decode()
         record = inputs.last.files.get(inputs.folder.key(place))
@@ -187,13 +188,13 @@ class Package(PackageAfter):
 
     def _is_lost(self, name: str) -> bool:
         """Whether a replaced or deleted text declares a name that the new text lacks."""
-        files, folder = self._inputs.files, self._inputs.folder
+        files, folder = self.inputs.files, self.inputs.folder
         replaced = list[tuple[str, str]]()
         # if all actions wait, the package stays as it was before the choices
-        if not all(action.is_waiting for action in self._actions):
+        if not all(action.is_waiting for action in self.actions):
             chosen = (key for key in files.overlay if key.endswith(".mo") and files.is_chosen(key))
             replaced += [(folder.path(key), text_of(files.read_on_disk(key) or b"")) for key in chosen]
-        for action in self._actions:
+        for action in self.actions:
             if action.writes and (key := action.origin or action.path).endswith(".mo"):
                 replaced.append((folder.path(action.path), files.any_text(key)))
         for path, old in replaced:
@@ -209,7 +210,7 @@ class Package(PackageAfter):
         for path, finding in check_places(self, {package: self._declared(package) or {} for package in packages}):
             file, other = self._files[path], self._files.get(f"{path.removesuffix('.mo')}/{PACKAGE_FILE}")
             is_broken = file.is_expected or (other is not None and other.is_expected)
-            yield Misfit(self._inputs.files.path(file.key), finding, file.key, is_broken)
+            yield Misfit(self.inputs.files.path(file.key), finding, file.key, is_broken)
 
     def _declared(self, path: str) -> dict[str, int] | None:
         """Return the lines of a `package.mo`'s declarations, by name; None if it is missing or no Modelica."""
@@ -220,7 +221,7 @@ class Package(PackageAfter):
 
     def _look_at_orders(self) -> Iterator[Misfit]:
         """Find the user's lines in a `package.order` that name no class."""
-        inputs, files, orders = self._inputs, self._inputs.files, self._generation.package.orders
+        inputs, files, orders = self.inputs, self.inputs.files, self.package.orders
         for path, (text, lines) in self.extended_orders.items():
             names, folder = orders.get(path, ()), path.removesuffix("package.order")
             below = (other.removeprefix(folder) for other in self if other.startswith(folder))
@@ -244,7 +245,7 @@ class Package(PackageAfter):
             for name in types:
                 meaning = scopes.lookup(name, other)
                 if isinstance(meaning, Element) and meaning.types[0].node is node:
-                    return f"{shown(self._inputs.files.path(self._files[path].key))}:{name.line}"
+                    return f"{shown(self.inputs.files.path(self._files[path].key))}:{name.line}"
         return ""
 
     def _look_at_head(self, path: str, node: Node, scopes: Scopes, paths: Iterable[str]) -> Iterator[Diagnostic]:
@@ -270,7 +271,7 @@ class Package(PackageAfter):
         `paths` are all of these files.
         """
         file, name, reading = self._files[path], self.class_name(path), self._readings[self[path]]
-        place = self._inputs.files.path(file.key)
+        place = self.inputs.files.path(file.key)
         findings = check_class_file(reading.text, PurePosixPath(path), ".".join(name), reading.stored)[1]
         node = scopes.node(name)
         findings += self._look_at_head(path, node, scopes, paths) if node else ()
@@ -281,7 +282,7 @@ class Package(PackageAfter):
             elif use and (owner := scopes.node(use.owner.split("."))) and Path(owner.file) in self.users:
                 message = f"it has no `{use.part}`, which {shown(place)}:{use.line} mentions"
                 finding = msgspec.structs.replace(finding, message=message, line=owner.definition.name.line)
-                key = self._inputs.files.key(Path(owner.file))
+                key = self.inputs.files.key(Path(owner.file))
                 yield Misfit(Path(owner.file), finding, key, is_broken=True, lacking=use.part)
 
     def _look_around(self, file: Path, scopes: Scopes) -> Iterator[Misfit]:

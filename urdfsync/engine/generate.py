@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import msgspec
 
 from urdfsync.diagnostics import ConfigError, Diagnostic, OutputError, Severity
-from urdfsync.domain import Artifact, Domain, Import, Order, Role, Snapshot, Target
+from urdfsync.domain import Artifact, Domain, Order, Role, Target, Version
 from urdfsync.files import Templates, digest, normalised, shown, text_digest
 from urdfsync.modelica.files import class_path
 from urdfsync.modelica.literals import without_literals
@@ -51,6 +51,11 @@ class Package:
         if path not in self._hashes:
             self._hashes[path] = text_digest(self.content(path))
         return self._hashes[path]
+
+    @functools.cached_property
+    def paths_by_hash(self) -> Mapping[str, str]:
+        """The path of each text, by its hash."""
+        return {self.hash(path): path for path in self.artifacts}
 
     def find_like(self, path: str, owner: str) -> str | None:
         """Return the file of another owner with the same template as this file; None if there is none."""
@@ -96,15 +101,9 @@ class Package:
         return {self.artifacts[path].owner for path in changed}
 
 
-def generate(
-    domain: Domain,
-    snapshot: Snapshot,
-    imports: Mapping[str, Import],
-    target: Target,
-    options: Any,
-    templates: Templates,
-) -> Package:
+def generate(domain: Domain, version: Version, target: Target, options: Any, templates: Templates) -> Package:
     """Return the package of a model. Raises OutputError for paths that can't be written."""
+    snapshot, imports = version.snapshot, version.imports or {}
     # as bytes, since 0.0 == -0.0, but their texts differ
     key = domain.artifacts, msgspec.json.encode((snapshot, imports, target, options), order="sorted")
     artifacts = _recent.pop(key, None)

@@ -89,12 +89,6 @@ def places_of(dependency: Dependency) -> Iterator[tuple[str, str]]:
         yield further_key(dependency.key, number), str(path.with_stem(f"{path.stem}_{number}"))
 
 
-def _find_recorded(dependency: Dependency, recorded: Mapping[str, RecordedFile]) -> list[tuple[str, str, RecordedFile]]:
-    """Return the recorded files of a dependency, its main file first, with their present keys and targets."""
-    places = itertools.takewhile(lambda place: place[0] in recorded, places_of(dependency))
-    return [(key, target, recorded[key]) for key, target in places]
-
-
 def import_files(
     domain: Domain,
     robot: RobotConfig,
@@ -111,7 +105,8 @@ def import_files(
     the package `has_moved`. A missing or unreadable file is left out, or its recorded copy is used. Raises StateError
     if the facts of that copy are lost.
     """
-    result = Imported()
+    importer = _Importer(domain, recorded, source, options.full, has_moved)
+    result = importer.result
     failed: dict[tuple[str, ...], list[tuple[Dependency, Diagnostic]]] = {}
     guessed: dict[tuple[str, str], list[Dependency]] = {}
     for count, dependency in enumerate(dependencies):
@@ -121,11 +116,8 @@ def import_files(
         if dependency.guessed and isinstance(content, tuple):
             package = dependency.uri.partition("://")[2].partition("/")[0]
             guessed.setdefault((noun, package), []).append(dependency)
-        # copies in a former folder may be the user's: do not use them
-        before = {} if options.full or has_moved else recorded
-        trouble = _import(domain, dependency, content, before, source, result)
-        if trouble is not None:
-            trouble = _keep_copy(dependency, recorded, has_moved, result, trouble)
+        if (trouble := importer.add(dependency, content)) is not None:
+            trouble = importer.keep_copy(dependency, trouble)
             # one warning for all files of a package, whose hint is the same
             own = dependency.key if trouble.code.startswith(f"{noun}-unreadable") else ""
             failed.setdefault((noun, trouble.code, trouble.hint, own), []).append((dependency, trouble))
@@ -145,52 +137,84 @@ def import_files(
     return result
 
 
-def _import(
-    domain: Domain,
-    dependency: Dependency,
-    content: tuple[Path, bytes] | OSError | None,
-    recorded: Mapping[str, RecordedFile],
-    source: str,
-    result: Imported,
-) -> Diagnostic | None:
-    """Add one import to the result, or return its problem; may use the `recorded` files of the last build."""
+class _Importer(msgspec.Struct):
+    """The imports of one source so far."""
 
-    def unreadable(message: str, hint: str) -> Diagnostic:
-        return Diagnostic(
-            Severity.WARNING, f"{dependency.noun}-unreadable", message, source, dependency.line, hint=hint
-        )
+    domain: Domain
+    recorded: Mapping[str, RecordedFile]
+    source: str
+    """How diagnostics name the source."""
+    is_full: bool
+    has_moved: bool
+    result: Imported = msgspec.field(default_factory=Imported)
 
-    if content is None:
-        return _not_found([dependency], source, dependency.line)
-    if isinstance(content, OSError):
-        message = f"{_named([dependency])} can't be read: {content.strerror}"
-        return unreadable(message, f"replace it by a {dependency.noun} that can be read")
-    path, text = content
-    others = _read_mentioned(domain, dependency, path, text)
-    sha256 = digest(b"".join((text, *others.values())))
-    own = recorded.get(dependency.key)
-    if own and own.entry.source_hash == sha256:
-        facts, files = _needed(dependency, own.entry), _find_recorded(dependency, recorded)
-        if facts is not None and all(file.is_noted and file.is_intact for _, _, file in files):
-            for key, target, file in files:
-                own_facts = facts if file is own else file.entry.facts
-                entry = msgspec.structs.replace(file.entry, target=target, facts=own_facts)
-                result.add(key, entry, file.copy)
-            return None
-    if text.startswith(_POINTER):
-        message = f"{_named([dependency])} can't be read: it is a Git LFS pointer"
-        return unreadable(message, "get the file itself with `git lfs pull`")
-    try:
-        conversion = domain.convert(dependency, path, text, others)
-    except SourceError as error:
-        result.refused.append((dependency, path))
-        return unreadable(error.diagnostics[0].message, error.diagnostics[0].hint)
-    for (key, target), part in zip(places_of(dependency), (conversion, *conversion.more), strict=False):
-        names = (*others,) if part is conversion else ()
-        entry = Import(target, sha256, digest(part.content), part.facts, names)
-        result.add(key, entry, part.content)
-        result.converted.add(key)
-    return None
+    def _recorded_files(self, dependency: Dependency) -> list[tuple[str, str, RecordedFile]]:
+        """Return the recorded files of a dependency, its main file first, with their present keys and targets."""
+        places = itertools.takewhile(lambda place: place[0] in self.recorded, places_of(dependency))
+        return [(key, target, self.recorded[key]) for key, target in places]
+
+    def add(self, dependency: Dependency, content: tuple[Path, bytes] | OSError | None) -> Diagnostic | None:
+        """Add one import to the result, or return its problem; may use the recorded files of the last build."""
+        code, place = f"{dependency.noun}-unreadable", (self.source, dependency.line)
+        if content is None:
+            return _not_found([dependency], *place)
+        if isinstance(content, OSError):
+            message = f"{_named([dependency])} can't be read: {content.strerror}"
+            hint = f"replace it by a {dependency.noun} that can be read"
+            return Diagnostic(Severity.WARNING, code, message, *place, hint=hint)
+        path, text = content
+        others = _read_mentioned(self.domain, dependency, path, text)
+        sha256 = digest(b"".join((text, *others.values())))
+        own = self.recorded.get(dependency.key)
+        # copies in a former folder may be the user's: do not use them
+        if own and own.entry.source_hash == sha256 and not (self.is_full or self.has_moved):
+            facts, files = _needed(dependency, own.entry), self._recorded_files(dependency)
+            if facts is not None and all(file.is_noted and file.is_intact for _, _, file in files):
+                for key, target, file in files:
+                    own_facts = facts if file is own else file.entry.facts
+                    entry = msgspec.structs.replace(file.entry, target=target, facts=own_facts)
+                    self.result.add(key, entry, file.copy)
+                return None
+        if text.startswith(_POINTER):
+            message = f"{_named([dependency])} can't be read: it is a Git LFS pointer"
+            hint = "get the file itself with `git lfs pull`"
+            return Diagnostic(Severity.WARNING, code, message, *place, hint=hint)
+        try:
+            conversion = self.domain.convert(dependency, path, text, others)
+        except SourceError as error:
+            self.result.refused.append((dependency, path))
+            found = error.diagnostics[0]
+            return Diagnostic(Severity.WARNING, code, found.message, *place, hint=found.hint)
+        for (key, target), part in zip(places_of(dependency), (conversion, *conversion.more), strict=False):
+            names = (*others,) if part is conversion else ()
+            self.result.add(key, Import(target, sha256, digest(part.content), part.facts, names), part.content)
+            self.result.converted.add(key)
+        return None
+
+    def keep_copy(self, dependency: Dependency, trouble: Diagnostic) -> Diagnostic:
+        """Use the copy of an earlier build, if there is one.
+
+        `trouble` says why the file is not imported now; the result adds the consequence.
+        """
+        own, files = self.recorded.get(dependency.key), self._recorded_files(dependency)
+        if own is None or any(file.copy is None for _, _, file in files):
+            return msgspec.structs.replace(trouble, message=f"{trouble.message}; left out")
+        facts = _needed(dependency, own.entry)
+        if facts is None:
+            message = f"{trouble.message}, and the record of its imported copy is incomplete"
+            hint = "restore the file itself, or `.urdfsync/robots` from version control"
+            raise StateError.of("lost-state", message, trouble.file, trouble.line, hint=hint)
+        for key, target, file in files:
+            entry = file.entry
+            # an older copy, which the user put back, does not belong to the recorded source
+            is_older = not file.is_intact and file.hash in file.written
+            is_placed_anew = self.has_moved or entry.target != target
+            target_hash = file.hash if is_older or is_placed_anew else entry.target_hash
+            own_facts = facts if file is own else entry.facts
+            entry = msgspec.structs.replace(entry, target=target, target_hash=target_hash, facts=own_facts)
+            self.result.add(key, entry, file.copy if file.hash == target_hash else None)
+        message = f"{trouble.message}; the imported copy is kept"
+        return msgspec.structs.replace(trouble, code=f"{trouble.code}-kept", message=message, hint="")
 
 
 class Mentions(Protocol):
@@ -265,41 +289,6 @@ def _find_other_case(path: Path) -> Path | None:
     except OSError:
         return None
     return next((folder / name for name in names if folder and name.lower() == path.name.lower()), None)
-
-
-def _keep_copy(
-    dependency: Dependency,
-    recorded: Mapping[str, RecordedFile],
-    has_moved: bool,
-    result: Imported,
-    trouble: Diagnostic,
-) -> Diagnostic:
-    """Use the copy of an earlier build, if there is one.
-
-    `trouble` says why the file is not imported now; the result adds the consequence.
-    """
-    own, files = recorded.get(dependency.key), _find_recorded(dependency, recorded)
-    if own is None or any(file.copy is None for _, _, file in files):
-        return msgspec.structs.replace(trouble, message=f"{trouble.message}; left out")
-    facts = _needed(dependency, own.entry)
-    if facts is None:
-        message = f"{trouble.message}, and the record of its imported copy is incomplete"
-        hint = "restore the file itself, or `.urdfsync/robots` from version control"
-        raise StateError.of("lost-state", message, trouble.file, trouble.line, hint=hint)
-    for key, target, file in files:
-        entry = file.entry
-        # an older copy, which the user put back, does not belong to the recorded source
-        is_older = not file.is_intact and file.hash in file.written
-        is_placed_anew = has_moved or entry.target != target
-        entry = msgspec.structs.replace(
-            entry,
-            target=target,
-            target_hash=file.hash if is_older or is_placed_anew else entry.target_hash,
-            facts=facts if file is own else entry.facts,
-        )
-        result.add(key, entry, file.copy if file.hash == entry.target_hash else None)
-    message = f"{trouble.message}; the imported copy is kept"
-    return msgspec.structs.replace(trouble, code=f"{trouble.code}-kept", message=message, hint="")
 
 
 def find_dependencies(

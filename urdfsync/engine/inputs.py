@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from functools import cached_property
+from typing import NamedTuple
 
 import msgspec
 
@@ -13,6 +14,7 @@ from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import Diagnostic, OutputError, UrdfsyncError
 from urdfsync.domain import Domain
 from urdfsync.engine import parents, source
+from urdfsync.engine.actions import Action
 from urdfsync.engine.last_build import LastBuild, option_values
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.package_files import Folder, PackageFiles
@@ -21,8 +23,36 @@ from urdfsync.engine.program import program_hash
 from urdfsync.engine.source import Source
 from urdfsync.engine.users_files import UsersFiles, find_users_files
 from urdfsync.files import Templates, shown
-from urdfsync.state.record import Generator, Record
+from urdfsync.state.record import FileRecord, Generator, Record
 from urdfsync.state.store import Store
+
+
+class Former(NamedTuple):
+    """A replaced text, and its base."""
+
+    text: bytes
+    record: FileRecord
+    bases: Mapping[str, str]
+    """Texts of its known bases, by hash."""
+
+
+class Settled(msgspec.Struct):
+    """The files that choices have changed, by their present keys."""
+
+    actions: dict[str, Action] = msgspec.field(default_factory=dict)
+    contents: dict[str, bytes | None] = msgspec.field(default_factory=dict)
+    """New contents; None for no file."""
+    bases: dict[str, FileRecord] = msgspec.field(default_factory=dict)
+    texts: dict[str, str] = msgspec.field(default_factory=dict)
+    """Texts of bases that earlier choices put aside, by hash."""
+    generated: set[str] = msgspec.field(default_factory=set)
+    """Hashes of generated texts that `--undo` brings back."""
+    before: dict[str, Former] = msgspec.field(default_factory=dict)
+    """Texts before the choices."""
+    names: Mapping[str, str] = {}
+    """New names by old ones, before the choices."""
+    keys: set[str] = msgspec.field(default_factory=set)
+    """Keys of the choices that were applied."""
 
 
 class Inputs(msgspec.Struct, frozen=True, dict=True):
@@ -45,16 +75,13 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
     """Hash of the program and the templates; this machine's notes hold only for this hash."""
     damage: Diagnostic | None = None
     """A warning if lines of the recorded state can't be read."""
+    settled: Settled = msgspec.field(default_factory=Settled)
+    """The user's choices, if `files` and `last` are those after them."""
 
     @property
     def former_name(self) -> str | None:
         """The robot's name in the last build, if it differs."""
         return self.last.name if self.last.name != self.robot.name else None
-
-    @property
-    def always_merges(self) -> bool:
-        """Whether the configuration asks to merge, and not only this command."""
-        return any(robot.name == self.robot.name and robot.on_conflict == "merge" for robot in self.config.robots)
 
     @property
     def has_moved(self) -> bool:

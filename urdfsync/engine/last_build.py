@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from functools import cached_property
 from typing import Any
 
@@ -12,7 +12,7 @@ import msgspec
 
 from urdfsync.config import RobotConfig
 from urdfsync.diagnostics import UrdfsyncError
-from urdfsync.domain import Domain, Import, Lookup, Role, Snapshot, Target, Version
+from urdfsync.domain import Domain, ElementKey, Features, Lookup, Role, Snapshot, Target, Version
 from urdfsync.engine.generate import Package, generate
 from urdfsync.engine.imports import MOST_PARTS, RecordedFile, places_of
 from urdfsync.engine.package_files import Folder, PackageFiles
@@ -96,15 +96,15 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
     @cached_property
     def imports(self) -> Mapping[str, RecordedFile]:
         """The imported files and their copies. If a file has several records, the one that fits the copy is taken."""
-        return {key: self._recorded_file(entries) for key, entries in self.record.imports.items()}
-
-    def _recorded_file(self, entries: Sequence[Import]) -> RecordedFile:
-        files = list[RecordedFile]()
-        for entry in entries:
-            key = self.folder.key(entry.target)
-            written = self.files.get(key, NEVER_WRITTEN).hashes
-            files.append(RecordedFile(entry, self._files.read(key), written, import_hash(entry) in self.notes.imports))
-        return next((file for file in files if file.is_intact), files[0])
+        imports = dict[str, RecordedFile]()
+        for name, entries in self.record.imports.items():
+            files = list[RecordedFile]()
+            for entry in entries:
+                key, is_noted = self.folder.key(entry.target), hash_of(entry) in self.notes.imports
+                written = self.files.get(key, NEVER_WRITTEN).hashes
+                files.append(RecordedFile(entry, self._files.read(key), written, is_noted))
+            imports[name] = next((file for file in files if file.is_intact), files[0])
+        return imports
 
     @cached_property
     def version(self) -> Version | None:
@@ -112,6 +112,11 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
         snapshot = self.read(self.record.snapshot)
         imports = {key: file.entry for key, file in self.imports.items()}
         return None if snapshot is None else Version(snapshot, imports, self.options)
+
+    @cached_property
+    def elements(self) -> Mapping[ElementKey, Features]:
+        """The elements of the model; none without a model."""
+        return {} if self.version is None else self._domain.features(self.version.snapshot)
 
     @cached_property
     def seen(self) -> Snapshot | None:
@@ -132,9 +137,9 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
         """The package from the recorded model with today's templates; None if that fails."""
         if self.version is None:
             return None
-        options, imports = self.options or self._robot.options, self.version.imports or {}
+        options = self.options or self._robot.options
         try:
-            return generate(self._domain, self.version.snapshot, imports, self.target, options, self._templates)
+            return generate(self._domain, self.version, self.target, options, self._templates)
         except NO_MODEL:
             return None
 
@@ -196,10 +201,6 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
         """The texts that builds and choices replaced, by path below the package."""
         return self._store.aside(self.name)
 
-    def aside_text(self, file: str) -> bytes | None:
-        """Return a text that was replaced; None if it is lost."""
-        return self._store.aside_text(self.name, file)
-
 
 def _without_name(path: str, text: str) -> tuple[str, str]:
     """Return a class's folder, and its text without its name."""
@@ -207,9 +208,9 @@ def _without_name(path: str, text: str) -> tuple[str, str]:
     return folder, re.sub(rf"\b{re.escape(name)}(?=(Parameters)?\b)", "\0", text)
 
 
-def import_hash(entry: Import) -> str:
-    """Return one hash of a recorded import."""
-    return digest(msgspec.json.encode(entry, order="sorted"))
+def hash_of(recorded: Any) -> str:
+    """Return the hash by which this machine notes a recorded value."""
+    return digest(msgspec.json.encode(recorded, order="sorted"))
 
 
 def option_values(options: msgspec.Struct) -> dict[str, Any]:

@@ -1,19 +1,28 @@
-"""The files of a robot's package after a build, and the user's files around it.
+"""The files of a robot's package after a build, the user's files around it, and the files that these need.
 
 Separate from `fit`, which resolves names: a build of an unedited package imports no parser.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+import itertools
+import re
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
 from typing import NamedTuple
 
+import msgspec
+
 from urdfsync.domain import Role
 from urdfsync.engine.actions import Action, Reason
-from urdfsync.engine.generation import Generation
+from urdfsync.engine.generate import Package
+from urdfsync.engine.inputs import Inputs
 from urdfsync.engine.package_files import encode, text_hash
+from urdfsync.engine.package_names import class_of
+from urdfsync.modelica.files import code_of, text_of
+
+_CLASS_KINDS = frozenset({"block", "class", "connector", "function", "model", "package", "record", "type"})
 
 
 def as_file(path: str) -> str:
@@ -44,25 +53,27 @@ class PackageAfter(Mapping[str, bytes]):
 
     def __init__(
         self,
-        generation: Generation,
+        inputs: Inputs,
+        package: Package,
         actions: Sequence[Action],
         merged: Mapping[str, str],
         *,
         is_open: bool = False,
     ) -> None:
-        """`merged` are texts that the build writes, by key. If `is_open`, files in conflict may become anything."""
-        self._generation, self._inputs, self._actions = generation, generation.inputs, actions
-        self._contents, self._generated = dict[str, bytes](), set[bytes]()
-        self._files = self._files_after(merged, is_open=is_open)
-        orders = (one.path for one in actions if one.role is Role.ORDER and not one.is_waiting and one.path in merged)
-        self._orders = {self._inputs.folder.path(key): merged[key] for key in orders}
-        self.around = self._files_around()
+        """`package` is the generated one, `merged` are texts that the build writes, by key.
 
-    def _files_after(self, merged: Mapping[str, str], *, is_open: bool) -> dict[str, _File]:
-        """Return the files of the package after the build, by their paths below it."""
-        inputs, files, found = self._inputs, self._inputs.files, dict[str, _File]()
+        If `is_open`, files in conflict may become anything.
+        """
+        self.inputs, self.package, self.actions = inputs, package, actions
+        self.merged, self.is_open = merged, is_open
+        self._contents, self._generated = dict[str, bytes](), set[bytes]()
+
+    @cached_property
+    def _files(self) -> dict[str, _File]:
+        """The files of the package after the build, by their paths below it."""
+        inputs, files, merged, found = self.inputs, self.inputs.files, self.merged, dict[str, _File]()
         inside, classes, keys = inputs.folder.key(""), set[str](), set[str]()
-        for action in self._actions:
+        for action in self.actions:
             key = action.path
             if action.reason is Reason.UNKNOWN or action.role in (Role.ORDER, Role.IMPORT):
                 continue
@@ -74,7 +85,7 @@ class PackageAfter(Mapping[str, bytes]):
             if not action.is_waiting and key in merged:
                 is_edited = text_hash(merged[key]) != action.generated
                 found[inputs.folder.path(key)] = file._replace(text=merged[key], is_edited=is_edited)
-            elif is_open and action.is_conflict:
+            elif action.is_conflict and self.is_open:
                 found[inputs.folder.path(key)] = file._replace(text="")
             elif action.keeps_text:
                 is_forgotten = action.reason is Reason.FORGET
@@ -90,12 +101,13 @@ class PackageAfter(Mapping[str, bytes]):
             found[inputs.folder.path(key)] = _File(key, is_edited=True, is_users=True, is_expected=is_expected)
         return found
 
-    def _files_around(self) -> dict[Path, bytes]:
-        """Return the user's files outside of the package that may use it."""
-        inputs, files = self._inputs, self._inputs.files
+    @cached_property
+    def around(self) -> dict[Path, bytes]:
+        """The user's files outside of the package that may use it."""
+        inputs, files = self.inputs, self.inputs.files
         found = {**inputs.users_files.mentioning}
         if inputs.has_moved:
-            keys = {action.path for action in self._actions}
+            keys = {action.path for action in self.actions}
             rest = files.classes(inputs.last.folder) - keys - inputs.last.files.keys()
             found |= {files.path(key): encode(files.any_text(key)) for key in sorted(rest)}
         return found
@@ -103,9 +115,9 @@ class PackageAfter(Mapping[str, bytes]):
     def __getitem__(self, path: str) -> bytes:
         """Return what is in a file of the package. Raises KeyError."""
         if path not in self._contents:
-            file, files = self._files[path], self._inputs.files
+            file, files = self._files[path], self.inputs.files
             if file.is_generated:
-                content = self._generation.package.content(path)
+                content = self.package.content(path)
                 self._generated.add(content)
             else:
                 content = encode(files.any_text(file.key) if file.text is None else file.text)
@@ -122,16 +134,87 @@ class PackageAfter(Mapping[str, bytes]):
     def users(self) -> dict[Path, bytes]:
         """Contents of all files that the user wrote or edited, by their absolute paths."""
         edited = {path: file for path, file in self._files.items() if file.is_edited}
-        return {**{self._inputs.files.path(file.key): self[path] for path, file in edited.items()}, **self.around}
+        return {**{self.inputs.files.path(file.key): self[path] for path, file in edited.items()}, **self.around}
 
     @cached_property
     def extended_orders(self) -> dict[str, tuple[str, set[str]]]:
         """Each `package.order` that names classes of the user's, by path: its text, and the lines with these names."""
-        inputs, files, orders = self._inputs, self._inputs.files, self._generation.package.orders
+        inputs, files, orders, merged = self.inputs, self.inputs.files, self.package.orders, self.merged
+        written = (one.path for one in self.actions if one.role is Role.ORDER and not one.is_waiting)
         users = [f"{path.removesuffix('.mo')}.order" for path, file in self._files.items() if file.is_users]
         texts = {path: files.any_text(inputs.folder.key(path)) for path in users if path.endswith("package.order")}
+        texts |= {inputs.folder.path(key): merged[key] for key in written if key in merged}
         found = dict[str, tuple[str, set[str]]]()
-        for path, text in (texts | self._orders).items():
+        for path, text in texts.items():
             if lines := {line.strip() for line in text.split("\n")} - {"", *orders.get(path, ())}:
                 found[path] = text, lines
         return found
+
+
+def keep_needed(after: PackageAfter, origins: Collection[str]) -> tuple[Action, ...]:
+    """Return the actions; keep files that the user's files need.
+
+    These are records, their meshes, and the `package.mo` of a folder with classes. `origins` are the files whose
+    elements were renamed.
+    """
+    actions = after.actions
+    deleted = {action.path: action.role for action in actions if action.is_deletion}
+    kept = set[str]()
+    if any(action.reason is Reason.DELETE and action.role is Role.RECORD for action in actions):
+        kept |= _find_mentioned(after, origins)
+    packages = [path for path, role in deleted.items() if role is Role.PACKAGE]
+    for path in sorted(packages, key=lambda path: path.count("/"), reverse=True):  # innermost first
+        if after.inputs.files.has_classes(path, deleted.keys() - kept):
+            kept.add(path)
+    return tuple(
+        msgspec.structs.replace(action, reason=Reason.NEEDED) if action.path in kept else action for action in actions
+    )
+
+
+def _code_words(content: bytes) -> set[str]:
+    """Return all names and keywords in a text, without strings, comments, its own classes and its packages.
+
+    Its own classes are left out because an edited file may still have the old name of its class, and its packages
+    because a package may have the name of the robot's model. The text need not be valid Modelica.
+    """
+    code = re.sub(r"\A\ufeff?\s*within\b[^;]*;", "", text_of(code_of(content)))
+    words = re.findall(r"[^\W\d]\w*", code)
+    return set(words) - {name for kind, name in itertools.pairwise(words) if kind in _CLASS_KINDS}
+
+
+def _find_mentioned(after: PackageAfter, origins: Collection[str]) -> frozenset[str]:
+    """Return the files that are no longer generated and that the user's texts need.
+
+    These are records that his texts or edited files mention, except records of renamed elements: his texts get the new
+    name. A kept file keeps all files that it mentions; these keep the files that they mention, and so on.
+    """
+    inputs, before, actions = after.inputs, after.inputs.last.package, after.actions
+    words = {inputs.files.key(file): _code_words(content) for file, content in after.users.items()}
+    all_words = set().union(*words.values())
+    # the user kept these files with the names of older generated texts
+    kept_words = set[str]()
+    for key in {action.path for action in actions if action.reason is Reason.KEEP} & words.keys():
+        if before is not None and (path := inputs.last.folder.path(key)) in before.artifacts:
+            kept_words |= words[key] & _code_words(before.content(path))
+    pending = {action.path: action.role for action in actions if action.reason is Reason.DELETE}
+    needed = set[str]()
+    for path, role in pending.items():
+        was_needed = before is not None and inputs.last.folder.path(path) not in before.artifacts
+        is_record = role is Role.RECORD and path not in origins
+        if path.endswith(".mo") and class_of(path) in (all_words if is_record or was_needed else kept_words):
+            needed.add(path)
+    all_needed = set(needed)
+    while needed:
+        texts = [*map(inputs.files.any_text, needed)]
+        mentioned = set().union(*(_code_words(encode(text)) for text in texts))
+        needed = {
+            path
+            for path in pending.keys() - all_needed
+            if (
+                class_of(path) in mentioned
+                if path.endswith(".mo")
+                else any(inputs.last.folder.path(path) in text for text in texts)  # such as a mesh
+            )
+        }
+        all_needed |= needed
+    return frozenset(all_needed)

@@ -56,7 +56,7 @@ def unchanged_state(path: str, facts: tuple[int, ...]) -> FileState | None:
 
 def note_state(path: str, facts: tuple[int, ...], content: bytes) -> FileState:
     """Return the state of a file that was read, and remember it; `facts` are its stat values before the reading."""
-    state = state_of(content)
+    state = _state_of(content)
     if len(facts) > 1 and not is_young(facts, time.time_ns()):  # a missing file has one fact
         _unchanged[path] = facts, state
     return state
@@ -113,7 +113,7 @@ class PackageFiles:
         """Return a file as text. Raises OutputError as `read`, and for other encodings than UTF-8."""
         content = self.read(key)
         if key not in self.overlay:
-            self._states.setdefault(self._place(key), None if content is None else state_of(content))
+            self._states.setdefault(self._place(key), None if content is None else _state_of(content))
         try:
             return None if content is None else content.decode()
         except UnicodeDecodeError as error:
@@ -141,27 +141,24 @@ class PackageFiles:
         if key not in self.overlay:
             return self.state_on_disk(key)
         content = self.overlay[key]
-        return None if content is None else state_of(content)
+        return None if content is None else _state_of(content)
 
     def state_on_disk(self, key: str) -> FileState | None:
         """Return the state of a file on disk at its first reading. Raises OutputError as `read`."""
         path = self._place(key)
-        if path not in self._states:
-            self._states[path] = self._read_state(path)
-        return self._states[path]
-
-    def _read_state(self, path: str) -> FileState | None:
-        folder = path.rpartition(os.sep)[0]
+        if path in self._states:
+            return self._states[path]
+        folder, state = path.rpartition(os.sep)[0], None
         tree = self._tree(folder)
-        if tree is None or not tree.check_folder(folder):
-            return None
-        try:
-            facts = dependencies.read_stat(path)
-        except OSError:  # which `read` explains
-            facts = (0,)
-        state = unchanged_state(path, facts)
-        if state is None and (content := tree.read(path)) is not None:
-            state = note_state(path, facts, content)
+        if tree is not None and tree.check_folder(folder):
+            try:
+                facts = dependencies.read_stat(path)
+            except OSError:  # which `read` explains
+                facts = (0,)
+            state = unchanged_state(path, facts)
+            if state is None and (content := tree.read(path)) is not None:
+                state = note_state(path, facts, content)
+        self._states[path] = state
         return state
 
     def hash(self, key: str, role: Role) -> str | None:
@@ -229,7 +226,7 @@ def key_of(path: Path, root: Path) -> str:
     return Path(os.path.relpath(path, root)).as_posix()
 
 
-def state_of(content: bytes) -> FileState:
+def _state_of(content: bytes) -> FileState:
     """Return the state of a file with this content."""
     sha256 = digest(content)
     return FileState(sha256, text_digest(content) if b"\r" in content else sha256)

@@ -6,46 +6,25 @@ from collections.abc import Collection, Iterable, Iterator, Mapping
 from pathlib import PurePosixPath
 
 from urdfsync.domain import Domain, ElementKey, Snapshot, Target, displaced
-from urdfsync.engine.generation import GONE, Generation
+from urdfsync.engine.differences import GONE, Differences
+from urdfsync.engine.generate import Package
+from urdfsync.engine.generation import Generation
+from urdfsync.engine.inputs import Inputs
 from urdfsync.modelica.files import class_path
 
 
-def renamed_identifiers(generation: Generation) -> dict[str, str]:
-    """Return the renamed identifiers: the new ones, by those of the last complete build."""
-    inputs = generation.inputs
-    if inputs.last.version is None or generation.changes is None:
-        return {}
-    old = inputs.domain.names(inputs.last.version.snapshot, inputs.last.target)
-    new = inputs.domain.names(generation.now.snapshot, inputs.robot.target)
-    renamed = {inputs.last.target.name: inputs.robot.target.name}
-    for kind, identifiers in old.items():
-        for name, identifier in identifiers.items():
-            now = generation.renames.get((kind.removesuffix("s"), name), name)
-            renamed[identifier] = new.get(kind, {}).get(now, identifier)
-    for path, (respelled, _) in generation.respelled.items():
-        before, now = (f"{name[0].lower()}{name[1:]}" for name in (class_of(path), class_of(respelled)))
-        renamed[before] = renamed.pop(now, now)
-    return {name: new for name, new in renamed.items() if name != new}
-
-
-def recently_renamed(generation: Generation) -> dict[str, str]:
-    """Return the renamed identifiers of this build and of the last one on this machine."""
-    return {**generation.inputs.last.notes.renamed, **renamed_identifiers(generation)}
-
-
-def renamed_names(generation: Generation) -> dict[str, str]:
+def renamed_names(inputs: Inputs, generation: Generation, differences: Differences) -> dict[str, str]:
     """Return new names by the old ones: of classes, and of declarations in classes at the top of the package.
 
     It has only names that the package lacks now, and names that belong to other elements now.
     """
-    inputs, renamed = generation.inputs, renamed_identifiers(generation) if generation.is_structural else {}
-    if not renamed:
+    if not (renamed := differences.identifiers):
         return {}
     recorded = {inputs.last.folder.path(key): one for key, one in inputs.last.files.items() if one.hashes}
     files = {path: one for path, one in recorded.items() if path.endswith(".mo")}
     before = declared_names(inputs.last.base(one.hashes[0]) or "" for path, one in files.items() if "/" not in path)
-    names = names_of(generation, renamed, before := before | {*map(class_of, files)})
-    gone = displaced(generation.renames)
+    names = names_of(inputs, generation, renamed, before := before | {*map(class_of, files)})
+    gone = displaced(differences.renames)
     if last := inputs.last.version if gone else None:
         identifiers = elements_by_identifier(inputs.domain, last.snapshot, inputs.last.target)
         # these names belong to other elements now, so a rename would be wrong
@@ -53,9 +32,11 @@ def renamed_names(generation: Generation) -> dict[str, str]:
     return names
 
 
-def names_of(generation: Generation, renamed: Mapping[str, str], before: frozenset[str]) -> dict[str, str]:
+def names_of(
+    inputs: Inputs, generation: Generation, renamed: Mapping[str, str], before: frozenset[str]
+) -> dict[str, str]:
     """Return the new name of each name in `before` whose identifier was renamed, by the old name."""
-    inputs, now = generation.inputs, known_names(generation)
+    now = known_names(generation.package)
     kinds = inputs.domain.names(generation.now.snapshot, inputs.robot.target).values()
     identifiers = {identifier: identifier for names in kinds for identifier in names.values()} | dict(renamed)
     names = dict[str, str]()
@@ -68,20 +49,10 @@ def names_of(generation: Generation, renamed: Mapping[str, str], before: frozens
     return names
 
 
-def other_parts(generation: Generation) -> dict[str, str]:
-    """Return names that belong to other parts now, each with the new name of the part that had it before."""
-    if not generation.other_elements:
-        return {}
-    names = renamed_names(generation)
-    now = known_names(generation) if names else ()
-    return {name: new for name, new in names.items() if name in now}
-
-
-def known_names(generation: Generation) -> frozenset[str]:
+def known_names(package: Package) -> frozenset[str]:
     """Return the names of all generated classes, and of declarations in classes at the top of the package."""
-    paths = generation.package.artifacts
-    tops = (generation.package.content(path).decode() for path in paths if "/" not in path)
-    return frozenset(map(class_of, paths)) | declared_names(tops)
+    tops = (package.content(path).decode() for path in package.artifacts if "/" not in path)
+    return frozenset(map(class_of, package.artifacts)) | declared_names(tops)
 
 
 def new_name(part: str, renamed: Mapping[str, str], known: Collection[str]) -> str:

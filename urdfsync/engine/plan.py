@@ -8,13 +8,11 @@ from __future__ import annotations
 from urdfsync.answers import dependencies
 from urdfsync.config import Config, RobotConfig
 from urdfsync.engine.decide import decide_package
-from urdfsync.engine.findings import find_all
 from urdfsync.engine.generation import generate_robot
 from urdfsync.engine.inputs import inspect
 from urdfsync.engine.options import BuildOptions
-from urdfsync.engine.other_parts import find_uses, tell_uses
 from urdfsync.engine.result import Result
-from urdfsync.engine.settle import Settled, settle, with_choices
+from urdfsync.engine.settle import settle, with_choices
 from urdfsync.engine.stage import Plan, stage
 
 
@@ -26,13 +24,11 @@ def plan_robot(config: Config, robot: RobotConfig, options: BuildOptions) -> Pla
         result = Result(name, package, robot.folder, config.root, dry=options.dry, stale=stale)
         return Plan(result, inputs.store.hashes())
     generation = generate_robot(inputs)
-    decision, settled = decide_package(generation), Settled()
+    decision = decide_package(inputs, generation)
     if options.choices:
-        settled = settle(generation, decision)
-        generation = with_choices(generation, settled)
-        decision = decide_package(generation)
-    uses = find_uses(generation, decision)
-    plan = stage(generation, decision, (*find_all(generation, decision), *tell_uses(uses)), settled, uses)
+        inputs = with_choices(inputs, settle(inputs, generation, decision))
+        decision = decide_package(inputs, generation)
+    plan = stage(inputs, generation, decision)
     if options.full or options.draw or plan.result.writes:
         dependencies.mark_incomplete()  # some files that this work reads are not recorded as dependencies of the answer
     return plan

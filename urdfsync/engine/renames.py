@@ -34,20 +34,18 @@ def find_matching(
     return match(before, after, {key: new for key, new in named.items() if key[0] not in done})
 
 
-def find_matching_since(
-    domain: Domain,
-    recorded: Snapshot,
-    last_seen: Snapshot | None,
-    open_renames: Mapping[ElementKey, str],
-    now: Snapshot,
-    declared: Mapping[str, str],
-) -> Matching:
+def match_with_last(inputs: Inputs, now: Snapshot, declared: Mapping[str, str]) -> Matching:
     """Match the elements of the last complete build with those of now.
 
     While a conflict is open, one export may rename an element, and the next export may change its numbers. So this
     joins the renames up to the model last seen with the renames since then. `declared` has only renames that no
     complete build has made.
     """
+    last, domain = inputs.last, inputs.domain
+    if last.version is None:
+        return Matching()
+    recorded, last_seen = last.version.snapshot, last.seen
+    open_renames = last.record.open.renamed if last.record.open else {}
     direct = find_matching(domain, recorded, now, declared, is_pending=True)
     if last_seen is None:
         return direct
@@ -97,9 +95,7 @@ def check_declared(inputs: Inputs, now: Snapshot) -> Iterator[Diagnostic]:
     robot, errors, open_renames = inputs.robot, list[Diagnostic](), pending(inputs)
     if not robot.renamed:
         return
-    after, before = set(inputs.domain.features(now)), set[ElementKey]()
-    if inputs.last.version:
-        before.update(inputs.domain.features(inputs.last.version.snapshot))
+    after, before = set(inputs.domain.features(now)), set(inputs.last.elements)
     for old, new in robot.renamed.items():
         olds, news = ({kind for kind, name in before if name == word} for word in (old, new))
         kinds = {kind for kind, name in after if name == new}

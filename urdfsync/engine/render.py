@@ -8,14 +8,16 @@ that comes from a source reaches Modelica through `string` or `html`, every numb
 from __future__ import annotations
 
 import contextlib
+import functools
 import importlib.util
 import math
+import re
 import signal
 import sys
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import jinja2
 import msgspec
@@ -28,6 +30,10 @@ from jinja2.sandbox import ImmutableSandboxedEnvironment
 
 from urdfsync.files import put
 from urdfsync.modelica import literals
+
+if TYPE_CHECKING:
+    from jinja2.ext import Extension
+    from jinja2.lexer import Token, TokenStream
 
 if sys.platform == "linux":
     import resource
@@ -58,6 +64,10 @@ MAX_SECONDS = 60.0
 """Time for one text. A whole build of 3,000 links, with 12,000 texts, takes 7 s."""
 MAX_OUTPUT = 200_000_000
 """Characters of one text."""
+_MARK = re.compile(r"\0([^\0]*)\0([0-9]*)\0")
+"""A template's file and line, in front of their text; no text of a model contains NUL."""
+_BLANK = re.compile(r"\A(?:\0[^\0]*\0[0-9]*\0|\s)*")
+"""The marks and blanks at the beginning of a line."""
 GRACE = 30.0
 """Further seconds of CPU time, after which the system ends the process.
 
@@ -189,6 +199,24 @@ def _limited_process() -> Iterator[None]:
             resource.setrlimit(resource.RLIMIT_AS, _ADDRESS_SPACE)
 
 
+@functools.cache
+def _mark_lines() -> type[Extension]:
+    """Return what puts a `_MARK` before each line of a template's text, through macros and captured blocks as well."""
+    from jinja2.ext import Extension  # 4 of 250 ms of a build: only faults in users' templates need it
+    from jinja2.lexer import Token
+
+    class MarkLines(Extension):
+        def filter_stream(self, stream: TokenStream) -> Iterator[Token]:
+            for token in stream:
+                value = token.value
+                if token.type == "data":
+                    lines = enumerate(value.split("\n"), token.lineno)
+                    value = "\n".join(f"\0{stream.filename}\0{number}\0{line}" for number, line in lines)
+                yield Token(token.lineno, token.type, value)
+
+    return MarkLines
+
+
 class Renderer:
     """Renders templates from `folders`; a template in an earlier folder hides one with the same name in a later folder.
 
@@ -242,13 +270,11 @@ class Renderer:
 
         Returns an empty name and 0 if that is unknown. Raises the errors of `render`.
         """
-        from urdfsync.engine import template_lines  # 4 of 250 ms of a build: only faults in users' templates need it
-
-        marked = _render(self._environment.overlay(extensions=[template_lines.MarkLines]), template, data)
-        if template_lines.MARK.sub("", marked) != text:  # the marks change it: a filter counts characters, say
+        marked = _render(self._environment.overlay(extensions=[_mark_lines()]), template, data)
+        if _MARK.sub("", marked) != text:  # the marks change it: a filter counts characters, say
             return "", 0
         *before, last = marked.split("\n")[: max(line, 1)]
-        places = template_lines.MARK.findall("\n".join((*before, *template_lines.BLANK.findall(last))))
+        places = _MARK.findall("\n".join((*before, *_BLANK.findall(last))))
         users = [place for place in places if any(folder in Path(place[0]).parents for folder in self.folders[:-1])]
         file, number = users[-1] if users else ("", 0)
         return file, int(number)

@@ -98,21 +98,9 @@ class DisputedFile(msgspec.Struct, frozen=True):
 class Result(msgspec.Struct, frozen=True):
     """Result of a build, or of a dry run, for one robot."""
 
-    KEYS = (
-        *(
-            "robot",
-            "package",
-            "folder",
-            "failed",
-            "locked",
-            "is_built",
-            "in_step",
-            "is_broken",
-            "writes",
-            "renews",
-            "summary",
-        ),
-        *("drawing", "checked", "stale", "changes", "actions", "conflicts", "diagnostics"),
+    KEYS = tuple(
+        "robot package folder failed locked is_built in_step is_broken writes renews summary "
+        "drawing checked stale changes actions conflicts diagnostics".split()
     )
 
     robot: str

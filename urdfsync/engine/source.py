@@ -35,7 +35,7 @@ from urdfsync.state.expansion import Expansion, dumps
 from urdfsync.state.store import Store
 
 if TYPE_CHECKING:
-    from urdfsync.engine.expansion import Inputs
+    from urdfsync.engine.expansion import SourceFiles
 
 MAX_TEMPLATE = 10_000_000
 """The most bytes of a file in the user's template folder; the longest template of urdfsync has 5,000."""
@@ -134,7 +134,7 @@ def _read_source(config: Config, robot: RobotConfig, store: Store, options: Buil
             return _with_file_beside(registry.domain(robot.domain), robot.source, content)
     from urdfsync.engine import expansion  # 5 ms, and few robots need it
 
-    inputs = expansion.Inputs(config.root, robot.source, (*robot.package_paths, *options.package_paths))
+    inputs = expansion.SourceFiles(config.root, robot.source, (*robot.package_paths, *options.package_paths))
     made = store.load_expansion(name or robot.name)
     changed = inputs.find_changes(robot, made) if made else NEVER
     is_noted = made is not None and expansion_hash(made) == store.notes(name or robot.name).expansion
@@ -169,7 +169,7 @@ def expansion_hash(made: Expansion) -> str:
     return digest(dumps(made))
 
 
-def _expand(config: Config, robot: RobotConfig, inputs: Inputs, options: BuildOptions) -> Expansion:
+def _expand(config: Config, robot: RobotConfig, inputs: SourceFiles, options: BuildOptions) -> Expansion:
     """Make a source by xacro or by its command. Raises SourceError, and ConfigError for a command without trust."""
     from urdfsync.engine import expansion
 
@@ -270,7 +270,7 @@ def read_file_source(domain: Domain, file: Path, arguments: Mapping[str, str], p
         return _with_file_beside(domain, file, content)
     from urdfsync.engine import expansion
 
-    inputs = expansion.Inputs(file.absolute().parent, file.absolute(), package_paths)
+    inputs = expansion.SourceFiles(file.absolute().parent, file.absolute(), package_paths)
     made = expansion.expand(inputs, arguments)
     told = _warnings(made, file, (shown(file), 0))
     return Source(made.text.encode(), shown(file), inputs.places(made), told, made)

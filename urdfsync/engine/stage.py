@@ -1,40 +1,60 @@
-"""Stages one robot's plan with all its writes: files, conflict files, bases, and last the record."""
+"""Stages one robot's plan with all its writes: files, texts saved beside them, bases, and last the record.
+
+Two kinds of texts are saved below `.urdfsync/`. `aside` has a copy of each replaced text that this machine did not
+generate, for `--undo`. Its list drops a text once its file is saved again and another build writes files; the copy
+itself stays. `conflicts` has the versions of each file in conflict: base, generated, and a proposed merge. A proposal
+that a person has changed is never overwritten, and `resolve --edit` begins with it.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
-from pathlib import Path
+import itertools
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from pathlib import Path, PurePosixPath
 from typing import Any, TypeAlias
 
 import msgspec
 
 from urdfsync.diagnostics import Diagnostic, OutputError, Severity
-from urdfsync.domain import ChangeClass, Import, Role, Snapshot, Target
-from urdfsync.engine.actions import Action, Actions, Reason
-from urdfsync.engine.aside import put_aside
+from urdfsync.domain import ChangeClass, ElementKey, Import, Role, Snapshot, Target
+from urdfsync.engine.actions import Action, Actions, Reason, sides_hash
+from urdfsync.engine.conflicts import Conflict
 from urdfsync.engine.decide import Decision
-from urdfsync.engine.edit_origins import EDITED, model_hash
+from urdfsync.engine.edit_origins import EDITED
+from urdfsync.engine.findings import find_all, find_uses, tell_uses
+from urdfsync.engine.generate import Package
 from urdfsync.engine.generation import Generation
-from urdfsync.engine.inputs import Inputs
-from urdfsync.engine.last_build import import_hash, option_values
-from urdfsync.engine.package_files import encode, state_of, with_line_ends
-from urdfsync.engine.package_names import renamed_identifiers
+from urdfsync.engine.inputs import Former, Inputs, Settled
+from urdfsync.engine.last_build import hash_of, option_values
+from urdfsync.engine.package_files import PackageFiles, encode, text_hash
 from urdfsync.engine.parents import SharedFile
-from urdfsync.engine.proposals import save_versions
+from urdfsync.engine.renames import match_with_last, pending
 from urdfsync.engine.result import Result
 from urdfsync.engine.rules import files_after
-from urdfsync.engine.settle import Settled, actions_after
+from urdfsync.engine.settle import known_bases
 from urdfsync.engine.source import expansion_hash
-from urdfsync.files import shown
+from urdfsync.files import digest, shown, text_digest
+from urdfsync.modelica.files import class_parts
 from urdfsync.spelling import counted
 from urdfsync.state import bases, expansion, statefile
-from urdfsync.state.notes import Notes, Use
+from urdfsync.state.notes import Notes
 from urdfsync.state.record import FileRecord, Open, Record, as_recorded
 from urdfsync.state.store import Aside, StateHashes
 from urdfsync.state.transaction import FileChange
 
 Drawing: TypeAlias = Callable[[Snapshot, Mapping[str, Import], Target, Any], str | None]
 """Returns the main model's diagram as SVG text, or None if it has none. Pure. A domain's attribute `drawing`."""
+
+
+class _Versions(msgspec.Struct, frozen=True):
+    """The versions of all conflicts of a robot."""
+
+    conflicts: tuple[Conflict, ...]
+    """The conflicts, with the files of their versions."""
+    changes: tuple[FileChange, ...]
+    noted: Mapping[str, tuple[str, str]]
+    """Hash of each proposal as urdfsync wrote it, and of its two sides, by path."""
+    diagnostics: tuple[Diagnostic, ...]
 
 
 class Plan(msgspec.Struct, frozen=True):
@@ -53,38 +73,51 @@ class Plan(msgspec.Struct, frozen=True):
     """This machine's notes after the build, if they change."""
 
 
-def stage(
-    generation: Generation,
-    decision: Decision,
-    diagnostics: tuple[Diagnostic, ...],
-    settled: Settled,
-    uses: Mapping[str, Use],
-) -> Plan:
+def stage(inputs: Inputs, generation: Generation, decision: Decision) -> Plan:
     """Return the plan with all its writes. A dry run gets the same plan, so it gives the same verdict."""
-    inputs, store, robot = generation.inputs, generation.inputs.store, generation.inputs.robot
-    actions = actions_after(decision.actions, settled)
-    files, versions, notes = (
-        _file_changes(generation, decision, settled),
-        save_versions(inputs, decision.conflicts),
-        None,
-    )
+    store, robot, old, differences = inputs.store, inputs.robot, inputs.last.notes, decision.differences
+    uses = find_uses(inputs, generation, decision)
+    findings = [*find_all(inputs, generation, decision), *tell_uses(uses)]
+    actions = _actions_after(decision.actions, inputs.settled)
+    files, versions = _file_changes(inputs, generation, decision), _save_versions(inputs, decision.conflicts)
     is_writing = bool(files) or any(action.writes for action in actions)
     model = generation.now.snapshot, generation.imported.imports, robot.target, robot.options
     draw: Drawing | None = inputs.domain.drawing
     picture = draw(*model) if draw and inputs.options.draw else None
     drawing = None if picture is None else store.drawing(robot.name)
     changes = [*files.values(), *(store.save(drawing, picture.encode()) if picture and drawing else ())]
+    notes: Notes | None = None
     if inputs.options.removes:
         state = [change for name in {inputs.last.name, robot.name} for change in store.remove(name)]
     else:
-        record = _record(generation, decision, settled)
-        index, texts = put_aside(generation, decision, {key: one.content for key, one in files.items()}, settled)
-        diagnostics += _tell_aside(generation, actions, index, texts, settled)
+        record = _record(inputs, generation, decision)
+        contents = {key: one.content for key, one in files.items()}
+        index, texts = _put_aside(inputs, generation.package, decision, contents)
+        findings += _tell_aside(inputs, actions, index, texts)
         changes += [*versions.changes, *store.save_aside(robot.name, index, texts)]
-        state = _state_changes(generation, decision, record, index, settled, is_writing=is_writing)
-        notes = _notes(generation, decision, record, versions.noted, uses, is_writing=is_writing)
+        state = []
+        # `status` and some other commands do not renew a complete state if there is nothing else to write
+        if not (inputs.last.record.files and decision.is_complete) or is_writing or inputs.options.renews:
+            state = _source_changes(inputs)
+            recorded = store.save(store.path(robot.name), statefile.dumps(record).encode())
+            is_renewing = is_writing or bool(state or recorded)
+            needed = {*inputs.last.record.hashes, *record.hashes, *(sha for one in index.values() for sha in one.bases)}
+            kept = needed if decision.is_complete else None
+            state += _base_changes(inputs, generation.package, record, kept, is_writing=is_renewing)
+            state += recorded  # the last one
+        renamed = differences.identifiers if differences.renames or differences.respelled else {}
+        is_later = is_writing and not inputs.options.choices  # a choice like --undo may bring old names back
+        notes = msgspec.structs.replace(
+            _notes(inputs, generation, record),
+            renamed=renamed if is_later or (renamed and is_writing) else old.renamed,
+            proposals=old.proposals if inputs.options.dry else versions.noted,
+            edited={action.path: action.mine for action in decision.actions if action.reason in EDITED and action.mine},
+            uses=uses,
+        )
+        if notes == old and not (inputs.former_name or inputs.options.choices):
+            notes = None
     changes += state
-    news = generation.changes
+    news = differences.changes
     if news and not is_writing and decision.is_complete:
         # if the record keeps the old generator and options, each later plan would report them again
         news = msgspec.structs.replace(news, generator=False, options=())
@@ -94,7 +127,7 @@ def stage(
         robot.folder,
         inputs.config.root,
         actions,
-        tuple(sorted((*diagnostics, *versions.diagnostics), key=lambda found: (found.file, found.line))),
+        tuple(sorted((*findings, *versions.diagnostics), key=lambda found: (found.file, found.line))),
         dry=inputs.options.dry,
         writes=is_writing,
         renews=bool(state),
@@ -103,9 +136,21 @@ def stage(
         drawing=drawing,
         changes=news if news and (news.changes or news.generator) else None,
         conflict_texts=versions.conflicts,
-        settled=frozenset(settled.keys),
+        settled=frozenset(inputs.settled.keys),
     )
     return Plan(result, store.hashes(), decision.shared, tuple(changes), _emptied(inputs, changes), notes)
+
+
+def _actions_after(actions: Actions, settled: Settled) -> Actions:
+    """Return the actions of the choices and of the build together."""
+    after = {action.path: action for action in actions}
+    for key, chosen in settled.actions.items():
+        decided = after.get(key)
+        if decided and (decided.is_conflict or decided.writes):
+            after[key] = msgspec.structs.replace(decided, choice=chosen.choice)
+        else:
+            after[key] = chosen
+    return Actions(after.values())
 
 
 def _emptied(inputs: Inputs, changes: Iterable[FileChange]) -> tuple[Path, ...]:
@@ -117,11 +162,10 @@ def _emptied(inputs: Inputs, changes: Iterable[FileChange]) -> tuple[Path, ...]:
 
 
 def _tell_aside(
-    generation: Generation, actions: Actions, index: Mapping[str, Aside], texts: Mapping[str, bytes], settled: Settled
+    inputs: Inputs, actions: Actions, index: Mapping[str, Aside], texts: Mapping[str, bytes]
 ) -> tuple[Diagnostic, ...]:
     """Return a note if the build replaces texts that this machine did not generate, without the user's choice."""
-    inputs = generation.inputs
-    told, chosen = (Reason.MERGE, Reason.MOVE, Reason.UNDO), settled.actions.keys()
+    told, chosen = (Reason.MERGE, Reason.MOVE, Reason.UNDO), inputs.settled.actions.keys()
     known = {inputs.folder.path(one.path) for one in actions if one.reason in told or {one.path, one.origin} & chosen}
     new = sorted(path for path, aside in index.items() if aside.file in texts and path not in known)
     if not new:
@@ -133,43 +177,26 @@ def _tell_aside(
     return (Diagnostic(Severity.NOTE, "put-aside", message, file, hint=hint),)
 
 
-def _notes(
-    generation: Generation,
-    decision: Decision,
-    record: Record,
-    proposals: Mapping[str, tuple[str, str]],
-    uses: Mapping[str, Use],
-    *,
-    is_writing: bool,
-) -> Notes | None:
-    """Return this machine's notes after a build; None if they do not change."""
-    inputs, old, imports = generation.inputs, generation.inputs.last.notes, generation.imported
-    recorded = inputs.last.record.hashes | record.hashes
-    texts, expanded = generation.package.notes(), inputs.source.expansion
+def _notes(inputs: Inputs, generation: Generation, record: Record) -> Notes:
+    """Return this machine's notes with what this build has made; `record` is the one after it."""
+    old, imports, expanded = inputs.last.notes, generation.imported, inputs.source.expansion
+    recorded, texts = inputs.last.record.hashes | record.hashes, generation.package.notes()
     made = {sha256 for _, sha256 in texts.values()} | {imports.imports[key].target_hash for key in imports.converted}
     made_here = imports.converted | {key for key, file in inputs.last.imports.items() if file.is_noted}
-    renamed = renamed_identifiers(generation) if generation.renames or generation.respelled else {}
-    is_later = is_writing and not inputs.options.choices  # a choice like --undo may bring old names back
-    expansion_noted = expansion_hash(expanded) if expanded and inputs.source.is_made_here else ""
-    new = msgspec.structs.replace(
+    return msgspec.structs.replace(
         old,
         program=inputs.program,
         texts=texts,
-        imports=frozenset(import_hash(entry) for key, entry in imports.imports.items() if key in made_here),
-        expansion=expansion_noted,
+        imports=frozenset(hash_of(entry) for key, entry in imports.imports.items() if key in made_here),
+        expansion=expansion_hash(expanded) if expanded and inputs.source.is_made_here else "",
         written=frozenset(made | (set(old.written) & recorded)),
-        renamed=renamed if is_later or (renamed and is_writing) else old.renamed,
-        proposals=old.proposals if inputs.options.dry else proposals,
-        model=model_hash(record.snapshot),
-        edited={action.path: action.mine for action in decision.actions if action.reason in EDITED and action.mine},
-        uses=uses,
+        model=hash_of(record.snapshot),
     )
-    return None if new == old and not (inputs.former_name or inputs.options.choices) else new
 
 
-def _record(generation: Generation, decision: Decision, settled: Settled) -> Record:
+def _record(inputs: Inputs, generation: Generation, decision: Decision) -> Record:
     """Return the record after a build."""
-    inputs, old, news = generation.inputs, generation.inputs.last.record, generation.changes
+    old, differences, news = inputs.last.record, decision.differences, decision.differences.changes
     imports, inside = generation.imported.imports, inputs.folder.key("")
     if not decision.is_complete:
         # keep the model of the last complete build; record the files that are renewed, but not those in a former folder
@@ -182,16 +209,20 @@ def _record(generation: Generation, decision: Decision, settled: Settled) -> Rec
             and entry not in old.imports.get(key, ())
         }
         asked = frozenset(action.path for action in decision.actions if action.reason is Reason.ASKED)
-        open_ = Open(as_recorded(generation.now.snapshot), generation.undeclared_renames, asked)
-        settled_texts = {state_of(text).text_sha256 for text in settled.contents.values() if text is not None}
+        renames = differences.renames
+        if pending(inputs):  # a declaration may be taken back
+            renames = match_with_last(inputs, generation.now.snapshot, {}).renames
+        open_ = Open(as_recorded(generation.now.snapshot), renames, asked)
+        contents = (text for text in inputs.settled.contents.values() if text is not None)
         return msgspec.structs.replace(
             old,
             files=files,
             imports={**old.imports, **renewed},
             open=open_,
-            confirmed=old.confirmed | settled_texts,
+            confirmed=old.confirmed | {text_digest(text) for text in contents},
         )
     files = files_after(decision.actions, inputs.last.files, is_complete=True)
+    edited, is_chosen = (one for one in decision.actions if one.reason in EDITED and one.mine), inputs.files.is_chosen
     is_same = inputs.last.version is not None and inputs.last.version.snapshot == generation.now.snapshot
     new = Record(
         package=inputs.robot.target.package,
@@ -199,8 +230,8 @@ def _record(generation: Generation, decision: Decision, settled: Settled) -> Rec
         folder=str(inputs.folder),
         generator=inputs.generator,
         options=option_values(inputs.robot.options),
-        renamed=_brought(generation),
-        confirmed=_confirmed(generation, decision),
+        renamed=_brought(inputs, differences.renames),
+        confirmed=frozenset(str(one.mine) for one in edited if one.mine in old.confirmed or is_chosen(one.path)),
         snapshot=old.snapshot if is_same else as_recorded(generation.now.snapshot),
         imports={key: (entry,) for key, entry in imports.items()},
         files={key: file for key, file in files.items() if key.startswith(inside)},
@@ -212,26 +243,18 @@ def _record(generation: Generation, decision: Decision, settled: Settled) -> Rec
     return old if silent == old else new
 
 
-def _brought(generation: Generation) -> Mapping[str, str]:
+def _brought(inputs: Inputs, renames: Mapping[ElementKey, str]) -> Mapping[str, str]:
     """Return the declared renames that this build or an earlier one has applied."""
-    if generation.inputs.last.version is None:  # the first build has the new names already
-        return dict(generation.inputs.robot.renamed)
-    done = generation.inputs.last.record.renamed
-    brought = {(name, new) for (_, name), new in generation.renames.items()}
-    declared = generation.inputs.robot.renamed.items()
-    return {old: new for old, new in declared if done.get(old) == new or (old, new) in brought}
+    declared, done = inputs.robot.renamed, inputs.last.record.renamed
+    if inputs.last.version is None:  # the first build has the new names already
+        return dict(declared)
+    brought = {(name, new) for (_, name), new in renames.items()}
+    return {old: new for old, new in declared.items() if done.get(old) == new or (old, new) in brought}
 
 
-def _confirmed(generation: Generation, decision: Decision) -> frozenset[str]:
-    """Return the hashes of the texts that the user has confirmed to be in the right place, now or before."""
-    before, files = generation.inputs.last.record.confirmed, generation.inputs.files
-    edited = [action for action in decision.actions if action.reason in EDITED and action.mine]
-    return frozenset(str(one.mine) for one in edited if one.mine in before or files.is_chosen(one.path))
-
-
-def _file_changes(generation: Generation, decision: Decision, settled: Settled) -> dict[str, FileChange]:
+def _file_changes(inputs: Inputs, generation: Generation, decision: Decision) -> dict[str, FileChange]:
     """Return the changes of the package's files by key, without files that other robots share."""
-    inputs, changes = generation.inputs, dict[str, FileChange]()
+    changes = dict[str, FileChange]()
     shared = {inputs.files.key(file.path) for file in decision.shared}
     decided = {action.path: action for action in decision.actions}
 
@@ -240,72 +263,192 @@ def _file_changes(generation: Generation, decision: Decision, settled: Settled) 
         old = state.sha256 if state else None
         changes[key] = FileChange(inputs.files.path(key), content, old, is_moved)
 
-    for key, content in settled.contents.items():
+    for key, content in inputs.settled.contents.items():
         if not (key in decided and decided[key].writes) and content != inputs.files.read_on_disk(key):
             change(key, content)
     for action in decision.actions:
         if action.writes and action.path not in shared:
-            content = None if action.is_deletion else _content(generation, decision, action)
+            content = None if action.is_deletion else _content(inputs, generation, decision, action)
             change(action.path, content, is_moved=action.origin is not None and action.path in decision.texts)
     return changes
 
 
-def _content(generation: Generation, decision: Decision, action: Action) -> bytes:
-    key, files = action.path, generation.inputs.files
+def _content(inputs: Inputs, generation: Generation, decision: Decision, action: Action) -> bytes:
+    key, files = action.path, inputs.files
     if key in decision.texts:
         return encode(decision.texts[key])
-    path = generation.inputs.folder.path(key)
-    if action.role is Role.IMPORT:
-        content = generation.imported.contents.get(path)
-        if content is None:
-            message, file = "it can't be written: its source file is missing", shown(files.path(key))
-            hint = "restore that file, or the imported copy"
-            raise OutputError.of("no-source", message, file, hint=hint)
-        return content
     state = files.state(key)
     mine = (files.read(key) or b"") if state and state.sha256 != state.text_sha256 else b""
-    return with_line_ends(generation.package.content(path), mine)
+    content = generation.content(inputs.folder.path(key), action.role, mine)
+    if content is None:
+        message, hint = "it can't be written: its source file is missing", "restore that file, or the imported copy"
+        raise OutputError.of("no-source", message, shown(files.path(key)), hint=hint)
+    return content
 
 
-def _state_changes(
-    generation: Generation,
-    decision: Decision,
-    record: Record,
-    aside: Mapping[str, Aside],
-    settled: Settled,
-    *,
-    is_writing: bool,
-) -> list[FileChange]:
-    """Return the changes of the recorded state, the record as the last one.
-
-    `status` and some other commands do not renew a complete state if there is nothing else to write.
-    """
-    inputs, store, expanded = generation.inputs, generation.inputs.store, generation.inputs.source.expansion
-    name, last = inputs.robot.name, inputs.last
-    if last.record.files and decision.is_complete and not (is_writing or inputs.options.renews):
-        return []
+def _source_changes(inputs: Inputs) -> list[FileChange]:
+    """Return the changes of the state that follow from the robot's name and its expansion."""
+    store, name, last, expanded = inputs.store, inputs.robot.name, inputs.last, inputs.source.expansion
     changes = [*(store.remove(last.name) if last.name != name else ()), *store.for_git()]
     if not inputs.source.stale:
         changes += store.save(store.expansion(name), expansion.dumps(expanded) if expanded else None)
-    recorded = store.save(store.path(name), statefile.dumps(record).encode())
-    is_writing = is_writing or bool(changes or recorded)
+    return changes
 
-    # A missing or damaged text is written if it is generated now. A text that neither the old record nor the new one
-    # mentions is deleted by the next complete build that writes: it is no reason for a build.
-    needed = {*last.record.hashes, *record.hashes, *(sha256 for text in aside.values() for sha256 in text.bases)}
+
+def _base_changes(
+    inputs: Inputs, package: Package, record: Record, needed: Collection[str] | None, *, is_writing: bool
+) -> Iterator[FileChange]:
+    """Yield the changes of the stored bases. Only a complete build deletes texts: those that are not `needed`.
+
+    A missing or damaged text is written if it is generated now. A text that is no longer needed is deleted by the next
+    complete build that writes: it is no reason for a build.
+    """
+    store, last, settled = inputs.store, inputs.last, inputs.settled
     stored = {digit: store.bases(last.name, digit) for digit in bases.DIGITS}
     absent = record.hashes - {sha256 for texts in stored.values() for sha256 in texts or ()}
-    missing, package = {sha256: settled.texts[sha256] for sha256 in absent & settled.texts.keys()}, generation.package
+    missing = {sha256: settled.texts[sha256] for sha256 in absent & settled.texts.keys()}
     if absent:
-        made = generation.paths_by_hash  # by hash, since a text may have another path now
+        made = package.paths_by_hash  # by hash, since a text may have another path now
         missing |= {sha256: package.content(made[sha256]).decode() for sha256 in absent & made.keys()}
-    cleans = decision.is_complete and (is_writing or bool(missing))
+    cleans = needed is not None and (is_writing or bool(missing))
     # if git has united lines, they may be in another order
     is_united = last.record.is_united and is_writing
     is_whole = inputs.options.full or inputs.former_name or inputs.damage or is_united
     for digit, texts in stored.items():
-        after = {sha256: text for sha256, text in (texts or {}).items() if not cleans or sha256 in needed}
+        after = {sha256: text for sha256, text in (texts or {}).items() if not cleans or sha256 in (needed or ())}
         after |= {sha256: text for sha256, text in missing.items() if sha256[0] == digit}
         if is_whole or texts is None or after.keys() != texts.keys():
-            changes += store.save(store.base_file(name, digit), bases.dumps(after))
-    return changes + recorded
+            yield from store.save(store.base_file(inputs.robot.name, digit), bases.dumps(after))
+
+
+def _save_versions(inputs: Inputs, conflicts: Sequence[Conflict]) -> _Versions:
+    """Return the writes that save the versions, and their files."""
+    store, robot, noted = inputs.store, inputs.robot.name, inputs.last.notes.proposals
+    existing = store.conflict_files(robot)
+    persons = store.persons_proposals(robot, noted)
+    contents, saved, findings = dict[str, bytes](), list[Conflict](), list[Diagnostic]()
+    notes = {path: facts for path, facts in noted.items() if path in persons}
+    for conflict in conflicts:
+        path, merge = PurePosixPath(inputs.folder.path(conflict.path)), conflict.merge
+        stem, suffix = path.with_suffix("").as_posix(), path.suffix
+        files = dict[str, str]()
+        for kind, text in (("base", conflict.base), ("generated", conflict.generated)):
+            if text is not None:
+                files[kind] = f"{stem}.{kind}{suffix}"
+                contents[files[kind]] = encode(text)
+        if merge is not None:  # a text with markers is no Modelica
+            ending, proposal = ".txt" if merge.text is None else suffix, encode(merge.proposal)
+            sides = sides_hash(text_hash(conflict.mine), text_hash(conflict.generated))
+            numbers = itertools.chain(("",), map("-{}".format, itertools.count(2)))
+            for number in numbers:
+                name = f"{stem}.merge{number}{ending}"
+                if name not in persons or noted.get(name, ("", ""))[1] == sides or existing[name] == proposal:
+                    break
+                message = "you changed this proposal, so it stays: a new one is beside it"
+                place = shown(store.conflicts(robot) / name)
+                findings.append(Diagnostic(Severity.NOTE, "proposal-kept", message, place))
+            files["merge"] = name
+            if name not in persons:
+                contents[name], notes[name] = proposal, (digest(proposal), sides)
+        name = files.get("merge", "")
+        edited = existing[name].decode(errors="replace") if name in persons else None
+        saved.append(msgspec.structs.replace(conflict, files=files, edited=edited))
+    changes = store.save_conflicts(robot, contents, persons)
+    return _Versions(tuple(saved), tuple(changes), notes, tuple(findings))
+
+
+def _put_aside(
+    inputs: Inputs, package: Package, decision: Decision, contents: Mapping[str, bytes | None]
+) -> tuple[dict[str, Aside], dict[str, bytes]]:
+    """Return the saved texts after a build, by path below the package, and the new texts by file.
+
+    `contents` are the texts that the build writes, by key; None for a deletion.
+    """
+    folder, settled = inputs.folder, inputs.settled
+    moved = {action.origin: action.path for action in decision.actions if action.origin and action.writes}
+    index, replaced = dict[str, Aside](), dict(_replaced(inputs, package, decision, contents))
+    for path, aside in inputs.last.aside.items():
+        key = folder.key(path)
+        is_unsaved = _is_as_written(inputs.files, key, aside)
+        if key in moved and is_unsaved and (text := inputs.store.aside_text(inputs.last.name, aside.file)) is not None:
+            former = Former(text, FileRecord(aside.bases), aside.texts)
+            replaced.setdefault(moved[key], _follow(inputs, former, moved[key], decision.names))
+        elif is_unsaved or not contents:
+            index[path] = aside
+    for key in settled.contents:
+        index.pop(folder.path(key), None)  # another choice replaces it, or it is undone
+    chosen = {
+        moved.get(key, key): _follow(inputs, former, moved[key], decision.names) if key in moved else former
+        for key, former in settled.before.items()
+    }
+    deleted = [one for one in decision.actions if one.writes and one.reason is Reason.DELETE] if chosen else []
+    models = (one.path for one in deleted if one.path.startswith(folder.key("")) and one.path.endswith(".mo"))
+    beside, texts = {folder.path(key): inputs.files.text(key) or "" for key in models}, dict[str, bytes]()
+    for key, former in {**replaced, **chosen}.items():
+        place, after = PurePosixPath(folder.path(key)), contents.get(key, settled.contents.get(key))
+        file = place.with_name(f"{place.stem}.{digest(former.text)[:8]}{place.suffix}").as_posix()
+        sha256, bases = None if after is None else text_digest(after), (former.record.hashes, former.bases)
+        index[str(place)] = Aside(file, sha256, *bases, beside if key in chosen else {})
+        texts[file] = former.text
+    return index, texts
+
+
+def _is_as_written(files: PackageFiles, key: str, aside: Aside) -> bool:
+    """Return whether a file is unchanged since the build that put its former text aside."""
+    try:
+        state = files.state_on_disk(key)
+    except OutputError:  # the user replaced it by a link or a folder
+        return False
+    return (state.text_sha256 if state else None) == aside.after
+
+
+def _follow(inputs: Inputs, former: Former, key: str, names: Mapping[str, str]) -> Former:
+    """Return a text and its base for the file's new path: with new names, and with its `within` clause."""
+    from urdfsync.merge.renames import rename, without_clashes  # imports the parser
+    from urdfsync.modelica.layout import with_within
+
+    text, base = former.text.decode(errors="surrogateescape"), next(iter(former.bases.values()), None)
+    if base is not None:
+        base, text = rename(base, text, without_clashes(names, text))
+    class_name = (inputs.robot.target.package, *class_parts(inputs.folder.path(key)))
+    return Former(encode(with_within(text, ".".join(class_name))), *known_bases(base))
+
+
+def _replaced(
+    inputs: Inputs, package: Package, decision: Decision, contents: Mapping[str, bytes | None]
+) -> Iterator[tuple[str, Former]]:
+    """Yield the key and text of each replaced or deleted file; leave out texts that this machine generated.
+
+    A `package.order` is saved only after a union by git: then a build may remove more than its recorded lines.
+    """
+    files, last, folder = inputs.files, inputs.last, inputs.folder.key("")
+    origins = {action.origin for action in decision.actions if action.origin and action.writes}
+    for action in decision.actions:
+        key, is_moving = action.path, action.reason is Reason.MOVE
+        if not action.writes or key not in contents or (key in origins and not is_moving):
+            continue  # the user's text moves to another file
+        if action.role is Role.ORDER and not (last.record.is_united and key.startswith(folder)):
+            continue
+        text = files.read(action.origin or key) if is_moving else files.read_on_disk(key)
+        if text is None or text_digest(text) in last.notes.written:
+            continue
+        former = Former(text, *_bases_given_back(inputs, package, action, text))
+        if is_moving:
+            former = _follow(inputs, former, key, decision.names)
+        if former.text != contents[key]:
+            yield key, former
+
+
+def _bases_given_back(
+    inputs: Inputs, package: Package, action: Action, text: bytes
+) -> tuple[FileRecord, Mapping[str, str]]:
+    """Return the bases that a text has after `--undo`."""
+    place = (action.origin or "") if action.reason is Reason.MOVE else action.path
+    record = inputs.last.files.get(place, FileRecord())
+    # with the old base, the next build would merge the text again, or take it for a generated one
+    merging = {robot.name for robot in inputs.config.robots if robot.on_conflict == "merge"}  # not only this command
+    is_merge = (action.reason is Reason.MERGE or action.is_left_by_git) and inputs.robot.name in merging
+    is_own_base = text_digest(text) in record.hashes
+    if action.generated and action.role is not Role.IMPORT and (is_merge or is_own_base):
+        return known_bases(package.content(inputs.folder.path(action.path)).decode())
+    return (FileRecord(), {}) if is_own_base else (record, inputs.last.bases(record))

@@ -6,7 +6,7 @@ import itertools
 import os
 import re
 from collections import Counter
-from collections.abc import Container, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
@@ -34,6 +34,8 @@ _UNDER_WAY = "MERGE_HEAD", "CHERRY_PICK_HEAD", "REBASE_HEAD"
 
 _IN_STEP = frozenset({Reason.UNCHANGED, Reason.KEEP, Reason.INCLUDED})
 """Reasons that keep a file that is still generated."""
+_SETTLED = frozenset({Reason.MERGE, Reason.FORGET}) | ORPHANS
+"""Reasons for which a file gets its meaning."""
 _Changes: TypeAlias = Counter[tuple[tuple[str, ...], tuple[str, ...]]]
 """Changed lines and their replacements. The order of lines does not count: added blocks can be cut in several ways."""
 
@@ -100,22 +102,19 @@ def describe(contradictions: Sequence[str]) -> str:
     return f"git's markers are in it, since both branches changed {' and '.join(elements) or 'the same lines'}"
 
 
-def settle(action: Action) -> Action:
-    """Return the action that writes a file's meaning, if git left another text there."""
-    if not action.is_left_by_git or action.reason not in _IN_STEP:
-        return action
-    reason = Reason.UPDATE if action.reason is Reason.UNCHANGED else Reason.MERGE
-    return msgspec.structs.replace(action, reason=reason)
-
-
-def settled_texts(files: PackageFiles, actions: Iterable[Action], merged: Container[str]) -> dict[str, str]:
-    """Return the meanings to write into files, by key; files whose new texts are in `merged` are left out."""
-    is_settled = (Reason.MERGE, *ORPHANS, Reason.FORGET)
-    return {
-        action.path: files.text(action.path) or ""
-        for action in actions
-        if action.is_left_by_git and action.reason in is_settled and action.path not in merged
-    }
+def write_meanings(
+    files: PackageFiles, actions: Iterable[Action], merged: Mapping[str, str]
+) -> tuple[tuple[Action, ...], dict[str, str]]:
+    """Return actions that write the meanings of files in which git left another text, and all merged texts, by key."""
+    settled, texts = list[Action](), dict(merged)
+    for action in actions:
+        if action.is_left_by_git and action.reason in _IN_STEP:
+            reason = Reason.UPDATE if action.reason is Reason.UNCHANGED else Reason.MERGE
+            action = msgspec.structs.replace(action, reason=reason)
+        if action.is_left_by_git and action.reason in _SETTLED and action.path not in merged:
+            texts[action.path] = files.text(action.path) or ""
+        settled.append(action)
+    return tuple(settled), texts
 
 
 def _are_generated(last: LastBuild, texts: Iterable[str]) -> bool:

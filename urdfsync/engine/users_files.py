@@ -14,12 +14,8 @@ from urdfsync.modelica.files import TooManyFoldersError, class_of_file, files_th
 
 _NOT_USERS = (FILE_NAME, "pyvenv.cfg")
 """Names of files that show that a folder is another project, or a virtual environment of Python."""
-
-
 _MOST = 20_000
 """The most folders to search, which takes a second: a stranger's configuration may name the whole disk."""
-
-
 _MOST_KEPT = 50_000_000
 """The most bytes of files in memory; further files are read again each time."""
 

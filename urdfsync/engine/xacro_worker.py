@@ -165,10 +165,8 @@ class _Files:
     def find(self, name: str) -> str:
         """Return the folder of a ROS package. Raises PackageNotFoundError."""
         if (folder := self._known.folder(name)) is None:
-            places = (
-                str(place / name / "package.xml") for place in (*self._known.folders, *self._known.source.parents)
-            )
-            self.hashes.update(dict.fromkeys(places))
+            places = (*self._known.folders, *self._known.source.parents)
+            self.hashes |= {str(place / name / "package.xml"): None for place in places}
             raise PackageNotFoundError(name)
         self.packages[name] = str(folder)
         return self.packages[name]
@@ -257,10 +255,8 @@ def expand(request: Request) -> Answer:
         from urdfsync.engine import xacro_expressions
     except ImportError as error:
         return Answer(problem=Problem("no-xacro", f"xacro can't be loaded: {error}"))
-    files, said = (
-        _Files(ros_packages.Packages(list(map(Path, request.package_paths)), Path(request.source))),
-        io.StringIO(),
-    )
+    files = _Files(ros_packages.Packages(list(map(Path, request.package_paths)), Path(request.source)))
+    said = io.StringIO()
     # xacro asks ROS 2 for packages, which need not be installed
     ament = types.ModuleType("ament_index_python.packages")
     ament.get_package_share_directory = files.find  # type: ignore[attr-defined]
@@ -368,12 +364,8 @@ def _problem(error: BaseException, current: str, packages: Mapping[str, str], un
             missing = Path(cause.filename).parents if isinstance(cause, FileNotFoundError) else ()
             package = next((name for name, folder in packages.items() if Path(folder) in missing), None)
             # a package may install its files into other folders, as the demos of ros2_control do
-            hint = (
-                f"if package `{package}` has this file once it is installed, name the installed xacro file as source"
-                if package
-                else ""
-            )
-            return Problem("xacro", message, file, line, hint)
+            hint = f"if package `{package}` has this file once it is installed, name the installed xacro file as source"
+            return Problem("xacro", message, file, line, hint if package else "")
     if type(cause).__name__ == "ArgException":
         others = ", ".join(f"`{name}`" for name in unset if name != str(cause))
         return Problem(

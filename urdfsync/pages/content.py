@@ -10,10 +10,11 @@ import msgspec
 from urdfsync.changes import Changes, Effect, Effects, compare
 from urdfsync.config import Config, RobotConfig
 from urdfsync.diagnostics import UrdfsyncError
-from urdfsync.domain import ChangeClass, ChangeKind
+from urdfsync.domain import ChangeClass, ChangeKind, Domain, Version
 from urdfsync.engine.edits import RobotEdits, find_edited
-from urdfsync.engine.generation import Generation, generate_robot
-from urdfsync.engine.inputs import inspect
+from urdfsync.engine.generate import Package
+from urdfsync.engine.generation import generate_robot
+from urdfsync.engine.inputs import Inputs, inspect
 from urdfsync.engine.options import BuildOptions
 from urdfsync.engine.renames import find_matching
 from urdfsync.engine.result import DisputedFile
@@ -70,54 +71,54 @@ def gather(
     (compared,) = compare_sources([robot], against, config, options, folder)
     if compared.result.failed:
         raise UrdfsyncError(*compared.result.diagnostics)
-    generation = generate_robot(inspect(config, robot, options))
-    compared, older = _with_older(compared, generation, shown_before)
+    inputs = inspect(config, robot, options)
+    generation = generate_robot(inputs)
+    compared, older = _with_older(compared, inputs, generation.now, shown_before)
     changes, result = compared.result.changes or Changes(), compared.result
-    draw: Drawing | None = generation.inputs.domain.drawing
+    draw: Drawing | None = inputs.domain.drawing
     model = generation.now.snapshot, generation.imported.imports, robot.target, robot.options
     actions = result.actions if against is None else None  # a comparison has other actions
     return Content(
         robot=robot,
         version=(generation.now, generation.imported.contents),
         section=to_section(compared),
-        numbers=number_table(compared.effects or _numbers(generation)),
+        numbers=number_table(compared.effects or _numbers(inputs.domain, generation.now)),
         against=(compared.against or "the last build").encode("utf-8", "replace").decode(),
-        picture=picture(generation, older if changes.changes else None),
+        picture=picture(inputs, generation, older if changes.changes else None),
         statuses=_statuses(changes),
         renamed={f"{kind} {old}": f"{kind} {new}" for (kind, old), new in changes.renames.items()},
         changes=_change_words(changes),
-        files=_files(generation),
+        files=_files(generation.package, robot),
         diagram=(draw and draw(*model)) or "",
-        edits=RobotEdits(robot.name, config.root, tuple(find_edited(generation, actions))),
+        edits=RobotEdits(robot.name, config.root, tuple(find_edited(inputs, generation, actions))),
         conflicts=result.conflicts,
     )
 
 
 def _with_older(
-    compared: Comparison, generation: Generation, shown_before: Sequence[Contents]
+    compared: Comparison, inputs: Inputs, now: Version, shown_before: Sequence[Contents]
 ) -> tuple[Comparison, Contents | None]:
     """Return the comparison for the page, and its older version; see `gather`."""
-    older = compared.versions[0] if compared.versions else _last_build(generation)
-    other = next((each for each in shown_before if each[0] != generation.now), None)
+    older = compared.versions[0] if compared.versions else _last_build(inputs)
+    other = next((each for each in shown_before if each[0] != now), None)
     if other is None or (compared.result.changes and compared.result.changes.changes):
         return compared, older
-    domain, robot = generation.inputs.domain, generation.inputs.robot
-    same = find_matching(domain, other[0].snapshot, generation.now.snapshot, robot.renamed)
-    changes = compare(other[0], generation.now, domain, robot.options, same)
+    domain, robot = inputs.domain, inputs.robot
+    same = find_matching(domain, other[0].snapshot, now.snapshot, robot.renamed)
+    changes = compare(other[0], now, domain, robot.options, same)
     result = msgspec.structs.replace(compared.result, changes=changes)
     return msgspec.structs.replace(compared, result=result, against="the picture before"), other
 
 
-def _numbers(generation: Generation) -> Sequence[Effect]:
+def _numbers(domain: Domain, now: Version) -> Sequence[Effect]:
     """Return the properties of an unchanged model."""
-    asked: Effects | None = generation.inputs.domain.effects
-    now = generation.now
+    asked: Effects | None = domain.effects
     return (*asked.effects(now, now), *asked.loads(now, now, {})) if asked else ()
 
 
-def _last_build(generation: Generation) -> Contents | None:
+def _last_build(inputs: Inputs) -> Contents | None:
     """Return the recorded version of the last complete build, with its unchanged imports."""
-    last = generation.inputs.last
+    last = inputs.last
     if last.version is None:
         return None
     contents = {
@@ -149,9 +150,9 @@ def _change_words(changes: Changes) -> dict[str, list[str]]:
     return words
 
 
-def _files(generation: Generation) -> dict[str, list[str]]:
-    folder, files = generation.inputs.robot.folder, dict[str, list[str]]()
-    for path, artifact in generation.package.artifacts.items():
-        name = shown(folder / path).encode("utf-8", "replace").decode()  # names of folders may have any bytes
+def _files(package: Package, robot: RobotConfig) -> dict[str, list[str]]:
+    files = dict[str, list[str]]()
+    for path, artifact in package.artifacts.items():
+        name = shown(robot.folder / path).encode("utf-8", "replace").decode()  # names of folders may have any bytes
         files.setdefault(artifact.owner, []).append(name)
     return files

@@ -14,6 +14,7 @@ from urdfsync.checks.fingerprint import program
 from urdfsync.diagnostics import UrdfsyncError
 from urdfsync.domain import Import
 from urdfsync.engine.generation import Generation
+from urdfsync.engine.inputs import Inputs
 from urdfsync.engine.last_build import NO_MODEL
 from urdfsync.files import digest, shown
 from urdfsync.pages.scene import Pictures, Scene, Triangles
@@ -50,10 +51,10 @@ class _File(NamedTuple):
     is_source: bool = False
 
 
-def picture(generation: Generation, older: Contents | None) -> Picture:
+def picture(inputs: Inputs, generation: Generation, older: Contents | None) -> Picture:
     """Return the picture of a robot, beside an older version. Raises UrdfsyncError for a domain without pictures."""
-    robot, imported = generation.inputs.robot, generation.imported
-    pictures: Pictures | None = generation.inputs.domain.pictures
+    robot, imported = inputs.robot, generation.imported
+    pictures: Pictures | None = inputs.domain.pictures
     if pictures is None:
         message = f"packages of the domain `{robot.domain}` have no picture"
         raise UrdfsyncError.of("no-picture", message, shown(robot.source))

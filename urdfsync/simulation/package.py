@@ -54,7 +54,7 @@ def prepare(config: Config, robot: RobotConfig, options: SimulateOptions, *, for
         raise ConfigError.of("not-built", message, place, hint=hint)
     message, hint = "the package is out of step with its source; it is taken as it is", "run `urdfsync build`"
     late = Diagnostic(Severity.WARNING, "out-of-step", message, place, hint=hint)
-    benches: Benches | None = package.generation.inputs.domain.simulation
+    benches: Benches | None = package.inputs.domain.simulation
     bench = benches.bench(package.generation.now.snapshot, robot.target, robot.options) if benches else None
     bench = bench or Bench("", "", ())
     name = options.model or (bench.run if for_export or options.motion else "")

@@ -245,10 +245,7 @@ def _with_version(
     if not differences.changes:
         return Comparison(result, shown(robot.source), against, versions=versions)
     templates = source_files.templates(config, robot, domain) if config else source_files.domain_templates(domain)
-    packages = [
-        generate(domain, version.snapshot, version.imports or {}, robot.target, robot.options, templates)
-        for version in (old, new)
-    ]
+    packages = [generate(domain, version, robot.target, robot.options, templates) for version in (old, new)]
     if domain.describe is None:
         differences = changes.by_texts(differences, packages[1].changed_models(packages[0]))
     changed = packages[1].changed_since(packages[0])

@@ -11,8 +11,9 @@ from support.networks import C1, LADDER, R2, RECORD, conflicts, drop, edit, inne
 
 from urdfsync.domain import Role
 from urdfsync.engine.actions import Action, Choice, Reason
-from urdfsync.engine.generation import Generation
-from urdfsync.engine.needed import keep_needed
+from urdfsync.engine.generate import Package
+from urdfsync.engine.inputs import Inputs
+from urdfsync.engine.package_after import PackageAfter, keep_needed
 
 
 def test_the_record_of_an_element_that_is_renamed_and_then_goes_is_kept_where_it_is_mentioned(project: Path) -> None:
@@ -72,8 +73,8 @@ def test_a_package_stays_for_the_one_inside_that_stays() -> None:
         return bool(inside[path] - set(gone))
 
     files = SimpleNamespace(has_classes=has_classes)
-    generation = cast("Generation", SimpleNamespace(inputs=SimpleNamespace(files=files)))
+    inputs, package = cast("Inputs", SimpleNamespace(files=files)), cast("Package", None)
     actions = [Action(path, Reason.DELETE, Role.PACKAGE) for path in packages]
     actions.append(Action("P/A.mo", Reason.DELETE, Role.MODEL))
-    kept = keep_needed(generation, actions, {})
+    kept = keep_needed(PackageAfter(inputs, package, actions, {}), ())
     assert [one.path for one in kept if one.reason is Reason.NEEDED] == ["P/package.mo", "P/Q/package.mo"]
