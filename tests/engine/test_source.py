@@ -251,7 +251,7 @@ def test_a_package_that_is_not_here_counts_as_unchanged(
     assert '"package://beams/beam.xacro"' in EXPANDED.read_text()
     assert str(elsewhere) not in EXPANDED.read_text()
     (elsewhere / "beams/beam.xacro").write_text(xacros.BEAM.replace("0.1 0.1", "0.2 0.2"))
-    assert "size[0] 0.1 → 0.2 m" in execute("status", code=1).out
+    assert "size[0, 1] (0.1, 0.1) → (0.2, 0.2) m" in execute("status", code=1).out
     shutil.rmtree(elsewhere)
     (project / "urdfsync.toml").write_text(xacros.CONFIG)
     assert execute("status").lines == ["arm: in step, 15 files"]
