@@ -243,19 +243,21 @@ TOGETHER: Mapping[str, Sequence[tuple[str, str, str]]] = {
     ],
 }
 LAWS = robot(
-    *links(base=1.0, a=1.0, b=1.0, c=1.0, d=1.0, e=1.0, f=1.0),
+    *links(base=1.0, a=1.0, b=1.0, c=1.0, d=1.0, e=1.0, f=1.0, g=1.0),
     joint("brush", "revolute", "base", "a", inside=[dynamics(0.1, 0.4)]),
     joint("rail", "prismatic", "a", "b", inside=[dynamics(2, 3)]),
     joint("limp", "revolute", "b", "c"),
     joint("bend", "continuous", "c", "d", inside=[dynamics(0.1, 0.4)]),
     joint("stuck", "revolute", "d", "e", inside=[dynamics(0.1, 0.4)]),
     joint("slip", "prismatic", "e", "f", inside=[dynamics(2, 3)]),
+    joint("hoist", "prismatic", "f", "g"),
 )
 CHOSEN: Mapping[str, Any] = {
     "friction": {"brush": "lugre", "rail": "lugre", "bend": "stiction", "stuck": "stiction", "slip": "stiction"},
     "elastic": ("limp", "bend"),
-    "saturated": ("limp",),
-    "driven": ("brush", "rail", "limp", "bend"),
+    "saturated": ("limp", "hoist"),
+    "commands": {"hoist": "effort"},
+    "driven": ("brush", "rail", "limp", "bend", "hoist"),
 }
 
 
@@ -288,18 +290,50 @@ WRONG_LAWS: Mapping[Quantity, Sequence[tuple[str, str, str]]] = {
 }
 
 
+def wrong_laws(
+    case: physics.Case, quantity: Quantity, library: Path, folder: Path, changes: Sequence[tuple[str, str, str]]
+) -> set[str]:
+    """The joints whose laws differ, with a changed library."""
+    (found,) = physics.compare(library, folder, [case], damaged(folder, changes))
+    joints = {each.element for each in found if each.quantity is quantity}
+    assert joints == {f"joint {name}" for name in (*OF_LAWS, *["hoist"] * (quantity is Quantity.LAW))}
+    return {each.element.removeprefix("joint ") for each in found if each.quantity is quantity and not each.agrees}
+
+
+OF_LAWS = ("brush", "rail", "limp", "bend", "stuck", "slip")
+
+
+def case_of_laws() -> physics.Case:
+    case = physics.prepare(LAWS.encode(), "Bot", **CHOSEN)
+    assert case.experiment.laws is not None
+    package = generate(LAWS.encode(), Target("Bot", "Bot"), **CHOSEN)
+    return physics.Case(msgspec.structs.replace(case.experiment, trials=(case.experiment.laws,)), package)
+
+
 @pytest.mark.parametrize("quantity", WRONG_LAWS)
 def test_wrong_laws_are_seen_beside_sound_ones(quantity: Quantity, modelica_library: Path, tmp_path: Path) -> None:
     """The spring of MSL with another stiffness is a fault of the template, the others of the library."""
-    case = physics.prepare(LAWS.encode(), "Bot", **CHOSEN)
-    laws = case.experiment.laws
-    assert laws is not None
-    package = generate(LAWS.encode(), Target("Bot", "Bot"), **CHOSEN)
-    case = physics.Case(msgspec.structs.replace(case.experiment, trials=(laws,)), package)
     factor = "-" if quantity is Quantity.ENERGY else "2*"
-    case = case.changed("Joints/Bend.mo", "c = parameters", f"c = {factor}parameters")
-    (found,) = physics.compare(modelica_library, tmp_path, [case], damaged(tmp_path, WRONG_LAWS[quantity]))
-    seen = {each.element: each.agrees for each in found if each.quantity is quantity}
-    assert seen == {
-        f"joint {name}": name in ("rail", "stuck") for name in ("brush", "rail", "limp", "bend", "stuck", "slip")
-    }
+    case = case_of_laws().changed("Joints/Bend.mo", "c = parameters", f"c = {factor}parameters")
+    seen = wrong_laws(case, quantity, modelica_library, tmp_path, WRONG_LAWS[quantity])
+    assert seen == {"brush", "limp", "bend", "slip"}
+
+
+WRONG_NUMBERS: Mapping[tuple[str, ...], Sequence[tuple[str, str, str]]] = {
+    ("limp", "hoist", "rail", "slip"): [
+        ("Functions/limitedEffort.mo", "fading = 0.05", "fading = 0.06"),
+        ("Records/TranslationalDynamics.mo", "= friction", "= 2*friction"),
+    ],
+    ("brush", "limp", "bend"): [
+        ("Records/RotationalDynamics.mo", "stribeckSpeed = 0.05", "stribeckSpeed = 0.06"),
+        ("Records/RotationalTransmission.mo", "stiffness = 1e4", "stiffness = 1.1e4"),
+    ],
+    (): [],
+}
+"""Numbers that no source states, by the joints that they concern."""
+
+
+@pytest.mark.parametrize("joints", WRONG_NUMBERS)
+def test_other_numbers_of_the_library_are_seen(joints: tuple[str, ...], modelica_library: Path, tmp_path: Path) -> None:
+    seen = wrong_laws(case_of_laws(), Quantity.LAW, modelica_library, tmp_path, WRONG_NUMBERS[joints])
+    assert seen == {*joints}

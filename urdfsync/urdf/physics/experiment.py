@@ -22,6 +22,7 @@ from urdfsync.urdf.physics.probe import RobotVariables
 from urdfsync.urdf.physics.reference import pinocchio
 from urdfsync.urdf.physics.subject import Subject
 from urdfsync.urdf.robot import MOTION_KINDS, Robot
+from urdfsync.urdf.second.reading import read_again
 
 _ITERATED = 1e-7
 """The least tolerance for robots with loops: compilers close them by iteration."""
@@ -67,7 +68,9 @@ def experiment(sample: Sample, step: float | None = None) -> Experiment | str:
         options=simplified,
         trials=tuple(trials),
         notes=(*notes, *made_up),
-        laws=laws_trial(tree, sample.target, options) if "package" in options.approach else None,
+        laws=laws_trial(read_again(sample.content, options), subject.assembly.driven, tree, sample.target, options)
+        if has_package
+        else None,
         unchecked=(*_simplified(tree, options), *_not_compared(subject), *subject.unchecked),
     )
 
