@@ -183,7 +183,8 @@ READER: dict[str, tuple[Callable[[Robot], Robot], str, str]] = {
     "an offset with the other sign": (
         of("joints", "twist", mimic=lambda j: replace(j.mimic, offset=-0.1)), "Joints/TwistParameters.mo",
         "mimic.offset"),
-    "another leader": (of("joints", "twist", mimic=lambda j: replace(j.mimic, joint="slide")), "Bot.mo", "twistMimic.leader"),
+    "another leader": (
+        of("joints", "twist", mimic=lambda j: replace(j.mimic, joint="slide")), "Bot.mo", "twistMimic.leader"),
     "another parent": (of("joints", "twist", parent="arm"), "Bot.mo", "twist.frame_a"),
     "damping and friction exchanged": (
         of("joints", "shoulder", dynamics=lambda j: replace(j.dynamics, damping=0.2, friction=0.5)),
@@ -444,7 +445,7 @@ def test_another_law_than_the_configuration_says_is_found(fault: tuple[str, str,
         assert old in texts[path]
         return {**texts, path: texts[path].replace(old, new)}
 
-    options = {"friction": {"bend": "lugre"}, "elastic": "all", "saturated": ("bend",), "approach": ("package",)}
+    options: Any = {"friction": {"bend": "lugre"}, "elastic": "all", "saturated": ("bend",), "approach": ("package",)}
     assert compare(source.encode(), **options).differences == ()
     found = compare(source.encode(), change, **options).differences
     assert (f"Joints/{file}.mo", quantity) in {(each.file, each.quantity) for each in found}

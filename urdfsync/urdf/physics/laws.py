@@ -49,7 +49,7 @@ def laws_trial(
             chosen.setdefault((joint.type, _RUN), (joint, _RUN))
     if not chosen:
         return None
-    times = tuple(k * _STEP for k in range(1, round(_STOP / _STEP) + 1))
+    times = tuple(k * _STEP for k in range(round(_STOP / _STEP) + 1))
     world = "inner Modelica.Mechanics.MultiBody.World world(g = 0, enableAnimation = false)"
     declarations, connections, compared = [world], list[str](), list[Compared]()
     for k, (joint, laws) in enumerate(chosen.values(), 1):
@@ -125,6 +125,7 @@ def _errors(k: int, joint: Element, laws: str) -> Iterator[str]:
         yield f"if abs({speed}) > 1e-3 then {dry} - {d!r}*sign({speed}) else {held}"
     if "lugre" in laws:
         stribeck = f"(1 + {_BREAKAWAY - 1!r}*exp(-({speed}/{numbers['stribeckSpeed']!r})^2))"
+        yield f"if time > 0 then 0 else {z}"  # the bristles begin straight
         yield f"der({z}) - {speed} + abs({speed})*{z}/({numbers['bristleDeflection']!r}*{stribeck})"
         yield f"{dry} - {d!r}/{numbers['bristleDeflection']!r}*({z} + {_BRISTLE_TIME!r}*der({z}))"
     if "spring" in laws:

@@ -170,12 +170,11 @@ class _Comparison:
         elif not whole and element is self.massless_root:  # it has a body with mass 0, which Modelica's frames need
             del expected["hasInertial"]
             expected |= {path: Stated(number, element.line) for path, number in _NO_MASS.items()}
+        uris = {path: self._uris(stated.value) for path, stated in expected.items() if path.endswith(".uri")}
+        expected |= {path: Stated(parts[0], expected[path].line) for path, parts in uris.items()}
         for k, value in enumerate(given):
-            if value.path.endswith(".uri") and value.path in expected:
-                uris = self._uris(element.values[value.path].value)
-                expected[value.path] = Stated(uris[0], expected[value.path].line)
-                if literals(value.text) in uris:  # a mesh may have several parts
-                    given[k] = value._replace(text=string(uris[0]))
+            if literals(value.text) in uris.get(value.path, ()):  # a mesh may have several parts
+                given[k] = value._replace(text=string(uris[value.path][0]))
         self._compare(file, f"{kind} {name}", given, expected)
 
     def _uris(self, mesh: tuple[str, Sequence[float]]) -> Sequence[str]:
