@@ -47,7 +47,9 @@ SOURCE = robot(
         axis="0.3 -0.4 1.2",
         inside=[dynamics(0.1, 0.2), '<limit effort="60" velocity="4"/>'],
     ),
-    joint("grip", "prismatic", "hand", "finger", axis="0 1 0", inside=[mimic("shoulder", 0.1, 0.02), limit(-1, 1)]),
+    joint(
+        "grip", "prismatic", "hand", "finger", axis="0 1 0", inside=[mimic("shoulder", 0.1, 0.02), limit(-0.1, 0.15)]
+    ),
     *(GEAR, IMU, EYE, LOAD),
 )
 
@@ -121,13 +123,11 @@ LIBRARY: Mapping[str, Fault] = {
     "gravity in an IMU": Fault(S, "Sensors/Imu.mo", "a = acceleration - ", "a = acceleration + "),
     "gravity of the bench": Fault(R, "Robots/PartialBench.mo", "n = {0, 0, -1}", "n = {0, 0, 1}"),
     "where a joint begins": Fault(F, "Functions/closestToZero.mo", "min(max(", "max(max("),
-    "range of a leader": Fault(
-        R, "Couplings/RotationalToTranslational.mo", "leaderPosition(parameters.multiplier, 0", "leaderPosition(1, 0"
-    ),
+    "range of a leader": Fault(R, "Couplings/RotationalToTranslational.mo", "parameters.offset, s_max", "0, s_max"),
     "housing of Test's drive": Fault(R, "Drives/RotationalSweep.mo", "flange.tau + support", "flange.tau - support"),
     "torque of a motor": Fault(L, "Drives/RotationalGear.mo", "0 = parameters", "0 = 2*parameters"),
     "way of the generic bench": Fault(R, "Robots/AxisSweeps.mo", "0.5*(1 - cos", "1.5*(1 - cos"),
-    "range of a leader of the generic robot": Fault(R, "Dynamics/axisEnds.mo", ", 1] := max(", ", 1] := min("),
+    "range of a leader of the generic robot": Fault(R, "Dynamics/axisEnds.mo", "2] := min(", "2] := max("),
     "turned inertia": Fault(B, "Functions/inertiaInLinkAxes.mo", "I := R*[", "I := transpose(R)*["),
 }
 
@@ -194,7 +194,8 @@ HELD: Mapping[str, Fault] = {
 
 def prepared(fault: Fault, name: str, **options: Any) -> physics.Case:
     """The robot, and the one simulation in which a fault shows."""
-    trial = "free motion" if fault.part in (Part.FREE_MOTION, Part.BENCHES) else "motion"
+    is_bench = fault.part is Part.BENCHES and "Bench" in fault.file
+    trial = "free motion" if fault.part is Part.FREE_MOTION or is_bench else "motion"
     source = CART if fault.part is Part.CONTACTS else SOURCE
     if fault.file.endswith("box.mo"):
         source = source.replace('sphere radius="0.02"', 'box size="0.1 0.3 0.04"')

@@ -24,8 +24,6 @@ from urdfsync.urdf.physics.subject import Subject
 from urdfsync.urdf.robot import MOTION_KINDS, MOTIONS, Joint, Origin
 
 _FAR_GROUND = -1e9  # m: the ground is so far down that nothing touches it
-FAR = 1e9
-"""Limits beyond it, in m or rad, are compared as this number: infinite ones are no numbers of a simulation."""
 _PARTS = (Path(__file__).parent / "parts.mo").read_text("utf-8")
 
 FORCE = tuple(f"base.frame_b.f[{i}]" for i in (1, 2, 3))
@@ -173,14 +171,12 @@ def _sweep(k: int, joint: Joint, component: str, reaches: Mapping[str, Mapping[s
 
 
 def _range(subject: Subject, joint: Joint, components: Mapping[str, str]) -> Iterator[str]:
-    """Yield the range and the greatest speed of an axis, cut at `FAR`."""
-    kind = MOTION_KINDS[joint.type]
-    q, v = ("phi", "w") if kind == "rotational" else ("s", "v")
-    for name in (f"{q}_min", f"{q}_max", f"{v}_max"):
-        value = f"robot.{name}[{_number(subject, joint)}]"
-        if joint.name in components:
-            value = f"{components[joint.name]}.{name}"
-        yield f"max(-{FAR!r}, min({FAR!r}, {value}))"
+    """Yield the range and the greatest speed of an axis."""
+    for name in (
+        ("phi_min", "phi_max", "w_max") if MOTION_KINDS[joint.type] == "rotational" else ("s_min", "s_max", "v_max")
+    ):
+        own = components.get(joint.name)
+        yield f"{own}.{name}" if own else f"robot.{name}[{_number(subject, joint)}]"
 
 
 def _sweeps_of_record(subject: Subject) -> Iterator[str]:

@@ -119,12 +119,14 @@ def loops(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
 def sweeps(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
     """Yield the positions between which Test moves the axes, with their ranges and the efforts of Test's drives."""
     for k, (joint, start, end, limits) in enumerate(subject.sweeps(), 1):
-        times, unit, what = (0.0, motion.PERIOD / 2, motion.PERIOD), _unit(joint), f"joint {joint.name}"
+        times, unit = (0.0, motion.PERIOD / 2, motion.PERIOD), _unit(joint)
+        what = f"joint {joint.name}{'' if names.is_package else ' of the generic robot'}"
         value = f"sweep{k}.{'phi' if unit == 'rad' else 's'}" if names.is_package else probe.swept(subject, joint)
         yield Compared(Quantity.SWEEP, what, unit, (value,), times, Part.BENCHES), [[start], [end], [start]]
-        ends = tuple(f"range{k}[{i}]" for i in (1, 2, 3))
-        numbers = [min(max(limit, -probe.FAR), probe.FAR) for limit in limits]
-        yield Compared(Quantity.SWEEP, what, unit, ends, (0.0,), Part.BENCHES, "range"), [numbers]
+        numbers = {f"range{k}[{i}]": limit for i, limit in enumerate(limits, 1) if abs(limit) < motion.ENDLESS}
+        if numbers:
+            range_ = Compared(Quantity.SWEEP, what, unit, tuple(numbers), (0.0,), Part.BENCHES, "range")
+            yield range_, [numbers.values()]
         if names.is_package:
             effort = "N·m" if unit == "rad" else "N"
             yield Compared(Quantity.EFFORT, what, effort, (f"balance{k}",), times, Part.BENCHES, "Test"), [[0.0]] * 3

@@ -85,15 +85,17 @@ class Subject:
 
     @cached_property
     def motor_torques(self) -> Mapping[str, float]:
-        """The torque at the motor of each joint that has one: half of the joint's limit, so that its gear counts."""
+        """The torque at the motor of each joint that has one.
+
+        It is half of the joint's limit, and acts as the effort beyond the limit does: both have to count together.
+        """
         torques = dict[str, float]()
         for name, drive in connector_names(self.tree, self.options).drives.items():
             if drive.motor:
                 joint = self.second.joints[name]
                 effort = joint.number("limits.effort")
-                torques[name] = (
-                    0.5 * (effort if effort < motion.ENDLESS else 1.0) / joint.number("transmission.reduction")
-                )
+                part = 0.5 * (effort if effort < motion.ENDLESS else 1.0)
+                torques[name] = -part / joint.number("transmission.reduction")
         return torques
 
     def pushed_by_motors(self, name: str) -> float:
