@@ -54,7 +54,9 @@ def compare_numbers(sample: Sample, packages: Sequence[Mapping[str, bytes]]) -> 
         except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
             message = f"the second reader fails: {type(error).__name__}: {error}"
             raise SourceError.of("second-reader", message, sample.file) from None
-        return [_Comparison(texts, reading, sample).numbers() for texts in packages]
+        first = _Comparison(packages[0], reading, sample).numbers()
+        others = packages[1:]  # equal without edits: saves 0.1 s with 70 links
+        return [first, *(first if o == packages[0] else _Comparison(o, reading, sample).numbers() for o in others)]
 
 
 class _Comparison:
