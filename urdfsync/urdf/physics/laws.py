@@ -60,7 +60,7 @@ def laws_trial(
                 *(f"world.frame_b, joint{k}.frame_a", f"joint{k}.frame_b, body{k}.frame_a"),
                 f"stroke{k}.flange, joint{k}.axis",
             ]
-            quantities.append((Quantity.ENERGY, f"stroke{k}.given"))
+            quantities.insert(0, (Quantity.ENERGY, f"stroke{k}.given"))
         declarations.append(f"Real law{k} = {' + '.join(f'abs({term})' for term in _errors(k, joint, laws))}")
         for quantity, value in quantities:
             compared.append(Compared(quantity, f"joint {joint.name}", "", (value,), times, Part.LOSSES, laws))
