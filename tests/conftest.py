@@ -128,21 +128,33 @@ def corpus() -> Path:
 def modelica_library() -> Iterator[Path]:
     """The folder with the Modelica Standard Library, in a version that the embedded compiler takes.
 
-    Checks in this process parse its files once, and hash it and their compiler once: each would do that for a second.
+    Checks in this process parse its files once, hash it and their compiler once, and take it apart once: each would do
+    that for a second, or for four if a test gives it an empty cache.
     """
+    from urdfsync.checks import libraries
+    from urdfsync.checks.cache import UserCache
+    from urdfsync.checks.packed import Library
     from urdfsync.modelica.stored import parse_file
 
     try:
         folder = find_standard_library()["Modelica"].parent
     except UrdfsyncError:
         pytest.skip(NO_LIBRARY)
-    known = functools.cache(content_hash)
+    known, take_apart, parts = functools.cache(content_hash), libraries._pieces, dict[Path, Library]()
 
     def hash_once(root: Path, without: Collection[str] = ()) -> str:
         is_fixed = root.is_relative_to(folder) or root.is_relative_to(sys.prefix)
         return known(root, tuple(without)) if is_fixed else content_hash(root, without)
 
+    def take_apart_once(name: str, path: Path, cache: UserCache) -> Library:
+        if not path.is_relative_to(folder):
+            return take_apart(name, path, cache)
+        if path not in parts:
+            parts[path] = take_apart(name, path, cache)
+        return parts[path]
+
     with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(libraries, "_pieces", take_apart_once)
         patch.setattr("urdfsync.checks.names.parse_file", functools.cache(parse_file))
         for module in ("fingerprint", "libraries", "compilers"):
             patch.setattr(f"urdfsync.checks.{module}.content_hash", hash_once)

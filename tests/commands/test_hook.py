@@ -19,6 +19,7 @@ from support.git import NEEDS_GIT, Repository
 from support.networks import LADDER, MANIFEST, RECORD, ROBOT, configure, edit, resistor
 
 from urdfsync import cli
+from urdfsync.commands import hook
 from urdfsync.state.lock import build_lock
 from urdfsync.state.transaction import is_interrupted
 
@@ -190,6 +191,21 @@ def add_robot(repo: Repository) -> None:
     configure(ROBOT.format('"other.v2"', "Other").replace("ladder.json", "other.json"))
     run("urdfsync build")
     repo.commit()
+
+
+def test_what_the_daemon_writes_while_the_hook_begins_has_to_be_staged(
+    repo: Repository, capsys: Capture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def commit_and_daemon() -> hook.Commit:
+        commit = first_look()
+        run("urdfsync build --quiet")
+        return commit
+
+    first_look = hook.Commit
+    monkeypatch.setattr(hook, "Commit", commit_and_daemon)
+    edit("ladder.json", *STALE)
+    run(STAGE)
+    assert said(capsys, "check") == [fault(f"{NOT_STAGED}3 files", ADD, code="not-staged")]
 
 
 def test_only_the_robots_of_the_commit_are_built(repo: Repository, capsys: Capture) -> None:

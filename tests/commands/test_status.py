@@ -35,7 +35,7 @@ def test_files_of_every_kind(built: Path, execute: Execute) -> None:
     with unchanged(built):
         assert execute("status", code=1).lines == [
             "ladder: out of step: 1 file to write, 1 to restore, 1 kept because you edited it",
-            "  1 parameter change in the source",
+            "  R2: ohm 220.5 → 330 Ω (+49.7 %)",
             "  edited     modelica/Ladder/Ladder.mo",
             "  missing    modelica/Ladder/Elements/C1.mo  you deleted it",
             "  stale      modelica/Ladder/Elements/R2Parameters.mo  its generated text changed",

@@ -42,5 +42,11 @@ def test_what_init_writes_names_the_schema_beside_it(folder: Path, execute: Exec
         jsonschema.validate(tomllib.loads(f"{written_text}\nbse = 'fixed'\n"), written)
 
 
+def test_a_faulty_key_of_a_table_is_named() -> None:
+    table = {"source": "a.csv", "package": "A", "domain": "table", "kinds": "kind"}
+    with pytest.raises(jsonschema.ValidationError, match="'kinds' was unexpected"):
+        jsonschema.validate({"robots": {"a": table}}, config_schema())
+
+
 def test_the_schema_of_the_examples_is_that_of_the_program() -> None:
     assert (REPOSITORY / ".urdfsync/schema.json").read_text() == text()

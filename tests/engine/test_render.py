@@ -19,7 +19,7 @@ from urdfsync.engine.render import Renderer
 def rendered(path: Path, text: str, **data: object) -> str:
     (path / "t.jinja").write_text(text, encoding="utf-8", newline="\n")
     (path / "parts.jinja").write_text("<% macro one(part) %><< part.n >>;<% endmacro %>")
-    return Renderer([path]).render("t.jinja", data)
+    return Renderer([path, path / "installed"]).render("t.jinja", data)
 
 
 @pytest.mark.parametrize(
@@ -68,7 +68,7 @@ def test_a_step_that_cannot_be_interrupted_ends_with_the_process(tmp_path: Path,
     (tmp_path / "endless.jinja").write_text(text)
     program = (
         "import pathlib; from urdfsync.engine import render; render.MAX_SECONDS, render.GRACE = 1.0, 0.2\n"
-        "render.Renderer([pathlib.Path()]).render('endless.jinja', {})"
+        "render.Renderer([pathlib.Path(), pathlib.Path('none')]).render('endless.jinja', {})"
     )
     ended = subprocess.run([sys.executable, "-c", program], cwd=tmp_path, check=False, timeout=60)
     assert ended.returncode == -signal.SIGVTALRM
@@ -125,6 +125,16 @@ def test_damaged_code_of_a_template_is_made_again(
     file.write_bytes(damage(whole))
     assert rendered_as_shipped(tmp_path) == "right"
     assert file.read_bytes() == whole
+
+
+def test_an_installed_template_is_compiled_once_beside_a_users_own_template(tmp_path: Path, compiled: Path) -> None:
+    installed = tmp_path / "installed"
+    installed.mkdir()
+    (installed / "part.jinja").write_text("part << x >>")
+    (installed / "t.jinja").write_text("<% include 'part.jinja' %>")
+    (tmp_path / "part.jinja").write_text("mine << x >>")
+    assert [Renderer([tmp_path, installed]).render("t.jinja", {"x": 1}) for _ in range(2)] == ["mine 1"] * 2
+    assert len(list(compiled.iterdir())) == 1, "the included one is the user's"
 
 
 def test_code_of_a_template_is_not_kept_for_strangers_templates_nor_where_python_keeps_none(

@@ -39,6 +39,13 @@ def test_an_error_is_told_at_its_line(folder: Path, line: str, message: str, cod
     assert found.endswith(f" [{code}]")
 
 
+def test_all_unset_arguments_are_named_at_once(folder: Path) -> None:
+    (folder / "more.xacro").write_text(f"{xacros.HEAD.format('more')}<link name='$(arg tool)'/></robot>")
+    declared = '<xacro:include filename="more.xacro"/><xacro:arg name="speed" default="1"/><!-- $(arg old) -->'
+    found = problem(write_line(folder, f'{declared}<link name="$(arg speed)$(arg side)$(arg tool)"/>'))
+    assert "more.xacro:2: error: the argument `tool` is not set, nor is `side`; set it in `arguments`" in found
+
+
 def test_a_package_whose_files_are_elsewhere_once_installed_is_named(folder: Path) -> None:
     (folder / "package.xml").write_text("<package><name>cart</name></package>")
     found = problem(write_line(folder, '<xacro:include filename="$(find cart)/control/cart.xacro"/>'))

@@ -58,3 +58,19 @@ def test_edits(name: str) -> None:
 
 def test_what_is_no_class() -> None:
     assert find_edits(BASE, "x") is None
+
+
+def test_words_for_readers_come_last_and_documentation_is_not_quoted() -> None:
+    base = """model A "old"
+  parameter Real m = 1 "mass";
+  annotation (Documentation(info = "<html>old</html>"));
+end A;
+"""
+    mine = base.replace("old", "new").replace("m = 1", "m = 2")
+    edits = find_edits(base, mine)
+    assert edits
+    assert in_words(edits) == [
+        ("component `m`", "m 1 → 2"),
+        ("the class", 'description "old" → "new"'),
+        ("the Documentation", "info changed"),
+    ]

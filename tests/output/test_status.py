@@ -88,13 +88,13 @@ def test_a_conflict_in_a_package_that_was_never_built() -> None:
         (
             [Reason.UPDATE, Reason.CREATE, Reason.DELETE],
             changed(ChangeClass.PARAMETER, ChangeClass.STRUCTURAL, ChangeClass.PARAMETER),
-            ["1 structural and 2 parameter changes in the source"],
+            ["1 structural and 2 parameter changes", *["link tip: mass 1 → 2 (+100 %)"] * 3],
         ),
         ([Reason.UNCHANGED], changed(ChangeClass.UNMODELLED), []),
         (
             [Reason.UPDATE],
             changed(ChangeClass.PARAMETER, noise=True),
-            ["1 parameter change by rounding in the source"],
+            ["link tip: rounding 1 change"],
         ),
         (
             [Reason.UPDATE],

@@ -133,3 +133,4 @@ def test_the_page_shows_elements_and_connections(project: Path, execute: Execute
     assert ("torque", "6 N.m") in picture.bodies[1].facts
     assert meshes == {}
     assert "page: " in execute("report", "-o", "motors.html").out
+    assert '<section id="robot" aria-label="Table">' in Path("motors.html").read_text()

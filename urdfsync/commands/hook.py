@@ -212,7 +212,7 @@ def _find_faults(commit: Commit, path: str, options: BuildOptions, writing: bool
     with Dependencies() as everything:
         config = configuration.load(Path(file))
         robots = [_plan(commit, config, robot, options) for robot in config.robots]
-    index = commit.index
+    commit.index = index = git.Index()  # the daemon may have written files since the first look, and before the plan
     if not any(not robot.planned.in_step or robot.find_unstaged() or robot.select(index.hidden) for robot in robots):
         needed = {path for robot in robots for path in (*(robot.known & index.tracked), *robot.folders)}
         uptodate.save_answer(file, "hook", key, sorted(needed), everything)

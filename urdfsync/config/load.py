@@ -107,9 +107,10 @@ def in_words(kind: Any) -> str:
         return " or ".join(in_words(part) for part in arguments if part is not NoneType)
     if origin is Mapping:
         kinds = {str: "strings", float: "numbers"}
-        is_choice = get_origin(arguments[1]) is Literal
-        words = in_words(arguments[1]) if is_choice else kinds.get(arguments[1], "strings, numbers, true and false")
-        return f"a table of {words}"
+        is_any = bool in get_args(arguments[1])
+        words = kinds.get(arguments[1]) or ("strings, numbers, true and false" if is_any else in_words(arguments[1]))
+        keys = f" with the keys {', '.join(get_args(arguments[0]))}" if get_origin(arguments[0]) is Literal else ""
+        return f"a table of {words}{keys}"
     if origin in (tuple, list, frozenset):
         count = "" if arguments[-1] is ... or origin is not tuple else f"{len(arguments)} "
         parts = get_args(arguments[0]) if get_origin(arguments[0]) in (Union, UnionType) else arguments[:1]

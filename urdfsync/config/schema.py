@@ -46,8 +46,11 @@ def config_schema() -> dict[str, Any]:
     for name, own in zip(domains, options, strict=True):
         robots[name] = _robot({**keys, "domain": keys["domain"] | {"enum": [name]}, **own})
     inherited = {key: described for own in (keys, *options) for key, described in own.items() if key not in OWN_KEYS}
-    others = [name for name in domains if name != DEFAULT_DOMAIN]
-    named = {"properties": {"domain": {"enum": others}}, "required": ["domain"]}
+    robot: dict[str, Any] = {"$ref": f"#/$defs/{DEFAULT_DOMAIN}"}
+    for name in domains:  # by conditions editors show the faulty key; of alternatives they show only that none fits
+        named = {"properties": {"domain": {"const": name}}, "required": ["domain"]}
+        if name != DEFAULT_DOMAIN:
+            robot = {"if": named, "then": {"$ref": f"#/$defs/{name}"}, "else": robot}
     schema = {
         "$schema": DRAFT,
         "title": "urdfsync.toml",
@@ -58,12 +61,7 @@ def config_schema() -> dict[str, Any]:
             "robots": {
                 "type": "object",
                 "propertyNames": {"pattern": ROBOT_PATTERN},
-                # by conditions editors show the faulty key; of alternatives they show only that none fits
-                "additionalProperties": {
-                    "if": named,
-                    "then": {"anyOf": [{"$ref": f"#/$defs/{name}"} for name in others]},
-                    "else": {"$ref": f"#/$defs/{DEFAULT_DOMAIN}"},
-                },
+                "additionalProperties": robot,
             },
         },
         "additionalProperties": False,

@@ -148,6 +148,8 @@ def expand(inputs: Inputs, arguments: Mapping[str, str]) -> Expansion:
     answer = _ask(Request(str(inputs.source), arguments, folders, CPU_SECONDS, MEMORY, str(inputs.root)))
     if (problem := answer.problem) is not None:
         message = problem.message or f"expanding it takes more than {CPU_SECONDS:g} s or {MEMORY / 1e9:g} GB"
+        for path in answer.files:
+            message = message.replace(path, shown(Path(path)))
         file = shown(Path(problem.file)) if problem.file else shown(inputs.source)
         place, hint = (file, problem.line), problem.hint or _HINTS.get(problem.code, _HINTS["xacro"])
         for path in answer.files:  # record the inputs as dependencies: after a success, `find_changes` does

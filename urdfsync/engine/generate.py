@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import functools
-import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING, Any
@@ -220,8 +219,7 @@ def _check_text(renderer: Renderer, artifact: Artifact, package: str, text: str)
     Texts of one template mostly differ in literals and in the class's own name alone: then one check serves all.
     """
     path = PurePosixPath(artifact.path)
-    without_name = re.sub(rf"\b{re.escape(path.stem)}\b", "\0", text)
-    form = artifact.template, str(path.parent), without_literals(without_name)
+    form = artifact.template, str(path.parent), without_literals(_without_word(text, path.stem))
     if form in renderer.sound and "\\" not in text:  # a string may have a wrong escape
         return
     from urdfsync.modelica.layout import check_class_file  # imports the parser: 8 of 220 ms of a build
@@ -233,6 +231,15 @@ def _check_text(renderer: Renderer, artifact: Artifact, package: str, text: str)
             message = f"the text for `{artifact.path}` is wrong: {wrong.message}"
             raise _template_error(renderer.folders, artifact.template, file, line, message)
     renderer.sound.add(form)
+
+
+def _without_word(text: str, word: str) -> str:
+    """Return a text with a null character for each whole `word`. A pattern of each word would take twice as long."""
+    shortened, *rest = text.split(word)
+    for part in rest:
+        is_part = any(letter.isalnum() or letter == "_" for letter in shortened[-1:] + part[:1])
+        shortened += (word if is_part else "\0") + part
+    return shortened
 
 
 def _template_error(folders: Sequence[Path], template: str, file: str, line: int, message: str) -> ConfigError:

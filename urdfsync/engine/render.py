@@ -85,17 +85,23 @@ class _Environment(jinja2.Environment):
 
 
 class _CodeCache(jinja2.BytecodeCache):
-    """Compiled templates of installed packages; they are in the same folder as urdfsync's compiled modules.
+    """Compiled templates of an installed package; they are in the same folder as urdfsync's compiled modules.
 
     Serves the rows "first build" of docs/speed.md: compiling takes a third of the time with 11 links. Code is valid
     while the template, Python, and the modules that make the code are unchanged: Jinja applies filters to constants at
     compile time.
     """
 
-    def __init__(self) -> None:
-        self._stem = importlib.util.cache_from_source(__file__).removesuffix(".pyc")
+    def __init__(self, folder: Path, kind: type[jinja2.Environment]) -> None:
+        """`folder` has the installed templates, and `kind` is for whom they are compiled."""
+        self._folder = str(folder / "_").removesuffix("_")
+        self._stem = f"{importlib.util.cache_from_source(__file__).removesuffix('.pyc')}{kind.__name__}"
         files = map(Path, (__file__, literals.__file__, compiler.__file__))
         self._compiler = repr([(file, file.stat().st_size, file.stat().st_mtime_ns) for file in files])
+
+    def get_cache_key(self, name: str, filename: str | None = None) -> str:
+        """See Jinja. The user's own templates have no key: each process compiles them."""
+        return super().get_cache_key(name, filename) if (filename or "").startswith(self._folder) else ""
 
     def get_source_checksum(self, source: str) -> str:
         """See Jinja, which adds the version of Python."""
@@ -103,13 +109,13 @@ class _CodeCache(jinja2.BytecodeCache):
 
     def load_bytecode(self, bucket: Bucket) -> None:
         """See Jinja."""
-        # a damaged pickle can raise any exception; then the template is compiled
+        # a damaged pickle can raise any exception, and a user's template has none; then the template is compiled
         with contextlib.suppress(Exception), open(f"{self._stem}.{bucket.key}", "rb") as file:  # noqa: PTH123
             bucket.load_bytecode(file)
 
     def dump_bytecode(self, bucket: Bucket) -> None:
         """Save a compiled template; if the cache cannot be written, each process compiles it again."""
-        if not sys.dont_write_bytecode:
+        if bucket.key and not sys.dont_write_bytecode:
             with contextlib.suppress(OSError):
                 put(Path(f"{self._stem}.{bucket.key}"), bucket.bytecode_to_string())
 
@@ -210,7 +216,7 @@ class Renderer:
             lstrip_blocks=True,
             keep_trailing_newline=True,
             auto_reload=False,
-            bytecode_cache=_CodeCache() if is_trusted else None,
+            bytecode_cache=_CodeCache(self.folders[-1], kind),
             autoescape=False,  # Modelica, not HTML; the filters above escape
         )
         self._environment.filters.update({function.__name__: function for function in _FILTERS})

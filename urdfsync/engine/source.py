@@ -8,7 +8,7 @@ import os
 import re
 import stat
 from bisect import bisect_right
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -117,13 +117,17 @@ class Source(msgspec.Struct, frozen=True):
 
 
 def read_source(config: Config, robot: RobotConfig, store: Store, options: BuildOptions, name: str = "") -> Source:
-    """Read the robot's source; xacro or a command may have to make it first.
+    """Read the robot's source with its catalogue; xacro or a command may have to make the source first.
 
     `name` is the robot's name in the state, if it differs. xacro expands the source again, unless this machine has
     noted the text and its inputs. If xacro or a file is missing, the recorded text is used. A dry run runs no command.
     Raises SourceError for an unreadable source, at the line of the configuration, and ConfigError for an untrusted
     command.
     """
+    return with_catalogue(config, robot, _read_source(config, robot, store, options, name))
+
+
+def _read_source(config: Config, robot: RobotConfig, store: Store, options: BuildOptions, name: str) -> Source:
     if not robot.command:
         content = _read(config, robot)  # reports a file that xacro can't read
         if robot.arguments is None and not is_xacro(robot.source, content):
@@ -195,6 +199,44 @@ class Beside(Protocol):
         ...
 
 
+class Catalogue(Protocol):
+    """Adds numbers from a table that options name to a source; a domain's attribute `catalogue`."""
+
+    def file(self, options: Any) -> str:
+        """Return the path of the table from the configuration's folder; empty if there is none."""
+        ...
+
+    def join(self, content: bytes, other: bytes, file: str, options: Any) -> tuple[bytes, Sequence[tuple[int, int]]]:
+        """Return a source with new lines for the content of the table; see `Beside.join`."""
+        ...
+
+
+def with_catalogue(
+    config: Config | None,
+    robot: RobotConfig,
+    text: Source,
+    contents: Callable[[Sequence[Path]], Mapping[Path, bytes]] | None = None,
+) -> Source:
+    """Return a source with the rows of its robot's catalogue as it is on disk, or in the `contents` of a revision.
+
+    A revision without the catalogue adds nothing. Raises SourceError.
+    """
+    catalogue: Catalogue | None = registry.domain(robot.domain).catalogue
+    named = catalogue.file(robot.options) if catalogue and config else ""
+    if not (catalogue and config and named):
+        return text
+    path = config.root / named
+    try:
+        content = read_file(path) if contents is None else contents([path]).get(path)
+    except OSError as error:
+        message = f"robot `{robot.name}`: the catalogue {shown(path)} can't be read: {error.strerror}"
+        place, hint = (shown(config.file), robot.lines["catalogue"]), "correct `catalogue`"
+        raise SourceError.of("no-source", message, *place, hint=hint) from None
+    if content is None:
+        return text
+    return _with_lines(text, *catalogue.join(text.content, content, shown(path), robot.options), path)
+
+
 def _with_file_beside(domain: Domain, source: Path, content: bytes) -> Source:
     """Return a source that may have a file beside it. Raises SourceError."""
     path = source.with_suffix(domain.beside.SUFFIX) if domain.beside else None
@@ -205,10 +247,16 @@ def joined(domain: Domain, content: bytes, name: str, other: bytes, path: Path |
     """Return a source joined with `other`, the content of the file beside it at `path`. Raises SourceError."""
     beside: Beside | None = domain.beside
     text, lines = beside.join(content, other, shown(path)) if beside and path and other else (content, ())
-    if not lines:
-        return Source(content, name)
-    own = [(line, name, line) for line in range(1, lines[0][0])]
-    return Source(text, name, (*own, *((line, shown(path), other_line) for line, other_line in lines)))  # type: ignore[arg-type] # there is a path
+    return _with_lines(Source(content, name), text, lines, path)
+
+
+def _with_lines(source: Source, text: bytes, lines: Sequence[tuple[int, int]], path: Path | None) -> Source:
+    """Return a source with another text, whose `lines` are those of the file at `path`."""
+    if not lines or path is None:
+        return source
+    own = source.places or [(line, source.name, line) for line in range(1, lines[0][0])]
+    places = (*own, *((line, shown(path), other) for line, other in lines))
+    return msgspec.structs.replace(source, content=text, places=places)
 
 
 def read_file_source(domain: Domain, file: Path, arguments: Mapping[str, str], package_paths: Sequence[Path]) -> Source:

@@ -17,7 +17,7 @@ import time
 import types
 import xml.dom
 import xml.dom.minidom
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from fnmatch import filter as filter_names
 from glob import has_magic
 from pathlib import Path
@@ -230,6 +230,10 @@ class _Copied(xml.dom.UserDataHandler):
 
 _macros = set[str]()
 """Names of the macros in all files that were read."""
+_defaults = set[str]()
+"""Names of the arguments with a default in all files that were read."""
+_uses: dict[str, None] = {}
+"""Names of the arguments that all files that were read use, in order."""
 
 
 def _parse(file: _File) -> Any:
@@ -238,6 +242,10 @@ def _parse(file: _File) -> Any:
     builder.file = file.name
     document = builder.parseFile(file.buffer)
     _macros.update(macro.getAttribute("name") for macro in document.getElementsByTagName("xacro:macro"))
+    declared = document.getElementsByTagName("xacro:arg")
+    _defaults.update(each.getAttribute("name") for each in declared if each.hasAttribute("default"))
+    text = re.sub(r"<!--.*?-->", "", cast(io.BytesIO, file.buffer).getvalue().decode(errors="replace"), flags=re.DOTALL)
+    _uses.update(dict.fromkeys(re.findall(r"\$\(arg\s+([^\s)]+)\s*\)", text)))
     return document
 
 
@@ -280,7 +288,8 @@ def expand(request: Request) -> Answer:
                     name, (_, line) = element.tagName, element.getUserData(_PLACE)
                     said.write(f"warning: <{name}> of line {line} calls no macro: write <xacro:{name} …>\n")
     except Exception as error:  # noqa: BLE001 - expressions may raise anything
-        problem = _problem(error, xacro.filestack[-1] if xacro.filestack else request.source, files.packages)
+        unset = [name for name in _uses if name not in _defaults.union(request.arguments)]
+        problem = _problem(error, xacro.filestack[-1] if xacro.filestack else request.source, files.packages, unset)
     lines = [line.strip() for line in said.getvalue().splitlines()]
     return Answer(
         text,
@@ -324,10 +333,10 @@ def _places(document: Any, text: str) -> Iterator[tuple[int, str, int]]:
         yield line, file, origin
 
 
-def _problem(error: BaseException, current: str, packages: Mapping[str, str]) -> Problem:
+def _problem(error: BaseException, current: str, packages: Mapping[str, str], unset: Sequence[str]) -> Problem:
     """Return why an expansion failed: the innermost cause, and xacro's place; `current` is its present file.
 
-    `packages` are the folders of the ROS packages that the file named.
+    `packages` are the folders of the ROS packages that the file named, `unset` names arguments without a value.
     """
     place, frame = None, error.__traceback__
     while frame is not None:  # the innermost element that xacro is processing
@@ -366,7 +375,10 @@ def _problem(error: BaseException, current: str, packages: Mapping[str, str]) ->
             )
             return Problem("xacro", message, file, line, hint)
     if type(cause).__name__ == "ArgException":
-        return Problem("no-argument", f"the argument `{cause}` is not set", file, line)
+        others = ", ".join(f"`{name}`" for name in unset if name != str(cause))
+        return Problem(
+            "no-argument", f"the argument `{cause}` is not set{f', nor is {others}' if others else ''}", file, line
+        )
     if (mark := getattr(cause, "problem_mark", None)) is not None:  # of YAML
         return Problem("xacro", f"this YAML can't be used: {cause.problem}", mark.name, mark.line + 1)  # type: ignore[attr-defined]
     message = str(cause if str(error).startswith("<class") else error)

@@ -22,6 +22,8 @@ from urdfsync.modelica.tree import (
 
 _ITEM = re.compile(r" #\d+$")
 """Matches the end of the key of a thing that has a number instead of a name."""
+_DOCUMENTATION = "the Documentation"
+"""The element that an edit of a documentation is told of."""
 
 
 class Edit(msgspec.Struct, frozen=True):
@@ -38,11 +40,18 @@ class Edit(msgspec.Struct, frozen=True):
     def told(self) -> str:
         """The change in words, without the element."""
         what = f"{self.part} " if self.part else ""
+        if self.element == _DOCUMENTATION:  # long, and HTML
+            return f"{what}changed"
         if self.base is None or self.mine is None:
             return f"{what}{'added' if self.base is None else 'removed'}"
         if self.part in ("layout", "order of inputs and outputs"):
             return f"{what}{'moved' if self.part == 'layout' else 'changed'}"
         return f"{what}{quoted(self.base)} → {quoted(self.mine)}"
+
+    @property
+    def is_for_readers(self) -> bool:
+        """Whether only words changed that no simulation reads."""
+        return self.element == _DOCUMENTATION or self.part == "description"
 
 
 def find_edits(base: str, mine: str) -> list[Edit] | None:
@@ -101,8 +110,9 @@ def _differences(
 
 
 def in_words(edits: Sequence[Edit]) -> list[tuple[str, str]]:
-    """Return the elements and their changes in words; layout and comments are one line each."""
-    lines = [(edit.element, edit.told) for edit in edits if edit.element != "comments" and edit.part != "layout"]
+    """Return the elements and their changes in words, words for readers last; layout and comments are one line each."""
+    told = [edit for edit in edits if edit.element != "comments" and edit.part != "layout"]
+    lines = [(edit.element, edit.told) for edit in sorted(told, key=lambda edit: edit.is_for_readers)]
     if moved := {edit.element for edit in edits if edit.part == "layout"}:
         what = "1 element" if len(moved) == 1 else f"{len(moved)} elements"
         lines.append(("layout", f"{what} placed or drawn in another way"))

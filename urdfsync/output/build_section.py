@@ -114,7 +114,7 @@ def out_of_step(result: Result) -> Diagnostic | None:
 def _conflicts(result: Result) -> Iterable[Diagnostic]:
     """Yield a finding for each file in conflict."""
     for target in result.conflicts:
-        message = f"{reason(target.action, result.changes, brief=True)}: {target.relation}"
+        message = f"{reason(target.action, result.changes)}: {target.relation}"
         place, hint = (target.shown, _edited_line(target)), settle_hint([target])
         yield Diagnostic(Severity.ERROR, "conflict", message, *place, hint=hint)
 
@@ -150,7 +150,7 @@ def file_table(result: Result, actions: Sequence[Action], **options: Any) -> Tab
     """Return a table of the actions, edited files first; `options` are those of `Table`."""
     actions = sorted(actions, key=lambda action: (action.reason not in EDITED, action.path.rpartition("/")))
     words = ["waiting" if action.is_waiting else str(action.reason) for action in actions]
-    reasons = [reason(action, result.effective_changes, brief=True) for action in actions]
+    reasons = [reason(action, result.effective_changes) for action in actions]
     rows = list(zip([result.shown(action.path) for action in actions], words, reasons, strict=True))
     options = {"line": file_line, "most": len(rows), **options}
     return Table("Files", ("File", "", "Why"), rows, **options)

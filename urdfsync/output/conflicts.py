@@ -63,7 +63,7 @@ def _full_lines(target: DisputedFile, console: Console, choices: Mapping[str, st
     """Yield lines about one conflict: the reason, the differences, the saved versions, and the first of the choices."""
     result, action, name = target.result, target.action, target.shown
     yield line(("  conflict   ", "bold red"), (name, "bold"), (f"  {action.owner}", "dim"))
-    clauses = [reason(action, result.changes, brief=True), target.relation]
+    clauses = [reason(action, result.changes), target.relation]
     clauses += [f"it will be moved to {result.shown(action.path)}"] if action.origin else []
     yield from (line((f"    {_sentence(clause)}", "")) for clause in clauses)
     if target.texts:

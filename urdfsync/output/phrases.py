@@ -7,8 +7,6 @@ from collections import Counter
 from urdfsync.changes import Changes
 from urdfsync.domain import ChangeClass, ChangeKind, Role
 from urdfsync.engine.actions import Action, Choice, Reason
-from urdfsync.output.outline import change_row
-from urdfsync.spelling import counted
 
 _NAMED = {
     Reason.UPDATE: "{}",
@@ -30,16 +28,16 @@ _CHOSEN = {
 """The content of a file after a choice, in words."""
 
 
-def reason(action: Action, changes: Changes | None, *, brief: bool = False) -> str:
+def reason(action: Action, changes: Changes | None) -> str:
     """Return the reason of an action, as the end of a sentence that begins with the path, and what it waits for.
 
-    The reason names changes of the model, if any: `link forearm: mass 1.2 → 1.4 kg (+16.7 %)`. If `brief`, it names
-    only their elements, since the changes are listed beside it.
+    The reason names the changed elements of the model, if any: `link forearm and 2 more`. Their changes are listed
+    beside it.
     """
-    return "; ".join(filter(None, [_cause(action, changes, brief=brief), action.replaces, action.waits_for]))
+    return "; ".join(filter(None, [_cause(action, changes), action.replaces, action.waits_for]))
 
 
-def _cause(action: Action, changes: Changes | None, *, brief: bool) -> str:
+def _cause(action: Action, changes: Changes | None) -> str:
     if action.choice and not action.is_conflict:
         is_orphan = action.generated is None and action.choice is not Choice.UNDO
         kept = "yours from now on" if action.choice is Choice.KEEP else "deleted; --undo brings it back"
@@ -55,12 +53,9 @@ def _cause(action: Action, changes: Changes | None, *, brief: bool) -> str:
     if not (causes or changes.generator):
         return action.reason.text
     cause = generator_change(changes)
-    if causes and brief:
+    if causes:
         elements = list(dict.fromkeys(change.element for change in causes))
         cause = f"{elements[0]} and {len(elements) - 1} more" if len(elements) > 1 else elements[0]
-    elif causes:
-        more = f", and {counted(len(causes) - 1, 'more change')}" if len(causes) > 1 else ""
-        cause = f"{causes[0].element}: {change_row(causes[:1])}{more}"
     return _NAMED[action.reason].format(cause)
 
 

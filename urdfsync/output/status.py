@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from urdfsync.engine.actions import Action, FileStatus, Reason
 from urdfsync.engine.result import Result
-from urdfsync.output.build_section import mark_of
+from urdfsync.output.build_section import change_parts, mark_of
 from urdfsync.output.conflicts import settle_hint
 from urdfsync.output.console import line
-from urdfsync.output.phrases import change_counts, generator_change, reason
+from urdfsync.output.phrases import reason
 from urdfsync.output.sections import Section, Table
 from urdfsync.output.terminal import file_line
 
@@ -20,7 +20,7 @@ def status_section(result: Result, *, verbose: bool | None = False) -> Section:
     Stale files come last. New files of a robot that was never built are only counted.
     """
     changes = result.effective_changes
-    source = changes and (generator_change(changes) if changes.generator else f"{change_counts(changes)} in the source")
+    points, changed = change_parts(changes)
     silent = set() if verbose else {FileStatus.IN_STEP} | (set() if result.is_built else {FileStatus.STALE})
     listed = [action for action in result.actions if action.status and action.status not in silent]
     conflicts = {file.action.path: file.relation for file in result.conflicts}
@@ -32,6 +32,7 @@ def status_section(result: Result, *, verbose: bool | None = False) -> Section:
         group.append((result.shown(_path(action)), str(action.status), why))
     inputs = [(name,) for name in result.stale]
     tables = (
+        *changed,
         Table("Inputs", ("Input",), inputs, lambda name: line((f"  {name}", "")), 5, "input"),
         Table("Files", _COLUMNS, others, file_line, len(others)),
         Table("Stale files", _COLUMNS, stale, file_line, 20, "stale file"),
@@ -39,7 +40,7 @@ def status_section(result: Result, *, verbose: bool | None = False) -> Section:
     adopts = f"`urdfsync adopt {result.robot}` takes these files for your edits"
     hints = [settle_hint(result.conflicts) if result.is_built else adopts] if conflicts else []
     about = result.robot, summary(result), mark_of(result)
-    return Section(*about, [line((f"  {source}", ""))] if source else [], tables, result.diagnostics, hints=hints)
+    return Section(*about, points, tables, result.diagnostics, hints=hints)
 
 
 def _path(action: Action) -> str:

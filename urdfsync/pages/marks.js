@@ -86,7 +86,7 @@ class Ruler {
   words() {
     if (!this.isOn) return "";
     const { way } = this;
-    if (!way) return this.ends.length ? "Ruler: click on the second point" : "Ruler: click on the first point of the robot";
+    if (!way) return this.ends.length ? "Ruler: click on the second point" : "Ruler: click on the first point";
     return `${way.length().toFixed(4)} m: x ${way.x.toFixed(4)}, y ${way.y.toFixed(4)}, z ${way.z.toFixed(4)}`;
   }
 }

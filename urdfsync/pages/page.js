@@ -73,7 +73,7 @@ function refresh() {
 
 /* Says something beside the picture; without words, what is measured or selected. */
 function say(words) {
-  const bare = data.now.bodies.some((body) => body.shapes.length) ? "" : "This robot has no shapes: its frames are shown.";
+  const bare = data.now.bodies.some((body) => body.shapes.length) ? "" : `This ${data.now.noun} has no shapes: its frames are shown.`;
   element("told").textContent = words || page.ruler?.words() || page.selected || bare;
 }
 
@@ -299,7 +299,8 @@ addEventListener("pointerdown", (event) => { // a click elsewhere closes the men
 });
 if (data.before) {
   for (const id of ["versions", "legend"]) element(id).hidden = false;
-  const titles = { before: `Only the old robot: ${data.against}`, both: "Old and new robot in one picture (b)", now: "Only the new robot" };
+  const { noun } = data.now;
+  const titles = { before: `Only the old ${noun}: ${data.against}`, both: `Old and new ${noun} in one picture (b)`, now: `Only the new ${noun}` };
   for (const [name, label] of Object.entries(VERSIONS)) {
     element("versions").append(make("button", { type: "button", id: `version-${name}`, "aria-pressed": String(name === page.version), title: titles[name] }, label, { click: () => chooseVersion(name) }));
   }

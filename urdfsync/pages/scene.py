@@ -110,6 +110,8 @@ class Scene(msgspec.Struct, frozen=True):
     loops: tuple[Loop, ...] = ()
     height: float | None = None
     """The height of the root above the ground when the robot stands there at its start; None if its base is fixed."""
+    noun: str = "robot"
+    """The whole in one word."""
 
 
 class Triangles(msgspec.Struct, frozen=True):

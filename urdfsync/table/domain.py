@@ -132,7 +132,8 @@ def _package(folder: str, data: Mapping[str, Any]) -> Artifact:
 def _element(snapshot: Table, key: str, options: Options) -> dict[str, Any]:
     """Return an element as templates have it; an empty cell is None in its row."""
     row = snapshot.elements[key]
-    names = {"name": key, "class": type_name(key), "component": component_name(key), "units": snapshot.columns}
+    names: dict[str, Any] = {"name": key, "class": type_name(key), "component": component_name(key)}
+    names["units"] = dict(sorted(snapshot.columns.items()))  # a recorded table has them in this order
     return {**names, "kind": row.get(options.kind, ""), "row": dict.fromkeys(sorted(snapshot.columns)) | row}
 
 

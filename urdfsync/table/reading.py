@@ -52,7 +52,7 @@ class _Reader:
 
     def read(self, elements: Sheet, connections: Sheet) -> Table:
         """Return the table; it is whole if there is no error among the findings."""
-        key = self._options.key or (_name_and_unit(elements.header[0])[0] if elements.header else "")
+        key = self._options.key or (name_and_unit(elements.header[0])[0] if elements.header else "")
         columns = self._columns(elements, {key, self._options.kind} - {""})
         links = self._columns(connections, {FROM, TO})
         known = {column.name for column in (*columns, *links)}
@@ -88,7 +88,7 @@ class _Reader:
         """Return the columns; those of `texts` have texts."""
         columns = list[_Column]()
         for number, cell in enumerate(sheet.header):
-            name, unit = _name_and_unit(cell)
+            name, unit = name_and_unit(cell)
             if not name or not name.isprintable():
                 self._error("no-column", f"column {number + 1} has no name", 1, "name it in the header")
             elif name in (column.name for column in columns):
@@ -168,7 +168,7 @@ class _Reader:
             row = dict[str, Value]()
             for column, cell in zip(columns, cells, strict=True):
                 try:
-                    if (value := _value(cell, column.type)) is not None:
+                    if (value := read_value(cell, column.type)) is not None:
                         row[column.name] = value
                 except ValueError as error:
                     self._error("bad-cell", f"column `{column.name}`: {error}", line, "correct the cell")
@@ -181,7 +181,8 @@ class _Reader:
         self.of_options.append((option, Diagnostic(Severity.ERROR, "no-column", message, hint=hint)))
 
 
-def _name_and_unit(header: str) -> tuple[str, str]:
+def name_and_unit(header: str) -> tuple[str, str]:
+    """Return the name and the unit in a cell of a header; both may be empty."""
     match = _HEADER.fullmatch(header)
     return (match["name"], (match["unit"] or "").strip()) if match else (header, "")
 
@@ -192,7 +193,7 @@ def _is_number(cell: object) -> bool:
     return isinstance(cell, int | float) and not isinstance(cell, bool)
 
 
-def _value(cell: object, kind: Unit | str) -> Value | None:
+def read_value(cell: object, kind: Unit | str) -> Value | None:
     """Return the value of a cell in SI; None if it is empty. Raises ValueError."""
     text = cell.strip() if isinstance(cell, str) else cell
     if text is None or text == "":

@@ -53,7 +53,7 @@ def scene(
             lines.append(Shape("visual", "box", size, pose, (0.55, 0.55, 0.55, 1.0)))
     rest = len(table.elements) - len(places)
     missing = (f"{rest:,} further elements",) if rest else ()
-    return Scene((Body(root, target.name, (), tuple(lines)), *bodies), tuple(hinges), missing), {}
+    return Scene((Body(root, target.name, (), tuple(lines)), *bodies), tuple(hinges), missing, noun="table"), {}
 
 
 def named_poses(source: Path, table: Table) -> tuple[Mapping[str, Mapping[str, float]], Sequence[str]]:  # noqa: ARG001 - see `Pictures`

@@ -36,7 +36,12 @@ def check_options(tree: KinematicTree, closed: Assembly, options: Options) -> It
     ranges = {joint.name: own_range(joint) for joint in joints if can_be_driven(joint)}
     drivable, driven = list(ranges), wanted_joints(joints, options)
     checks: list[tuple[str, Sequence[str], Collection[str], str, str]] = [
-        (f"start.{name}", (name,), drivable, _DRIVABLE, "start-of-no-joint") for name in options.start
+        (f"{option}.{name}", (name,), drivable, _DRIVABLE, code)
+        for option, names, code in (
+            ("start", options.start, "start-of-no-joint"),
+            ("motors", options.motors, "drive-of-no-joint"),
+        )
+        for name in names
     ]
     for name, start in options.start.items():
         lower, upper = ranges.get(name, (start, start))
@@ -75,6 +80,10 @@ def check_options(tree: KinematicTree, closed: Assembly, options: Options) -> It
     if "record" in options.approach and tree.loops:
         message = "the record approach has no loops: the generic robot would be open"
         yield "approach", Diagnostic(Severity.ERROR, "loops-not-in-record", message, hint=_NO_RECORD)
+    for joint in (joint for joint in joints if joint.name in options.motors and joint.motor is None):
+        message = f"the catalogue has no row `{options.motors[joint.name]}`, which `motors` names"
+        hint = f"add it to {options.catalogue}, or correct its name" if options.catalogue else "set `catalogue`"
+        yield f"motors.{joint.name}", Diagnostic(Severity.ERROR, "no-row", message, hint=hint)
     for finding in validate.check_loops(configured_loops(options.loops), links):
         name = finding.path.removeprefix("loop ").partition(" #")[0]
         yield f"loops.{name}", validate.diagnostic(finding.code, finding.message, 0, finding.hint)

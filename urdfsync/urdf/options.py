@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Annotated, Literal, TypeAlias
+from typing import Annotated, Literal, TypeAlias, get_args
 
 import msgspec
 
@@ -17,6 +17,9 @@ _VISUALIZER_USES = {"visualization2": ("Visualization2", "1.1")}
 
 
 FrictionLaw: TypeAlias = Literal["smooth", "stiction", "lugre"]
+MotorNumber: TypeAlias = Literal["effort", "velocity", "damping", "friction", "armature", "reduction", "rotor_inertia"]
+_MOTOR_NUMBERS = msgspec.Meta(extra_json_schema={"propertyNames": {"enum": [*get_args(MotorNumber)]}})
+"""msgspec leaves the keys of a mapping out of schemas."""
 LeftOut: TypeAlias = Literal["loop-joint", "stray-inertial"]
 """Codes of errors about moving parts that can't be in the robot's model."""
 
@@ -69,6 +72,12 @@ class Options(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """URDF names of driven joints whose drives keep their limits of effort and velocity."""
     drives: Literal["joint", "motor"] = "joint"
     """`motor`: the robot model has a flange at the motor's side of each gear, too."""
+    catalogue: str = ""
+    """The table whose rows have numbers of drives, as a path from the folder of the configuration."""
+    motors: Mapping[str, str] = {}
+    """Rows of the catalogue by URDF names of joints: their numbers replace those of the source."""
+    motor_columns: Annotated[Mapping[MotorNumber, str | tuple[str, ...]], _MOTOR_NUMBERS] = {}
+    """Columns of the catalogue by their numbers: the first filled one counts; by default the one of that name."""
     frames: Literal["leaves", "all"] | tuple[str, ...] = "leaves"
     """URDF names of links with a frame in the robot model; leaves always have one."""
     inputs: Literal["names", "vector"] = "names"

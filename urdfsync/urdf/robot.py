@@ -245,6 +245,13 @@ class Transmission(msgspec.Struct, frozen=True, gc=False):
     joint_reduction: float | None = None
 
 
+class Motor(msgspec.Struct, frozen=True, gc=False):
+    """The row of the catalogue that a joint has numbers from, and the names of these numbers."""
+
+    row: str
+    numbers: tuple[str, ...]
+
+
 class Mimic(msgspec.Struct, frozen=True, gc=False):
     """Position = `multiplier` · position of `joint` + `offset`, by `<mimic>`, `<ros2_control>` or a plugin."""
 
@@ -293,6 +300,7 @@ class Joint(msgspec.Struct, frozen=True, gc=False):
     """Quantity by which the source commands the joint; None for the position."""
     start: Annotated[float | None, _POSITION] = None
     """Position at which a simulation begins; None: by the limits, see `kinematics.poses.start_positions`."""
+    motor: Motor | None = None
 
 
 class Loop(msgspec.Struct, frozen=True, gc=False):

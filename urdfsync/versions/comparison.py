@@ -222,15 +222,17 @@ def _with_version(
         arguments, folders = robot.arguments or {}, (*robot.package_paths, *options.package_paths)
         if _is_file(against, source, folder):
             file = folder / against
-            other = _VersionedSource(source_files.read_file_source(domain, file, arguments, folders), (file, source))
+            text = source_files.read_file_source(domain, file, arguments, folders)
+            other = _VersionedSource(source_files.with_catalogue(config, robot, text), (file, source))
         else:
             revision = Revision(source.parent, against)
-            text = _in_revision(revision, robot, config)
+            text = source_files.with_catalogue(config, robot, _in_revision(revision, robot, config), revision.contents)
             other = _VersionedSource(text, (source,), revision, Path(scratch))
         if config and not robot.command:  # the file may be expanded already
             text = source_files.read_source(config, robot, Store(config.root), options)
         else:
             text = source_files.read_file_source(domain, source, arguments, folders)
+            text = source_files.with_catalogue(config, robot, text)
         current = _VersionedSource(text, (source,))
         new, imported, told = _read(domain, robot, current, imports.Imported(), options)
         old, imported_before, told_before = _read(domain, robot, other, imported, options)

@@ -21,6 +21,7 @@ from urdfsync.urdf.meshes import lookup
 from urdfsync.urdf.model.joint import joint_model
 from urdfsync.urdf.model.shapes import link_model, link_shapes, touching
 from urdfsync.urdf.options import Options
+from urdfsync.urdf.parse.catalogue import NUMBERS
 from urdfsync.urdf.robot import MOTION_KINDS, Collision, Joint, Link, Mesh, Unit, Visual, effective, structure
 
 _Fields: TypeAlias = Sequence[str | int]
@@ -74,6 +75,8 @@ def _describe(difference: Difference, old: _Side, new: _Side, options: Options) 
             driven = (name in wanted_joints(side.joints.values(), options) for side in (old, new))
             reach = ChangeClass.STRUCTURAL if any(driven) else ChangeClass.UNMODELLED
             return difference.change((f"joint {name}", "command"), reach)
+        case ("joints", _, "motor", *_):
+            return None  # the option is reported, and its numbers are changes of their own
         case ("joints", str(name), *fields):
             units = [
                 _joint_unit(name, side.joints, fields)
@@ -81,8 +84,10 @@ def _describe(difference: Difference, old: _Side, new: _Side, options: Options) 
                 if value is not None
             ]
             reach = _reach(old.joints[name], new.joints[name], difference, old, new, options)
+            motor, number = new.joints[name].motor, NUMBERS.get(tuple(fields))
+            words = [f"motor {motor.row}", number] if motor and number in motor.numbers else fields
             return difference.change(
-                _path([f"joint {name}", *fields]), reach, " → ".join(dict.fromkeys(filter(None, units)))
+                _path([f"joint {name}", *words]), reach, " → ".join(dict.fromkeys(filter(None, units)))
             )
         case ("sensors" | "loops" as part, str(name), *fields):
             is_structural = not fields or fields[0] in _STRUCTURE

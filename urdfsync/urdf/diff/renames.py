@@ -15,7 +15,7 @@ from urdfsync.urdf.drives import can_be_driven, passive_joints
 from urdfsync.urdf.robot import SENSOR_KINDS, Collision, Mesh, Robot, Visual
 
 _NAMES = frozenset(
-    {"name", "parent", "child", "joint", "actuated", "measured", "drive", "transmission", "command", "start"}
+    {"name", "parent", "child", "joint", "actuated", "measured", "drive", "transmission", "command", "start", "motor"}
 )
 """Entries of joints and loops that are names, or follow from names elsewhere, such as those of the configuration."""
 _Said: TypeAlias = tuple[Any, Mapping[str, str]]

@@ -51,7 +51,7 @@ _REPEATED = ("visual", "collision")
 _LENGTHS = {"xyz": 3, "rpy": 3, "quat_xyzw": 4}
 """Vectors that may be meant by an unknown attribute, with their counts of numbers."""
 _POSE = 6
-_ELSEWHERE = ("transmission", "start")
+_ELSEWHERE = ("transmission", "start", "motor")
 """Fields that are not read from the element of their struct, but elsewhere."""
 _STILL = frozenset({Link, Visual, Collision, Calibration, SafetyController, *get_args(Geometry)})
 """Structs of elements in which unknown parts do not change the motion."""

@@ -19,6 +19,7 @@ from urdfsync.urdf import validate
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.parse import xml
 from urdfsync.urdf.parse.beside import AXES, split_joints
+from urdfsync.urdf.parse.catalogue import Row, read_rows, with_row
 from urdfsync.urdf.parse.drives import configured_drives, read_drives, with_drives
 from urdfsync.urdf.parse.elements import read_joint, read_link, read_material, resolve_materials
 from urdfsync.urdf.parse.fields import Reader, quoted, summary
@@ -69,7 +70,8 @@ def read_robot(content: bytes, file: str, options: Options = _DEFAULTS, balls: S
     except xml.ParseError as error:
         return RobotReading(None, summary([error.diagnostic], file), {})
     reader = Reader(document.lines, options.allow)
-    robot = _read(reader, document, options) if _is_urdf(reader, document) else None
+    rows = read_rows(reader, document.root)
+    robot = _read(reader, document, options, rows) if not reader.failed and _is_urdf(reader, document) else None
     diagnostics = summary([*document.warnings, *reader.diagnostics], file)
     if robot is None or reader.failed:
         return RobotReading(None, diagnostics, reader.lines)
@@ -160,7 +162,7 @@ def _read_version(reader: Reader, root: Element) -> tuple[int, int]:
     return version
 
 
-def _read(reader: Reader, document: xml.Document, options: Options) -> Robot:
+def _read(reader: Reader, document: xml.Document, options: Options, rows: Mapping[str, Row]) -> Robot:
     """Return the robot; it is complete only if no diagnostic is an error."""
     root = document.root
     reader.place(root, "robot")
@@ -208,6 +210,7 @@ def _read(reader: Reader, document: xml.Document, options: Options) -> Robot:
     links = [link for link in all_links if link.name]
     all_drives = [*configured_drives(options), *drives]
     joints = with_drives(reader, (joint for joint in all_joints if joint and joint.name), all_drives)
+    joints = [with_row(reader, joint, rows.get(joint.name)) for joint in joints]
     complete = len(links) == len(all_links) and len(joints) == len(all_joints)
     by_path = dict(zip(validate.element_paths("link", [link.name for link in links]), links, strict=True))
     defined = {material.get("name", "") for material in root.iter("material") if len(material)}

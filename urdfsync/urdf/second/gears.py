@@ -9,6 +9,7 @@ from xml.etree.ElementTree import Element
 
 import numpy as np
 
+from urdfsync.urdf.second.catalogue import read_motors
 from urdfsync.urdf.second.plain import decimal
 
 
@@ -41,6 +42,11 @@ def read_gears(root: Any) -> dict[str, Gear]:
         for name, each in (found or {}).items():
             if each != Gear() and (not each.joint or {name, each.joint} <= turning):
                 gears.setdefault(name, each)
+    for name, row in read_motors(root).items():
+        gear = gears.get(name, Gear())
+        gear = gear._replace(reduction=row.get("reduction", gear.reduction), rotor=row.get("rotor_inertia", gear.rotor))
+        if gear != Gear():
+            gears[name] = gear
     return gears
 
 

@@ -1,5 +1,7 @@
 """Writes a source as plain URDF: SDFormat's elements become attributes, and joints with several axes become chains.
 
+Joints have the numbers of the catalogue, but for gears, which have no attributes.
+
 The second reader and Pinocchio read the result. Only the decoding of bytes is shared with the first reader.
 """
 
@@ -13,6 +15,7 @@ from typing import Any
 from lxml import etree
 
 from urdfsync.urdf.parse import xml
+from urdfsync.urdf.second.catalogue import PATHS, read_motors
 
 _ALONE = {"parent": "link", "child": "link", "mass": "value", "axis": "xyz"}
 """Elements whose text has the meaning of an attribute."""
@@ -62,6 +65,12 @@ def plain_root(content: bytes, joints: Collection[str] | None = None) -> Any:
         for name, text in texts.items():
             if name not in element.attrib and (text or "").strip():
                 element.set(name, text.strip())
+    for name, numbers in read_motors(root).items():
+        for number, size in numbers.items():
+            tag = PATHS[number].partition(".")[0].replace("limits", "limit")
+            for joint in root.xpath("joint[@name=$name]", name=name) if tag != "transmission" else ():
+                part = joint.find(tag)
+                (etree.SubElement(joint, tag) if part is None else part).set(number, repr(size))
     return root
 
 

@@ -20,6 +20,7 @@ import yourdfpy
 from lxml import etree
 
 from urdfsync.urdf.options import LoopFrame, Options
+from urdfsync.urdf.second.catalogue import PATHS, read_motors
 from urdfsync.urdf.second.gears import Gear, read_gears
 from urdfsync.urdf.second.plain import decimal, plain_root
 
@@ -139,6 +140,10 @@ def read_again(content: bytes, options: Options, names: Collection[str] | None =
     joints = {each.name: each for each in _joints(root, gears, options, version)}
     reading = Reading(root.get("name", ""), links, joints)
     _ask_yourdfpy(reading, root)
+    rows = {row.get("joint"): row.sourceline for row in root.iterchildren("catalogue_row")}
+    for name, motor in read_motors(root).items():
+        for path in (PATHS[number] for number in motor if name in joints):
+            joints[name].values[path] = joints[name].values[path]._replace(line=rows[name])
     reading.sensors = {each.name: each for each in _sensors(root, reading)}
     reading.loops = {each.name: each for each in _loops(root, reading, options)}
     above = {joint.child: joint for joint in joints.values()}
@@ -381,7 +386,8 @@ def _put_drive(
             if drive.get(key) is not None:
                 first.setdefault(key, (drive[key], drive["at"]))
     if gear:
-        joint.shares, at = gear.joint, next(drive["at"] for drive in drives if drive["at"].tag == "transmission")
+        joint.shares = gear.joint
+        at = next((drive["at"] for drive in drives if drive["at"].tag == "transmission"), element)
         gears = gear.reduction, gear.offset, gear.rotor, gear.joint_reduction if gear.joint else None
         for field, number in zip(("reduction", "offset", "rotorInertia", "otherReduction"), gears, strict=True):
             if number is not None:

@@ -1,0 +1,137 @@
+"""A robot that takes numbers from a table of motors: what its users do, and what follows."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import pytest
+from support.answers import save, saved
+from support.commands import Execute
+from support.git import NEEDS_GIT, Repository
+from support.networks import edit
+
+from urdfsync import config
+from urdfsync.answers import facts
+from urdfsync.engine.build import build
+from urdfsync.engine.options import BuildOptions
+from urdfsync.engine.result import Exit
+
+EXAMPLE = Path(__file__).parent / "examples/servos"
+SERVOS, ELBOW = Path("catalogue/servos.csv"), Path("modelica/Arm/Joints/ElbowParameters.mo")
+
+
+@pytest.fixture
+def project(folder: Path, execute: Execute) -> Path:
+    """The example, after a first build."""
+    shutil.copytree(EXAMPLE, folder, dirs_exist_ok=True)
+    assert "23 files written" in execute("build").out
+    return folder
+
+
+def test_a_changed_row_renews_one_record(project: Path, execute: Execute) -> None:
+    edit(SERVOS, "S41,410", "S41,430")
+    found = execute("diff", "arm", code=1)
+    assert "1 parameter change since the last build" in found.words
+    assert "joint elbow: motor S41 / effort 4.1 → 4.3 N·m (+4.88 %)" in found.words
+    assert found.out.count("update ") == 1
+    assert "servos: 1 file written" in (written := execute("build").words)
+    assert "arm: 1 file written" in written
+    assert "effort = 4.3)" in ELBOW.read_text()
+
+
+def test_a_row_that_no_joint_has_changes_no_robot(project: Path, execute: Execute) -> None:
+    SERVOS.write_text(f"{SERVOS.read_text()}S99,900,20,500,1,5,0.1,,,,\n")
+    assert "arm: in step" in execute("build", "arm").out
+
+
+def test_another_row_is_a_change_of_options(project: Path, execute: Execute) -> None:
+    edit(Path("urdfsync.toml"), 'elbow = "S41"', 'elbow = "S60"')
+    found = execute("diff", "arm", code=1).words
+    assert "the option `motors` changed" in found
+    assert "joint elbow: motor S60 / reduction 353.5 → 200" in found
+
+
+def test_an_edited_number_is_kept(project: Path, execute: Execute) -> None:
+    edit(ELBOW, "effort = 4.1)", "effort = 3)")
+    edit(SERVOS, "S41,410", "S41,430")
+    assert "joint elbow" in execute("build", "arm", code=Exit.CONFLICT).words
+    assert "effort = 3)" in ELBOW.read_text()
+
+
+def test_the_catalogue_is_read_by_saved_answers_and_the_daemon(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(facts, "YOUNG", 0)
+    loaded = config.load(Path("urdfsync.toml"))
+    (result,) = build(loaded, loaded.select(["arm"]), BuildOptions())
+    assert str(SERVOS.absolute()) in {str(path) for _, path in result.reads.entries}
+    save("build", "arm")
+    assert saved("build", "arm") is not None
+    edit(SERVOS, "S41,410", "S41,430")
+    assert saved("build", "arm") is None
+
+
+@NEEDS_GIT
+def test_a_revision_has_the_catalogue_of_its_time(
+    project: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    SERVOS.rename("later.csv")
+    repository = Repository(project, monkeypatch)
+    repository.commit()
+    Path("later.csv").rename(SERVOS)
+    repository.commit()
+    edit(SERVOS, "S41,410", "S41,430")
+    found = execute("diff", "arm", "--against", "HEAD", code=1).words
+    assert "1 parameter change since HEAD joint elbow: motor S41 / effort 4.1 → 4.3 N·m" in found
+    assert (
+        "joint elbow: motor S41 / effort 100 → 4.3 N·m" in execute("diff", "arm", "--against", "HEAD~1", code=1).words
+    )
+    shutil.copy("arm.urdf", "other.urdf")
+    edit(Path("other.urdf"), '<mass value="4"/>', '<mass value="5"/>')
+    found = execute("diff", "arm", "--against", "other.urdf", code=1).words
+    assert "link base: inertial / mass 5 → 4 kg" in found
+    assert "motor" not in found
+
+
+def test_a_robot_in_xacro_has_one_too(project: Path, execute: Execute) -> None:
+    pytest.importorskip("xacro")
+    text = (
+        Path("arm.urdf").read_text().replace('<robot name="arm">', '<robot name="arm" xmlns:xacro="http://ros.org/w">')
+    )
+    Path("arm.urdf.xacro").write_text(text)
+    edit(Path("urdfsync.toml"), '"arm.urdf"', '"arm.urdf.xacro"')
+    assert "arm: " in execute("build", "arm").out
+    assert "effort = 4.1)" in ELBOW.read_text()
+    edit(SERVOS, "S41,410", "S41,four")
+    assert "catalogue/servos.csv:3: error: effort of joint `elbow`" in execute("build", "arm", code=Exit.ERROR).words
+
+
+def test_a_workbook_or_data_are_catalogues_too(project: Path, execute: Execute) -> None:
+    rows = 'S60 = {"effort [N.m]" = 6}\nS41 = {"effort [N.m]" = 4}\nL200 = {"armature [kg]" = 0.5}\n'
+    Path("catalogue/servos.toml").write_text(rows)
+    text = Path("urdfsync.toml").read_text().partition("[robots.arm.motor_columns]")[0]
+    Path("urdfsync.toml").write_text(
+        text.replace('catalogue = "catalogue/servos.csv"', 'catalogue = "catalogue/servos.toml"')
+    )
+    execute("build", "arm")
+    assert "effort = 4)" in ELBOW.read_text()
+    assert "armature = 0.5" in ELBOW.with_name("GripParameters.mo").read_text()
+
+
+TOML, CSV = "urdfsync.toml", str(SERVOS)
+
+
+@pytest.mark.parametrize(("file", "old", "new", "place"), [
+    (TOML, 'elbow = "S41"', 'elbow = "S14"', f"{TOML}:11: error: robot `arm`: the catalogue has no row `S14`"),
+    (TOML, 'elbow = "S41"', 'elbo = "S41"', f"{TOML}:11: error: robot `arm`: `motors` names `elbo`"),
+    (TOML, 'servos.csv"\nmotors', 'x.csv"\nmotors', f"{TOML}:10: error: robot `arm`: the catalogue catalogue/x.csv"),
+    (TOML, '"rotor"', '"roter"', f"{CSV}:1: error: there is no column `roter`; did you mean `rotor`?"),
+    (TOML, "damping =", "damper =", f"{TOML}:13: error: `motor_columns` must be a table of"),
+    (CSV, "[N.cm]", "[kg]", f"{CSV}:2: error: effort of joint `shoulder` in the row `S60`: kg can't"),
+])  # fmt: skip
+def test_a_fault_has_a_file_and_a_line(
+    project: Path, execute: Execute, file: str, old: str, new: str, place: str
+) -> None:
+    edit(Path(file), old, new)
+    found = execute("build", "arm", code=Exit.ERROR)
+    assert place in found.words
+    assert found.words.count(" error: ") == 1

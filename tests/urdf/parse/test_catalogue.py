@@ -1,0 +1,192 @@
+"""Rows of a catalogue: both readers have their numbers in SI, and a fault names its line."""
+
+from __future__ import annotations
+
+import math
+import sys
+from typing import Any
+
+import pytest
+from msgspec.structs import replace
+from support.numbers import differences
+from support.urdfs import joint, link, robot
+
+from urdfsync.diagnostics import Severity, SourceError
+from urdfsync.urdf.domain import DOMAIN
+from urdfsync.urdf.options import Options
+from urdfsync.urdf.parse.catalogue import join
+from urdfsync.urdf.parse.source import read_robot
+from urdfsync.urdf.physics import reference
+from urdfsync.urdf.physics.completion import completed_for_pinocchio
+from urdfsync.urdf.robot import Dynamics, Joint, Limit, Motor, Transmission
+from urdfsync.urdf.second.reading import read_again
+
+LOSSES = '<dynamics damping="0.5" friction="0.1" armature="0.01"/>'
+GEAR = (
+    '<transmission name="t"><joint name="elbow"><offset>0.1</offset></joint>'
+    "<actuator><mechanicalReduction>50</mechanicalReduction></actuator></transmission>"
+)
+URDF = robot(
+    *(link("base", 2.0), link("a", 1.0), link("b", 1.0), link("c", 1.0)),
+    joint("elbow", "revolute", "base", "a", axis="0 0 1", inside=[LOSSES]),
+    joint("lift", "prismatic", "a", "b", axis="0 1 0"),
+    joint("wheel", "continuous", "b", "c", axis="0 0 1"),
+    GEAR,
+)
+HEADER = (
+    "name,torque [N.cm],force [kN],velocity [deg/s],speed [mm/s],"
+    "reduction [integer],pitch [turn/m],rotor [g.cm2],armature [kg.m2]"
+)
+CSV = f"{HEADER}\nS,410,,180,,353,,0.6,\nL,,0.2,,120,,500,4.5,\nN,5,,90,,,,,0.02\n"
+COLUMNS = {
+    "effort": ("torque", "force"),
+    "velocity": ("velocity", "speed"),
+    "reduction": ("reduction", "pitch"),
+    "rotor_inertia": "rotor",
+}
+OPTIONS: dict[str, Any] = {
+    "catalogue": "motors.csv",
+    "motors": {"elbow": "S", "lift": "L", "wheel": "N"},
+    "motor_columns": COLUMNS,
+}
+
+
+def joined(csv: str = CSV, urdf: str = URDF, **options: Any) -> bytes:
+    return join(urdf.encode(), csv.encode(), "motors.csv", Options(**{**OPTIONS, **options}))[0]
+
+
+def joints(content: bytes) -> dict[str, Joint]:
+    reading = read_robot(content, "a.urdf")
+    assert reading.robot is not None, reading.diagnostics
+    return {joint.name: joint for joint in reading.robot.joints}
+
+
+def test_numbers_of_a_row_replace_those_of_the_source() -> None:
+    found = joints(joined())
+    assert found["elbow"].limit == Limit(-3, 3, 4.1, math.pi)
+    assert found["elbow"].dynamics == Dynamics(0.5, 0.1, 0.01)
+    assert found["elbow"].transmission == Transmission(353, 0.1, 6e-8)
+    assert found["elbow"].motor == Motor("S", ("effort", "velocity", "reduction", "rotor_inertia"))
+    assert found["lift"].limit == Limit(-3, 3, 200, 0.12)
+    assert found["lift"].transmission == Transmission(3141.5926535897934, 0, 4.5e-7)
+    assert found["wheel"].limit == Limit(0, 0, 0.05, math.pi / 2)
+    assert found["wheel"].dynamics == Dynamics(armature=0.02)
+    assert not found["lift"].actuated
+    assert found["lift"].measured is None
+
+
+def test_the_second_reader_and_pinocchio_have_the_same_numbers() -> None:
+    content = joined()
+    options = Options(**OPTIONS)
+    assert differences(content, **OPTIONS) == []
+    again = read_again(content, options).joints["elbow"]
+    assert again.number("transmission.rotorInertia") == pytest.approx(6e-8)
+    assert content.splitlines()[again.values["limits.effort"].line - 1].startswith(b'<catalogue_row joint="elbow"')
+    completed = completed_for_pinocchio(content).content
+    found = reference.read(completed, "a.urdf")
+    assert found.rotors.diagonal().max() == pytest.approx(4.5e-7 * (1000 * math.pi) ** 2)
+    assert joints(completed) == joints(content)
+
+
+@pytest.mark.parametrize("path", ["limits.effort", "limits.velocity", "transmission.reduction", "dynamics.armature"])
+def test_a_wrong_number_of_a_drive_is_found(path: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    block, field = {"limits": "limit"}.get(path.partition(".")[0], path.partition(".")[0]), path.partition(".")[2]
+    content, name = joined(), "wheel" if "armature" in path else "elbow"
+    right = read_robot(content, "a.urdf")
+    assert right.robot is not None
+    wrong = [
+        replace(own, **{block: replace(getattr(own, block), **{field: 7.0})}) if own.name == name else own
+        for own in right.robot.joints
+    ]
+    reading = DOMAIN.read(content, "a.urdf", Options(**OPTIONS))
+    broken = replace(reading, snapshot=replace(reading.snapshot, joints=tuple(wrong)).by_name())
+    monkeypatch.setattr(type(DOMAIN), "read", lambda *_: broken)
+    found = differences(content, approach=("package",), **OPTIONS)
+    assert {(each.element, each.quantity, each.given) for each in found} == {(f"joint {name}", path, "7")}
+
+
+@pytest.mark.parametrize(("old", "new", "message"), [
+    ("[N.cm]", "[kg]", "effort of joint `elbow` in the row `S`: kg can't be converted to N.m"),
+    ("[N.cm]", "[Nxcm]", "effort of joint `elbow` in the row `S`: `Nxcm` is no unit"),
+    (" [N.cm]", "", "effort of joint `elbow` in the row `S`: the column has no unit, such as N.m"),
+    ("[deg/s]", "[1/min]", "velocity of joint `elbow` in the row `S`: write `turn` or `rad` in 1/min"),
+    ("410", "x", "effort of joint `elbow` in the row `S`: `x` is no number"),
+    ("410", "-1", "effort of joint `elbow` in the row `S`: -1 is too small"),
+    ("410", "1e999", "effort of joint `elbow` in the row `S`: 1e999 is too large"),
+    ("353", "0", "reduction of joint `elbow` in the row `S`: 0 is too small"),
+    ("S,410,,180,,353,,0.6,", "S,,,,,,,,", "the row `S` has no number of a drive"),
+    ("S,410,,", "S,,4,", "effort of joint `elbow` in the row `S`: kN can't be converted to N.m"),
+])  # fmt: skip
+def test_a_fault_of_a_row_is_one_diagnostic(old: str, new: str, message: str) -> None:
+    content = joined(CSV.replace(old, new))
+    (found,) = read_robot(content, "a.urdf").diagnostics
+    assert (found.code, found.message) == ("bad-row", message)
+    assert content.splitlines()[found.line - 1].startswith(b"<catalogue_row")
+
+
+@pytest.mark.parametrize(("csv", "line", "message"), [
+    (CSV.replace("410", "4,10"), 2, "the row `S` has 10 cells, and the header 9"),
+    (f"{CSV}S,1,,,,,,,\n", 5, "the row `S` stands in line 2, too"),
+    (CSV.replace("torque", "tork"), 1, "there is no column `torque`"),
+    ("", 0, "the table has no rows"),
+])  # fmt: skip
+def test_a_fault_of_the_table_has_its_line(csv: str, line: int, message: str) -> None:
+    with pytest.raises(SourceError) as error:
+        joined(csv)
+    (found,) = error.value.diagnostics
+    assert (found.file, found.line, found.message) == ("motors.csv", line, message)
+
+
+def test_a_joint_without_limits_of_position_keeps_its_freedom() -> None:
+    urdf = URDF.replace('<limit lower="-3" upper="3" velocity="10" effort="1000"/>', "")
+    found = [each for each in read_robot(joined(urdf=urdf), "a.urdf").diagnostics if each.code == "bad-row"]
+    assert [each.message for each in found] == [
+        "joint `elbow` has no <limit>, and the row `S` can't give it limits of position"
+    ]
+
+
+def test_a_motor_of_two_joints_takes_no_reduction() -> None:
+    named = (("joint", 1, "elbow"), ("joint", 2, "wheel"), ("actuator", 1, "m"), ("actuator", 2, "n"))
+    parts = "".join(f'<{kind} name="{name}"><role>{kind}{k}</role></{kind}>' for kind, k, name in named)
+    shared = f'<transmission name="t"><type>x/DifferentialTransmission</type>{parts}</transmission>'
+    found = read_robot(joined(urdf=URDF.replace(GEAR, shared)), "a.urdf").diagnostics
+    assert [each.message for each in found] == [
+        "the motor of joint `elbow` moves `wheel`, too: a row can't give its reduction"
+    ]
+    rows = CSV.replace(",353,", ",,")
+    assert differences(joined(rows, URDF.replace(GEAR, shared)), approach=("package",), **OPTIONS) == []
+
+
+@pytest.mark.parametrize(("options", "place"), [
+    ({"motors": {"elbow": "T"}}, "motors.elbow"),
+    ({"motors": {"elbow": "S"}, "catalogue": ""}, "motors.elbow"),
+    ({"motors": {"elbo": "S"}}, "motors.elbo"),
+    ({"motors": {"base": "S"}}, "motors.base"),
+])  # fmt: skip
+def test_wrong_names_are_faults_of_options(options: dict[str, Any], place: str) -> None:
+    chosen = {**OPTIONS, **options}
+    content = joined(**options) if chosen["catalogue"] else URDF.encode()
+    reading = DOMAIN.read(content, "a.urdf", Options(**chosen))
+    assert [option for option, fault in reading.option_findings if fault.severity is Severity.ERROR] == [place]
+
+
+def test_si_needs_no_pint(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "pint", None)
+    chosen: dict[str, Any] = {"catalogue": "motors.csv", "motors": {"elbow": "S"}}
+    rows = "name,effort [N.m],velocity [rad/s],rotor_inertia [kg.m2]\nS,4.25,3.5,1.5e-6\n"
+    content = join(URDF.encode(), rows.encode(), "motors.csv", Options(**chosen))[0]
+    assert joints(content)["elbow"].limit == Limit(-3, 3, 4.25, 3.5)
+    assert differences(content, **chosen) == []
+
+
+def test_strange_names_and_cells_are_read_as_they_are() -> None:
+    csv = CSV.replace("\nS,", '\n"<S> & ""ü""",')
+    assert joints(joined(csv, motors={"elbow": '<S> & "ü"'}))["elbow"].motor == Motor(
+        '<S> & "ü"', ("effort", "velocity", "reduction", "rotor_inertia")
+    )
+
+
+def test_a_robot_without_motors_has_no_catalogue() -> None:
+    options = Options(catalogue="motors.csv")
+    assert DOMAIN.catalogue.file(options) == ""
+    assert DOMAIN.read(URDF.encode(), "a.urdf", options).snapshot is not None
