@@ -90,5 +90,5 @@ def test_a_gear_at_another_joint_is_found() -> None:
     (found,) = compare(PAIR, change).differences
     assert (found.element, found.quantity, found.given) == (
         *("joint elbow", "elbowGear.flange_c"),
-        "elbow.axis, elbowAxis, elbowGear.flange_b",
+        "elbow.axis,elbowAxis,elbowGear.flange_b",
     )
