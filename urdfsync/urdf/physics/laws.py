@@ -131,10 +131,13 @@ def _errors(k: int, joint: Element, laws: str) -> Iterator[str]:
     if "spring" in laws:
         spring = f"joint{k}.elasticity"
         asked = f"({numbers['stiffness']!r}*{spring}.{q}_rel + {numbers['damper']!r}*{spring}.{w}_rel)"
-        given = (
-            f"(-{_limited(f'(-{asked})', f'joint{k}.{axis}.{w}', *_limits(joint))})" if "saturated" in laws else asked
-        )
-        yield f"{spring}.{t} - {given}"
+        if "saturated" in laws:
+            most, fastest = _limits(joint)
+            given = f"-{_limited(f'(-{asked})', f'joint{k}.{axis}.{w}', most, fastest)}"
+            # large efforts have large rounding errors
+            yield f"({spring}.{t} - ({given}))/{most if 1 < most < _ENDLESS else 1.0!r}"
+        else:
+            yield f"{spring}.{t} - {asked}"
 
 
 def _limited(asked: str, speed: str, most: float, fastest: float) -> str:

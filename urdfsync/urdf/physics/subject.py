@@ -89,9 +89,10 @@ class Subject:
 
         It is half of the joint's limit, and acts as the effort beyond the limit does: both have to count together.
         """
-        torques = dict[str, float]()
+        torques, axes = dict[str, float](), {joint.name for joint in self.axes}
         for name, drive in connector_names(self.tree, self.options).drives.items():
-            if drive.motor:
+            # a motor at a dependent joint of a loop would push the axes
+            if drive.motor and {name, drive.other or name} <= axes:
                 joint = self.second.joints[name]
                 effort = joint.number("limits.effort")
                 part = 0.5 * (effort if effort < motion.ENDLESS else 1.0)
