@@ -361,6 +361,12 @@ def test_a_record_alone_has_no_loops() -> None:
     assert compare(FOUR_BAR.source, **options).differences == ()
 
 
+def test_a_joint_with_a_drive_that_a_loop_moves_begins_where_the_loop_is_closed() -> None:
+    drive = b'<transmission name="t"><joint name="rocker_pivot"/></transmission></robot>'
+    content = FOUR_BAR.source.read_bytes().replace(b"</robot>", drive)
+    assert compare(content, **msgspec.structs.asdict(FOUR_BAR.options)).differences == ()
+
+
 def test_another_joint_that_drives_a_loop_is_found() -> None:
     drive = b'<transmission name="t"><joint name="crank_pivot"/></transmission></robot>'
     content, options = (

@@ -270,14 +270,17 @@ class _Comparison:
     def _starts(self, file: str) -> None:
         """Compare the start positions of joints: those in loops must close these, all others are as the source says."""
         values, gap = {value.path: value for value in self.values.get(file, ())}, 0.0
+        model = self.classes.statements(f"{self.name}.mo") if f"{self.name}.mo" in self.read else {}
         placed = poses(self.reading, self._positions()) if self.reading.loops else {}
         for loop in self.reading.loops.values():
             between = placed[loop.parent] @ origin(loop) - placed[loop.child] @ origin(loop, "childOrigin")
             gap = max(gap, float(np.linalg.norm(between[:3, 3])))
         for name, joint in self.reading.joints.items():
-            value = values.pop(self.components.get(("joint", name), ""), None)
+            value = values.pop(component := self.classes.of("joint", name), None)
             expected = {"start": joint.values["start"]} if "start" in joint.values else {}
-            if value and joint.in_loop and not (joint.command and expected):
+            fixed = model.get(f"{component}.fixedStart")
+            is_chosen = joint.command and expected and not (fixed and fixed.text == "false")
+            if value and joint.in_loop and not is_chosen:
                 closed = literals(value.text) or value.text
                 opened = f"a position that closes the loops, open by {1000 * gap:.3g} mm"
                 expected = {"start": Stated(closed if gap < _CLOSED else opened, joint.line)}
