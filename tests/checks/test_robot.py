@@ -164,6 +164,7 @@ def test_a_misread_number_differs_whoever_edited_it(
     templates = Path("templates")
     shutil.copytree(REPOSITORY / "templates" / "urdf", templates)
     replace(templates / "macros.jinja", "      damping = << joint.dynamics.damping | real >>", wrong)
+    replace(templates / "robot" / "robot.mo.jinja", "\nequation\n", '\n  parameter Real ours = 1 "Ours";\n\nequation\n')
     with Path("urdfsync.toml").open("a") as file:
         file.write('templates = "templates"\n')
     rebuild()
@@ -179,6 +180,10 @@ def test_a_misread_number_differs_whoever_edited_it(
         "modelica/Arm/Joints/ShoulderParameters.mo:16: dynamics.damping of joint shoulder is 0.2, "
     )
     assert result.summary.startswith("differs: numbers differ (")
+    assert result.numbers is not None
+    assert {each.file for each in (*result.numbers.differences, *result.numbers.edits)} == {
+        *("Joints/ElbowParameters.mo", "Joints/ShoulderParameters.mo")
+    }
 
 
 def test_numbers_of_a_package_that_is_out_of_step_are_no_edits(

@@ -39,8 +39,17 @@ SOURCE = robot(
     *links(base=4.0, upper=2.5, hand=0.7),
     link("finger", 0.3),
     joint("shoulder", "revolute", "base", "upper", axis="0 1 0", inside=[SPEED_UP, dynamics(0.5, 0.4)]),
-    joint("elbow", "continuous", "upper", "hand", axis="0.3 -0.4 1.2", inside=[dynamics(0.1, 0.2)]),
-    joint("grip", "prismatic", "hand", "finger", axis="0 1 0", inside=[mimic("shoulder", 0.1, 0.02), limit(-1, 1)]),
+    joint(
+        "elbow",
+        "continuous",
+        "upper",
+        "hand",
+        axis="0.3 -0.4 1.2",
+        inside=[dynamics(0.1, 0.2), '<limit effort="60" velocity="4"/>'],
+    ),
+    joint(
+        "grip", "prismatic", "hand", "finger", axis="0 1 0", inside=[mimic("shoulder", 0.1, 0.02), limit(-0.1, 0.15)]
+    ),
     *(GEAR, IMU, EYE, LOAD),
 )
 
@@ -95,6 +104,7 @@ PACKAGE: Mapping[str, Fault] = {
     "limit of the acceleration while a joint slows down": Fault(
         W, SHOULDER, "revolute.a*revolute.w < 0", "revolute.a*revolute.w >= 0"
     ),
+    "limit of the effort without the motor's": Fault(W, ELBOW, " + parameters.transmission.reduction*motor.tau", ""),
     "limit that is read wrongly": Fault(W, "Joints/ShoulderParameters.mo", "upper = 2", "upper = 2.1"),
 }
 """In the text that a template gives, as a fault of the template, of the reader or of a number of the user's would."""
@@ -113,6 +123,11 @@ LIBRARY: Mapping[str, Fault] = {
     "gravity in an IMU": Fault(S, "Sensors/Imu.mo", "a = acceleration - ", "a = acceleration + "),
     "gravity of the bench": Fault(R, "Robots/PartialBench.mo", "n = {0, 0, -1}", "n = {0, 0, 1}"),
     "where a joint begins": Fault(F, "Functions/closestToZero.mo", "min(max(", "max(max("),
+    "range of a leader": Fault(R, "Couplings/RotationalToTranslational.mo", "parameters.offset, s_max", "0, s_max"),
+    "housing of Test's drive": Fault(R, "Drives/RotationalSweep.mo", "flange.tau + support", "flange.tau - support"),
+    "torque of a motor": Fault(L, "Drives/RotationalGear.mo", "0 = parameters", "0 = 2*parameters"),
+    "way of the generic bench": Fault(R, "Robots/AxisSweeps.mo", "0.5*(1 - cos", "1.5*(1 - cos"),
+    "range of a leader of the generic robot": Fault(R, "Dynamics/axisEnds.mo", "2] := min(", "2] := max("),
     "turned inertia": Fault(B, "Functions/inertiaInLinkAxes.mo", "I := R*[", "I := transpose(R)*["),
 }
 
@@ -177,9 +192,10 @@ HELD: Mapping[str, Fault] = {
 """In the library; the robot has a loop."""
 
 
-def prepared(fault: Fault, name: str, **options: str) -> physics.Case:
+def prepared(fault: Fault, name: str, **options: Any) -> physics.Case:
     """The robot, and the one simulation in which a fault shows."""
-    trial = "free motion" if fault.part in (Part.FREE_MOTION, Part.BENCHES) else "motion"
+    is_bench = fault.part is Part.BENCHES and "Bench" in fault.file
+    trial = "free motion" if fault.part is Part.FREE_MOTION or is_bench else "motion"
     source = CART if fault.part is Part.CONTACTS else SOURCE
     if fault.file.endswith("box.mo"):
         source = source.replace('sphere radius="0.02"', 'box size="0.1 0.3 0.04"')
@@ -214,6 +230,7 @@ def test_without_a_fault_all_is_right(modelica_library: Path, tmp_path: Path) ->
 def test_a_fault_in_a_package_is_seen(fault_name: str, modelica_library: Path, tmp_path: Path) -> None:
     fault = {**PACKAGE, **LOOP}[fault_name]
     name, options = ("Cart", {"base": "floating"}) if fault.part is Part.CONTACTS else ("Arm", {})
+    options |= {"drives": "motor"} if "motor" in fault.old else {}
     case = prepared(fault, name, **options).changed(fault.file, fault.old, fault.new)
     (found,) = physics.compare(modelica_library, tmp_path, [case])
     assert is_seen(fault, found)
@@ -224,7 +241,9 @@ def test_a_fault_in_the_library_is_seen(name: str, modelica_library: Path, tmp_p
     base = "floating" if name in FLOATING else "fixed"
     fault = {**LIBRARY, **FLOATING, **HELD}[name]
     own = damaged(tmp_path, [(fault.file, fault.old, fault.new)])
-    options = {"base": base, "drives": "motor" if fault.file.startswith("Drives/") else "joint"}
+    options: Any = {"base": base, "drives": "motor" if fault.file.startswith("Drives/") else "joint"}
+    if name.endswith(("generic bench", "generic robot")):
+        options["approach"] = ("record",)
     (found,) = physics.compare(modelica_library, tmp_path, [prepared(fault, "Bot", **options)], own)
     assert is_seen(fault, found)
 
@@ -243,19 +262,21 @@ TOGETHER: Mapping[str, Sequence[tuple[str, str, str]]] = {
     ],
 }
 LAWS = robot(
-    *links(base=1.0, a=1.0, b=1.0, c=1.0, d=1.0, e=1.0, f=1.0),
+    *links(base=1.0, a=1.0, b=1.0, c=1.0, d=1.0, e=1.0, f=1.0, g=1.0),
     joint("brush", "revolute", "base", "a", inside=[dynamics(0.1, 0.4)]),
     joint("rail", "prismatic", "a", "b", inside=[dynamics(2, 3)]),
     joint("limp", "revolute", "b", "c"),
     joint("bend", "continuous", "c", "d", inside=[dynamics(0.1, 0.4)]),
     joint("stuck", "revolute", "d", "e", inside=[dynamics(0.1, 0.4)]),
     joint("slip", "prismatic", "e", "f", inside=[dynamics(2, 3)]),
+    joint("hoist", "prismatic", "f", "g"),
 )
 CHOSEN: Mapping[str, Any] = {
     "friction": {"brush": "lugre", "rail": "lugre", "bend": "stiction", "stuck": "stiction", "slip": "stiction"},
     "elastic": ("limp", "bend"),
-    "saturated": ("limp",),
-    "driven": ("brush", "rail", "limp", "bend"),
+    "saturated": ("limp", "hoist"),
+    "commands": {"hoist": "effort"},
+    "driven": ("brush", "rail", "limp", "bend", "hoist"),
 }
 
 
@@ -288,18 +309,50 @@ WRONG_LAWS: Mapping[Quantity, Sequence[tuple[str, str, str]]] = {
 }
 
 
+def wrong_laws(
+    case: physics.Case, quantity: Quantity, library: Path, folder: Path, changes: Sequence[tuple[str, str, str]]
+) -> set[str]:
+    """The joints whose laws differ, with a changed library."""
+    (found,) = physics.compare(library, folder, [case], damaged(folder, changes))
+    joints = {each.element for each in found if each.quantity is quantity}
+    assert joints == {f"joint {name}" for name in (*OF_LAWS, *["hoist"] * (quantity is Quantity.LAW))}
+    return {each.element.removeprefix("joint ") for each in found if each.quantity is quantity and not each.agrees}
+
+
+OF_LAWS = ("brush", "rail", "limp", "bend", "stuck", "slip")
+
+
+def case_of_laws() -> physics.Case:
+    case = physics.prepare(LAWS.encode(), "Bot", **CHOSEN)
+    assert case.experiment.laws is not None
+    package = generate(LAWS.encode(), Target("Bot", "Bot"), **CHOSEN)
+    return physics.Case(msgspec.structs.replace(case.experiment, trials=(case.experiment.laws,)), package)
+
+
 @pytest.mark.parametrize("quantity", WRONG_LAWS)
 def test_wrong_laws_are_seen_beside_sound_ones(quantity: Quantity, modelica_library: Path, tmp_path: Path) -> None:
     """The spring of MSL with another stiffness is a fault of the template, the others of the library."""
-    case = physics.prepare(LAWS.encode(), "Bot", **CHOSEN)
-    laws = case.experiment.laws
-    assert laws is not None
-    package = generate(LAWS.encode(), Target("Bot", "Bot"), **CHOSEN)
-    case = physics.Case(msgspec.structs.replace(case.experiment, trials=(laws,)), package)
     factor = "-" if quantity is Quantity.ENERGY else "2*"
-    case = case.changed("Joints/Bend.mo", "c = parameters", f"c = {factor}parameters")
-    (found,) = physics.compare(modelica_library, tmp_path, [case], damaged(tmp_path, WRONG_LAWS[quantity]))
-    seen = {each.element: each.agrees for each in found if each.quantity is quantity}
-    assert seen == {
-        f"joint {name}": name in ("rail", "stuck") for name in ("brush", "rail", "limp", "bend", "stuck", "slip")
-    }
+    case = case_of_laws().changed("Joints/Bend.mo", "c = parameters", f"c = {factor}parameters")
+    seen = wrong_laws(case, quantity, modelica_library, tmp_path, WRONG_LAWS[quantity])
+    assert seen == {"brush", "limp", "bend", "slip"}
+
+
+WRONG_NUMBERS: Mapping[tuple[str, ...], Sequence[tuple[str, str, str]]] = {
+    ("limp", "hoist", "rail", "slip"): [
+        ("Functions/limitedEffort.mo", "fading = 0.05", "fading = 0.06"),
+        ("Records/TranslationalDynamics.mo", "= friction", "= 2*friction"),
+    ],
+    ("brush", "limp", "bend"): [
+        ("Records/RotationalDynamics.mo", "stribeckSpeed = 0.05", "stribeckSpeed = 0.06"),
+        ("Records/RotationalTransmission.mo", "stiffness = 1e4", "stiffness = 1.1e4"),
+    ],
+    (): [],
+}
+"""Numbers that no source states, by the joints that they concern."""
+
+
+@pytest.mark.parametrize("joints", WRONG_NUMBERS)
+def test_other_numbers_of_the_library_are_seen(joints: tuple[str, ...], modelica_library: Path, tmp_path: Path) -> None:
+    seen = wrong_laws(case_of_laws(), Quantity.LAW, modelica_library, tmp_path, WRONG_NUMBERS[joints])
+    assert seen == {*joints}

@@ -123,7 +123,8 @@ def _compare_numbers(checks: Checks, package: RobotPackage, result: CheckResult)
     tell(f"{package.robot.name}: reading the source again")
     source, result.edited = package.inputs.source, package.changed
     on_disk = package.on_disk if package.in_step else package.generated
-    models = {path for path, text in package.generated.items() if b"\nmodel " in text} - {f"{package.models[0]}.mo"}
+    model = f"{package.models[0]}.mo"
+    models = {path for path, text in package.generated.items() if b"\nmodel " in text} - {model}
     # the user's templates may write other models than that of the robot in another way
     hidden = models if package.robot.templates is not None else set()
     packages = [{path: texts[path] for path in texts.keys() - hidden} for texts in (package.generated, on_disk)]
@@ -139,6 +140,10 @@ def _compare_numbers(checks: Checks, package: RobotPackage, result: CheckResult)
             yield msgspec.structs.replace(each, source=place.file, source_line=place.line)
 
     faults = {(each.file, each.element, each.quantity) for each in generated.differences}
+    if hidden:  # the user's templates may add to the robot model, too
+        added = {each for each in generated.differences if each.file == model and each.expected == "nothing"}
+        others = tuple(each for each in generated.differences if each not in added)
+        generated = msgspec.structs.replace(generated, differences=others)
     edits = (each for each in present.differences if (each.file, each.element, each.quantity) not in faults)
     result.numbers = msgspec.structs.replace(
         present, differences=tuple(located(generated.differences)), edits=tuple(located(edits))

@@ -75,6 +75,8 @@ def _of_statement(text: str, tokens: list[Token], read: Values) -> Iterator[Valu
     if tokens[0].text in _CLASSES:
         del tokens[: 3 if tokens[2].text.startswith('"') else 2]
     words = [token.text for token in tokens]
+    if words[0] == "annotation" and "experiment" in words:
+        yield from _modifiers(text, tokens, words.index("experiment") + 1, "experiment", "annotation")
     if words[0] in _PASSED:
         return
     if words[0] == "connect":

@@ -183,8 +183,9 @@ READER: dict[str, tuple[Callable[[Robot], Robot], str, str]] = {
     "an offset with the other sign": (
         of("joints", "twist", mimic=lambda j: replace(j.mimic, offset=-0.1)), "Joints/TwistParameters.mo",
         "mimic.offset"),
-    "another leader": (of("joints", "twist", mimic=lambda j: replace(j.mimic, joint="slide")), "Bot.mo", "leader"),
-    "another parent": (of("joints", "twist", parent="arm"), "Bot.mo", "parent"),
+    "another leader": (
+        of("joints", "twist", mimic=lambda j: replace(j.mimic, joint="slide")), "Bot.mo", "twistMimic.leader"),
+    "another parent": (of("joints", "twist", parent="arm"), "Bot.mo", "twist.frame_a"),
     "damping and friction exchanged": (
         of("joints", "shoulder", dynamics=lambda j: replace(j.dynamics, damping=0.2, friction=0.5)),
         "Joints/ShoulderParameters.mo", "dynamics.damping"),
@@ -200,9 +201,9 @@ READER: dict[str, tuple[Callable[[Robot], Robot], str, str]] = {
     "a continuous joint for a revolute one": (of("joints", "shoulder", type="continuous"),
                                               "Joints/ShoulderParameters.mo", "type"),
     "a sensor's pose left out": (of("sensors", "imu", origin=Origin()), "BotSensors.mo", "origin.xyz"),
-    "a sensor on another link": (of("sensors", "imu", at="arm"), "Bot.mo", "parent"),
-    "a wrench in the other axes": (of("sensors", "force", in_parent=True), "Bot.mo", "f_joint"),
-    "a wrench in the other direction": (of("sensors", "force", on_child=True), "Bot.mo", "t_joint"),
+    "a sensor on another link": (of("sensors", "imu", at="arm"), "Bot.mo", "imu.frame_a"),
+    "a wrench in the other axes": (of("sensors", "force", in_parent=True), "Bot.mo", "force.f_joint"),
+    "a wrench in the other direction": (of("sensors", "force", on_child=True), "Bot.mo", "force.t_joint"),
     "a colour with red and blue exchanged": (
         of("links", "arm", visuals=lambda own: (replace(own.visuals[0], material=replace(
             own.visuals[0].material, rgba=(0.25, 0.5, 1.0, 0.75))), *own.visuals[1:])),
@@ -265,7 +266,7 @@ TEMPLATES = {
         "BotTest.mo", "redeclare BotStance stance", "redeclare UrdfSync.Records.Stance stance", "stance"),
     "another start of the generic robot": ("BotGeneric.mo", "startPositions.slide", "0.3", "robot.s_start"),
     "another way of the generic robot": ("BotGeneric.mo", "reach = 1)", "reach = 10)", "rotationalSweep.reach"),
-    "the frame of another link": ("Bot.mo", "tip.frame_a, tipFrame", "arm.frame_a, tipFrame", "frame"),
+    "the frame of another link": ("Bot.mo", "tip.frame_a, tipFrame", "arm.frame_a, tipFrame", "tip.frame_a"),
     "a visual with the numbers of another": (
         "Links/Arm.mo", "parameters = parameters.visual2", "parameters = parameters.visual1", "visual2.parameters"),
     "a collision that is always drawn": (
@@ -287,6 +288,19 @@ TEMPLATES = {
     "a number of an axis": ("BotParameters.mo", "Integer slideAxis = 1", "Integer slideAxis = 2", "slideAxis[1]"),
     "the drawn length of a box": ("BotParameters.mo", "-0.5*armVisual1.size[1]", "-0.5*armVisual1.size[2]",
                                   "visuals.starts[1]"),
+    "a range that a follower does not narrow": (
+        "Bot.mo", "min({shoulder.parameters.limits.upper", "max({shoulder.parameters.limits.upper",
+        "shoulder.phi_max"),
+    "a start of no joint": ("Bot.mo", "s_start = startPositions.slide", "s_start = 0", "slide.s_start"),
+    "limits that nothing checks": ("Bot.mo", "checkLimits = checkLimits", "checkLimits = false", "slide.checkLimits"),
+    "a sensor with the numbers of another": (
+        "Bot.mo", "sensorParameters.imu", "sensorParameters.force", "imu.parameters"),
+    "a mass that is left out": ("Bot.mo", "    tip.m\n", "    hand.m\n", "m"),
+    "a coupling that does not know its limits": ("Bot.mo", "w_max = twist.w_max,", "", "twistMimic.w_max"),
+    "two joints at one flange": (
+        "Bot.mo", "connect(slide.support", "connect(slide.axis, shoulder.axis);\n  connect(slide.support",
+        "shoulder.axis"),
+    "a Test that stops early": ("BotTest.mo", "StopTime=10", "StopTime=1", "experiment.StopTime"),
     "an expression": ("Joints/SlideParameters.mo", "upper = 0.5", "upper = 2*x", "limits.upper"),
     "two numbers of three": ("Joints/SlideParameters.mo", "rpy = {0.5, -0.6, 0.7}", "rpy = {0.5}", "origin.rpy"),
     "a height that is not that of the lowest shape": ("BotStance.mo", "height = ", "height = 1", "height"),
@@ -313,7 +327,7 @@ LOOP_FAULTS: dict[str, tuple[Callable[[Loop], Loop], str, str]] = {
         lambda loop: replace(loop, origin=Origin((0.55, 0.0, -0.025))), "Joints/Rocker_pinParameters.mo", "origin.xyz"),
     "frames exchanged": (
         lambda loop: replace(loop, parent=loop.child, child=loop.parent, origin=loop.child_origin,
-                             child_origin=loop.origin), "Bot.mo", "parent"),
+                             child_origin=loop.origin), "Bot.mo", "rocker_pin.frame_a"),
 }  # fmt: skip
 
 
@@ -345,6 +359,12 @@ def test_a_loop_that_does_not_close_is_found(old: str, new: str, file: str, quan
 def test_a_record_alone_has_no_loops() -> None:
     options = msgspec.structs.asdict(FOUR_BAR.options) | {"approach": ("record",)}
     assert compare(FOUR_BAR.source, **options).differences == ()
+
+
+def test_a_joint_with_a_drive_that_a_loop_moves_begins_where_the_loop_is_closed() -> None:
+    drive = b'<transmission name="t"><joint name="rocker_pivot"/></transmission></robot>'
+    content = FOUR_BAR.source.read_bytes().replace(b"</robot>", drive)
+    assert compare(content, **msgspec.structs.asdict(FOUR_BAR.options)).differences == ()
 
 
 def test_another_joint_that_drives_a_loop_is_found() -> None:
@@ -406,4 +426,32 @@ def test_options_count_before_the_source(name: str) -> None:
     asked = dataclasses.replace(as_if_without, options=Options(**options))
     found = of_package(asked, URDF.encode(), as_if_without.texts).differences
     assert bool(found) == (name in ("commands", "start", "driven", "a vector of inputs",
-                                    "drives that keep their limits"))  # fmt: skip
+                                    "drives that keep their limits", "flanges of motors"))  # fmt: skip
+
+
+LAWS = (
+    ("Bend", "UrdfSync.Friction.RotationalLuGre", "UrdfSync.Friction.Rotational", "FrictionLaw"),
+    ("Bend", "limits = parameters.limits", "limits(effort = 1, velocity = 1)", "elasticity.limits"),
+    ("Slide", "Modelica.Mechanics.Translational.Components.SpringDamper elasticity", "Other elasticity",
+     "type of elasticity"),
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("fault", LAWS)
+def test_another_law_than_the_configuration_says_is_found(fault: tuple[str, str, str, str]) -> None:
+    file, old, new, quantity = fault
+    source = urdf(
+        *(link("base", 3.0), link("arm", 2.0), link("hand", 0.7)),
+        joint("bend", "revolute", "base", "arm", inside=[dynamics(0.5, 0.2)]),
+        joint("slide", "prismatic", "arm", "hand", inside=[dynamics(0.5, 0.2)]),
+    )
+
+    def change(texts: Any) -> Any:
+        path = f"Joints/{file}.mo"
+        assert old in texts[path]
+        return {**texts, path: texts[path].replace(old, new)}
+
+    options: Any = {"friction": {"bend": "lugre"}, "elastic": "all", "saturated": ("bend",), "approach": ("package",)}
+    assert compare(source.encode(), **options).differences == ()
+    found = compare(source.encode(), change, **options).differences
+    assert (f"Joints/{file}.mo", quantity) in {(each.file, each.quantity) for each in found}

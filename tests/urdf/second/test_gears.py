@@ -79,7 +79,8 @@ def test_gears_that_are_read_otherwise_are_found(old: str, new: str, quantity: s
     package = generate(PAIR.decode().replace(old, new).encode(), BOT)
     found = of_package(package, PAIR, package.texts).differences
     assert quantity in {each.quantity for each in found}
-    assert {each.source_line for each in found} == {PAIR[: PAIR.index(b"<transmission")].count(b"\n") + 1}
+    lines = {each.source_line for each in found if each.file != "Bot.mo"}
+    assert lines == {PAIR[: PAIR.index(b"<transmission")].count(b"\n") + 1}
 
 
 def test_a_gear_at_another_joint_is_found() -> None:
@@ -87,4 +88,7 @@ def test_a_gear_at_another_joint_is_found() -> None:
         return {**texts, "Bot.mo": texts["Bot.mo"].replace("elbowGear.flange_c, wrist", "elbowGear.flange_c, elbow")}
 
     (found,) = compare(PAIR, change).differences
-    assert (found.element, found.quantity, found.given) == ("joint elbow", "flange_c", "elbow")
+    assert (found.element, found.quantity, found.given) == (
+        *("joint elbow", "elbowGear.flange_c"),
+        "elbow.axis,elbowAxis,elbowGear.flange_b",
+    )

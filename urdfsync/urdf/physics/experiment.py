@@ -22,6 +22,7 @@ from urdfsync.urdf.physics.probe import RobotVariables
 from urdfsync.urdf.physics.reference import pinocchio
 from urdfsync.urdf.physics.subject import Subject
 from urdfsync.urdf.robot import MOTION_KINDS, Robot
+from urdfsync.urdf.second.reading import read_again
 
 _ITERATED = 1e-7
 """The least tolerance for robots with loops: compilers close them by iteration."""
@@ -67,7 +68,9 @@ def experiment(sample: Sample, step: float | None = None) -> Experiment | str:
         options=simplified,
         trials=tuple(trials),
         notes=(*notes, *made_up),
-        laws=laws_trial(tree, sample.target, options) if "package" in options.approach else None,
+        laws=laws_trial(read_again(sample.content, options), subject.assembly.driven, tree, sample.target, options)
+        if has_package
+        else None,
         unchecked=(*_simplified(tree, options), *_not_compared(subject), *subject.unchecked),
     )
 
@@ -77,13 +80,13 @@ def _trials(subject: Subject, approach: str, step: float | None) -> Iterator[Tri
     names = probe.robot_variables(subject, approach)
     label = " of the record" if len(subject.options.approach) > 1 and approach == "record" else ""
     pairs = list(quantities.bodies(subject, names))
+    pairs += quantities.sweeps(subject, names)
     limits = list[quantities.Pair]()
     if approach == "package":
         pairs += quantities.sensors(subject, names)
         pairs += quantities.motors(subject)
         pairs += quantities.ground(subject)
         pairs += quantities.loops(subject, names)
-        pairs += quantities.sweeps(subject)
         limits += quantities.limits(subject)
     needed, optional = ([v for compared, _ in some for v in compared.values] for some in (pairs, limits))
     moving = probe.moving_probe(subject, names, needed, optional, step or 1.0)
@@ -146,7 +149,7 @@ def _simplified(tree: KinematicTree, options: Options) -> Iterator[str]:
     joints = {
         **{law: [j.name for j in tree.joints if friction_law(j, options) == law] for law in ("stiction", "lugre")},
         "elastic": [joint.name for joint in drives if is_chosen(joint, options.elastic)],
-        "saturated": [joint.name for joint in drives if is_chosen(joint, options.saturated)],
+        "saturated": [j.name for j in drives if is_chosen(j, options.saturated) and j.command != "effort"],
     }
     for law, names in joints.items():
         if names:
@@ -170,7 +173,7 @@ def _not_compared(subject: Subject) -> Iterator[str]:
     elif "record" in options.approach and obstacles(subject.tree.joints):
         yield "the record: it has no tables for robots with ball joints"
     elif "record" in options.approach:
-        yield "limits, sensors, contacts, sweeps and `frame_b` of the generic robot"
+        yield "warnings, sensors, contacts and `frame_b` of the generic robot"
 
 
 def _robot(reading: RobotReading) -> Robot:

@@ -3,52 +3,66 @@
 One joint of each kind in the package stands alone in the world and carries a body. Its axis moves to and fro from a
 relaxed start. Up to any time, the axis must have taken in at least zero energy: friction loses some, springs and bodies
 hand back what they got (passivity). A law with the wrong sign hands out more. Its effort must also be that of its
-numbers: the documented equations are written here a second time.
+numbers: the documented equations and the library's default numbers are written here a second time, and the second
+reading says which joint has which law.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 
 from urdfsync.checks.experiment import Compared, Part, Probe, Quantity, Trial
 from urdfsync.domain import Target
-from urdfsync.urdf.drives import assembly
 from urdfsync.urdf.kinematics.tree import KinematicTree
-from urdfsync.urdf.model.joint import joint_model
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.physics import probe
-from urdfsync.urdf.robot import MOTION_KINDS, Joint
+from urdfsync.urdf.second.reading import MOVES, TURNS, Element, Reading
 
 _STEP, _STOP = 0.02, 1.0  # s
 _STROKE = 0.2  # rad or m
 _SHAKE = 6.0  # times the effort at which the joint breaks loose
+_DEFAULTS = {
+    True: {"stribeckSpeed": 0.05, "bristleDeflection": 1e-4, "stiffness": 1e4, "damper": 100.0},
+    False: {"stribeckSpeed": 0.005, "bristleDeflection": 1e-5, "stiffness": 1e6, "damper": 1e4},
+}
+"""Numbers of the library that no source states, by whether a joint turns."""
+_BRISTLE_TIME = 1e-3  # s
+_ENDLESS = 1e15
+_BREAKAWAY = 1.5
+"""Effort at which a joint breaks loose per dry friction. In a package it is 1, which would hide what depends on it."""
+_RUN = "saturated drive in Run"
 
 
-def laws_trial(tree: KinematicTree, target: Target, options: Options) -> Trial | None:
+def laws_trial(
+    reading: Reading, driven: Collection[str], tree: KinematicTree, target: Target, options: Options
+) -> Trial | None:
     """Return the simulation of one joint with each combination of laws; None if Pinocchio has them all."""
-    chosen = dict[tuple[object, ...], tuple[Joint, str]]()
-    driven = assembly(tree, options).driven
-    for joint in tree.joints:
-        if joint.type not in MOTION_KINDS:
-            continue
-        parts = joint_model(joint, options, joint.name in driven)
-        elastic = ("saturated " if parts["saturated"] else "") + "spring" if parts["elastic"] else ""
-        friction = parts["friction"] if parts["friction"] in ("stiction", "lugre") else ""
-        if laws := " and ".join(filter(None, (friction, elastic))):
-            chosen.setdefault((joint.type, *parts.values()), (joint, laws))
+    chosen = dict[tuple[object, ...], tuple[Element, str]]()
+    for joint in (joint for joint in reading.joints.values() if joint.type in MOVES):
+        parts = frozenset(path.partition(".")[0] for path in joint.values)
+        is_limited = joint.is_saturated and joint.command != "effort"
+        spring = ("saturated " if is_limited else "") + "spring" if joint.is_elastic and joint.name in driven else ""
+        friction = joint.friction if joint.friction != "smooth" else ""
+        if laws := " and ".join(filter(None, (friction, spring))):
+            chosen.setdefault((joint.type, laws, parts), (joint, laws))
+        if joint.is_saturated and not is_limited and joint.name in driven:
+            chosen.setdefault((joint.type, _RUN), (joint, _RUN))
     if not chosen:
         return None
-    times = tuple(k * _STEP for k in range(1, round(_STOP / _STEP) + 1))
+    times = tuple(k * _STEP for k in range(round(_STOP / _STEP) + 1))
     world = "inner Modelica.Mechanics.MultiBody.World world(g = 0, enableAnimation = false)"
     declarations, connections, compared = [world], list[str](), list[Compared]()
     for k, (joint, laws) in enumerate(chosen.values(), 1):
-        declarations += _declarations(k, f"{target.package}.Joints.{tree.joint(joint.name).type}", joint, laws)
-        connections += [
-            *(f"world.frame_b, joint{k}.frame_a", f"joint{k}.frame_b, body{k}.frame_a"),
-            f"stroke{k}.flange, joint{k}.axis",
-        ]
+        quantities = [(Quantity.LAW, f"law{k}")]
+        if laws != _RUN:
+            declarations += _declarations(k, f"{target.package}.Joints.{tree.joint(joint.name).type}", joint, laws)
+            connections += [
+                *(f"world.frame_b, joint{k}.frame_a", f"joint{k}.frame_b, body{k}.frame_a"),
+                f"stroke{k}.flange, joint{k}.axis",
+            ]
+            quantities.insert(0, (Quantity.ENERGY, f"stroke{k}.given"))
         declarations.append(f"Real law{k} = {' + '.join(f'abs({term})' for term in _errors(k, joint, laws))}")
-        for quantity, value in ((Quantity.ENERGY, f"stroke{k}.given"), (Quantity.LAW, f"law{k}")):
+        for quantity, value in quantities:
             compared.append(Compared(quantity, f"joint {joint.name}", "", (value,), times, Part.LOSSES, laws))
     source = probe.text(target, options, "", declarations, connections)
     values = tuple(each.values[0] for each in compared)
@@ -56,49 +70,77 @@ def laws_trial(tree: KinematicTree, target: Target, options: Options) -> Trial |
     return Trial("laws of joints", Probe(source, "Probe_.Probe", _STOP, _STEP, values), tuple(compared), expected)
 
 
-def _declarations(k: int, model: str, joint: Joint, laws: str) -> Iterator[str]:
+def _limits(joint: Element) -> tuple[float, float]:
+    """Return the limits of effort and speed; a large number for none."""
+    return min(joint.number("limits.effort"), _ENDLESS), min(joint.number("limits.velocity"), _ENDLESS)
+
+
+def _declarations(k: int, model: str, joint: Element, laws: str) -> Iterator[str]:
     """Yield a joint, its body and its drive. A sticking joint is driven by an effort: it can't follow a prescribed way.
 
-    The body is light, so that its energy hides no loss; on a spring it swings slowly enough for any solver, and needs
-    more than a limited effort.
+    The body is light, so that its energy hides no loss; on a spring it swings slowly enough for any solver. A saturated
+    drive is asked for twice its effort, and for thrice its speed.
     """
-    is_turning, is_pushed = MOTION_KINDS[joint.type] == "rotational", laws == "stiction"
-    numbers = f"joint{k}.parameters"
-    breakaway, stiffness = f"{numbers}.dynamics.breakaway", f"{numbers}.transmission.stiffness"
-    light = f"1e-4*{stiffness}" if "spring" in laws else breakaway if is_pushed else "1e-6"
+    is_turning, is_pushed, stroke = joint.type in TURNS, laws == "stiction", _STROKE
+    kind, q = ("Rotational", "phi") if is_turning else ("Translational", "s")
+    light = 1e-4 * _DEFAULTS[is_turning]["stiffness"] if "spring" in laws else 1e-6
+    own = ["checkLimits = false", f"fixedStart = {str(is_pushed).lower()}"]
+    if joint.friction in ("stiction", "lugre"):
+        dry = joint.number("dynamics.friction")
+        own.append(f"parameters(dynamics(breakaway = {_BREAKAWAY * dry!r}))")
+        yield f"UrdfSync.Records.{kind}Dynamics default{k}(friction = {dry!r})"
+        light = _BREAKAWAY * dry if is_pushed else light
     if "saturated" in laws:
-        light = f"if {numbers}.limits.effort < 1e15 then {numbers}.limits.effort/3 else {light}"
-    mass, inertia = ("1", light) if is_turning else (light, "1")
+        effort, velocity = _limits(joint)
+        stroke = velocity / 2 if 0 < velocity < _ENDLESS else stroke
+        light = effort / (20 * stroke) if 0 < effort < _ENDLESS else light
+    mass, inertia = ("1", repr(light)) if is_turning else (repr(light), "1")
     inertias = ", ".join(f"I_{i}{i} = {inertia}" for i in (1, 2, 3))
     # the drive gives a prescribed axis its start, where the spring is relaxed
-    yield f"{model} joint{k}(checkLimits = false, fixedStart = {str(is_pushed).lower()})"
+    yield f"{model} joint{k}({', '.join(own)})"
     yield f"Modelica.Mechanics.MultiBody.Parts.Body body{k}(animation = false, m = {mass}, r_CM = zeros(3), {inertias})"
-    kind, q = ("Rotational", "phi") if is_turning else ("Translational", "s")
     if is_pushed:
-        yield f"{kind}Shake stroke{k}(size = {_SHAKE}*{breakaway}, inertia = {light})"
+        yield f"{kind}Shake stroke{k}(size = {_SHAKE * light!r}, inertia = {light!r})"
     else:
-        yield f"{kind}Stroke stroke{k}(size = {_STROKE}, start = joint{k}.{q}_start)"
+        yield f"{kind}Stroke stroke{k}(size = {stroke!r}, start = joint{k}.{q}_start)"
 
 
-def _errors(k: int, joint: Joint, laws: str) -> Iterator[str]:
+def _errors(k: int, joint: Element, laws: str) -> Iterator[str]:
     """Yield by how much the efforts of a joint's friction and spring differ from the equations of their laws."""
-    is_turning = MOTION_KINDS[joint.type] == "rotational"
+    is_turning = joint.type in TURNS
     (q, w, t), axis = (("phi", "w", "tau"), "revolute") if is_turning else (("s", "v", "f"), "prismatic")
     speed, effort, z = (f"joint{k}.friction.{name}" for name in (w, t, "z"))
-    d, gear, limits = (f"joint{k}.parameters.{part}" for part in ("dynamics", "transmission", "limits"))
-    dry = f"{effort} - {d}.damping*{speed}"
+    numbers = _DEFAULTS[is_turning]
+    if laws == _RUN:
+        most, fastest = (limit if 0 < limit < _ENDLESS else 1.0 for limit in _limits(joint))
+        asked, speed = f"{2 * most!r}*sin(5*time)", f"{1.2 * fastest!r}*sin(23*time)"
+        limited = f"UrdfSync.Functions.limitedEffort({asked}, {speed}, {most!r}, {fastest!r})"
+        yield f"{limited} - {_limited(asked, speed, most, fastest)}"
+    if "stiction" in laws or "lugre" in laws:
+        d = joint.number("dynamics.friction")
+        dry = f"{effort} - {joint.number('dynamics.damping')!r}*{speed}"
+        yield f"default{k}.breakaway - {d!r}"
     if "stiction" in laws:
-        held = f"max(0, abs({dry}) - {d}.breakaway)"
-        yield f"if abs({speed}) > 1e-3 then {dry} - {d}.friction*sign({speed}) else {held}"
+        held = f"max(0, abs({dry}) - {_BREAKAWAY * d!r})"
+        yield f"if abs({speed}) > 1e-3 then {dry} - {d!r}*sign({speed}) else {held}"
     if "lugre" in laws:
-        stribeck = f"(1 + ({d}.breakaway/{d}.friction - 1)*exp(-({speed}/{d}.stribeckSpeed)^2))"
-        yield f"der({z}) - {speed} + abs({speed})*{z}/({d}.bristleDeflection*{stribeck})"
-        yield f"{dry} - {d}.friction/{d}.bristleDeflection*({z} + {d}.bristleTime*der({z}))"
+        stribeck = f"(1 + {_BREAKAWAY - 1!r}*exp(-({speed}/{numbers['stribeckSpeed']!r})^2))"
+        yield f"if time > 0 then 0 else {z}"  # the bristles begin straight
+        yield f"der({z}) - {speed} + abs({speed})*{z}/({numbers['bristleDeflection']!r}*{stribeck})"
+        yield f"{dry} - {d!r}/{numbers['bristleDeflection']!r}*({z} + {_BRISTLE_TIME!r}*der({z}))"
     if "spring" in laws:
         spring = f"joint{k}.elasticity"
-        asked = given = f"({gear}.stiffness*{spring}.{q}_rel + {gear}.damping*{spring}.{w}_rel)"
-        if "saturated" in laws:  # it fades over the last twentieth of the speed, if it speeds the joint up
-            v = f"joint{k}.{axis}.{w}"
-            fading = f"max(0, min(1, 20 - 20*abs({v})/max(1e-9, {limits}.velocity)))"
-            given = f"max(-{limits}.effort, min({limits}.effort, {asked}))*(if {asked}*{v} < 0 then {fading} else 1)"
-        yield f"{spring}.{t} - {given}"
+        asked = f"({numbers['stiffness']!r}*{spring}.{q}_rel + {numbers['damper']!r}*{spring}.{w}_rel)"
+        if "saturated" in laws:
+            most, fastest = _limits(joint)
+            given = f"-{_limited(f'(-{asked})', f'joint{k}.{axis}.{w}', most, fastest)}"
+            # large efforts have large rounding errors
+            yield f"({spring}.{t} - ({given}))/{most if 1 < most < _ENDLESS else 1.0!r}"
+        else:
+            yield f"{spring}.{t} - {asked}"
+
+
+def _limited(asked: str, speed: str, most: float, fastest: float) -> str:
+    """Return the effort that a saturated drive gives: over the last twentieth of the speed it speeds nothing up."""
+    fading = f"max(0, min(1, 20 - 20*abs({speed})/{max(fastest, 1e-9)!r}))"
+    return f"max(-{most!r}, min({most!r}, {asked}))*(if {asked}*{speed} > 0 then {fading} else 1)"

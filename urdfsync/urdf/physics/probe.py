@@ -125,9 +125,20 @@ def moving_probe(
         drive = MOTION_KINDS[joint.type].capitalize()
         declarations.append(f"{drive}Drive drive{k}(ways = {matrix(motion.ways(courses), 6)})")
         connections.append(f"drive{k}.flange, {names.flanges[joint.name]}")
-    for k, (joint, _, _) in enumerate(subject.sweeps() if names.joints else (), 1):
-        declarations += _sweep(k, joint, names.joints[joint.name], loop_reaches(subject.assembly))
-        connections.append(f"sweep{k}.support, housing{k}.flange")
+    for k, (joint, *_) in enumerate(subject.sweeps(), 1):
+        declarations.append(f"Real range{k}[3] = {{{', '.join(_range(subject, joint, names.joints))}}}")
+        if names.is_package:
+            declarations += _sweep(k, joint, names.joints[joint.name], loop_reaches(subject.assembly))
+            connections += (f"sweep{k}.support, housing{k}.flange", f"sweep{k}.flange, weight{k}.flange_a")
+    if names.is_package:
+        flanges = connector_names(subject.tree, options).drives
+        for k, (name, torque) in enumerate(subject.motor_torques.items(), 1):
+            declarations.append(
+                f"Modelica.Mechanics.Rotational.Sources.ConstantTorque motor{k}(tau_constant = {torque!r})"
+            )
+            connections.append(f"motor{k}.flange, robot.{flanges[name].motor}")
+    else:
+        declarations += _sweeps_of_record(subject)
     for k, loop in enumerate(subject.tree.loops, 1):
         ends = (loop.parent, loop.origin), (loop.child, loop.child_origin)
         parent, child = (_place(f"robot.{subject.tree.link(link).component}", origin) for link, origin in ends)
@@ -152,8 +163,40 @@ def _sweep(k: int, joint: Joint, component: str, reaches: Mapping[str, Mapping[s
     if joint.name in reaches:
         modifiers.append(f"reach = robot.startPositions.{reaches[joint.name]['parameter']}")
     modifiers += (f"{q}(fixed = true)", f"{v}(fixed = true)")
+    components, effort = f"Modelica.Mechanics.{kind.capitalize()}.Components", "tau" if q == "phi" else "f"
     yield f"UrdfSync.Drives.{kind.capitalize()}Sweep sweep{k}({', '.join(modifiers)})"
-    yield f"Modelica.Mechanics.{kind.capitalize()}.Components.Fixed housing{k}"
+    yield f"{components}.Fixed housing{k}"
+    yield f"{components}.Inertia weight{k}(J = 1)" if q == "phi" else f"{components}.Mass weight{k}(m = 1)"
+    yield f"Real balance{k} = sweep{k}.flange.{effort} + sweep{k}.support.{effort}"
+
+
+def _range(subject: Subject, joint: Joint, components: Mapping[str, str]) -> Iterator[str]:
+    """Yield the range and the greatest speed of an axis."""
+    for name in (
+        ("phi_min", "phi_max", "w_max") if MOTION_KINDS[joint.type] == "rotational" else ("s_min", "s_max", "v_max")
+    ):
+        own = components.get(joint.name)
+        yield f"{own}.{name}" if own else f"robot.{name}[{_number(subject, joint)}]"
+
+
+def _sweeps_of_record(subject: Subject) -> Iterator[str]:
+    """Yield the ways of the axes in the bench of the generic robot."""
+    for kind in MOTIONS:
+        if axes := subject.tree.axes(kind):
+            q, v, reach = ("phi", "w", 1) if kind == "rotational" else ("s", "v", 0.1)
+            starts = vector([subject.starts[joint.name] for joint in axes])
+            limits = f"lower = robot.{q}_min, upper = robot.{q}_max, velocity = robot.{v}_max, reach = {reach}"
+            yield f"UrdfSync.Robots.AxisSweeps {kind}Sweep(n = {len(axes)}, start = {starts}, {limits})"
+
+
+def swept(subject: Subject, joint: Joint) -> str:
+    """Return the position of an axis in the bench of the generic robot."""
+    return f"{MOTION_KINDS[joint.type]}Sweep.y[{_number(subject, joint)}]"
+
+
+def _number(subject: Subject, joint: Joint) -> int:
+    """Return the number of an axis of the generic robot."""
+    return [each.name for each in subject.tree.axes(MOTION_KINDS[joint.type])].index(joint.name) + 1
 
 
 def _driven_balls(subject: Subject) -> list[str]:

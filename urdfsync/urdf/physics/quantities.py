@@ -71,7 +71,8 @@ def _efforts(
             unit, effort = ("N·m", "tau") if MOTION_KINDS[joint.type] == "rotational" else ("N", "f")
             number, value = subject.reference.axes.index(joint.name), (f"{names.flanges[joint.name]}.{effort}",)
             compared = Compared(Quantity.EFFORT, f"joint {joint.name}", unit, value, times)
-            yield compared, [[float(each.efforts[number])] for each in solved]
+            by_motors = subject.pushed_by_motors(joint.name) if names.is_package else 0.0
+            yield compared, [[float(each.efforts[number]) - by_motors] for each in solved]
 
 
 def over_time(subject: Subject, names: RobotVariables, step: float) -> Iterator[Pair]:
@@ -115,14 +116,20 @@ def loops(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
             yield Compared(Quantity.REACTION, element, unit, values, COMPARED, Part.LOOPS), expected
 
 
-def sweeps(subject: Subject) -> Iterator[Pair]:
-    """Yield the positions between which Test moves the axes."""
-    for k, (joint, start, end) in enumerate(subject.sweeps(), 1):
-        times, value = (0.0, motion.PERIOD / 2, motion.PERIOD), f"sweep{k}.{'phi' if _unit(joint) == 'rad' else 's'}"
-        yield (
-            Compared(Quantity.SWEEP, f"joint {joint.name}", _unit(joint), (value,), times, Part.BENCHES),
-            [[start], [end], [start]],
-        )
+def sweeps(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
+    """Yield the positions between which Test moves the axes, with their ranges and the efforts of Test's drives."""
+    for k, (joint, start, end, limits) in enumerate(subject.sweeps(), 1):
+        times, unit = (0.0, motion.PERIOD / 2, motion.PERIOD), _unit(joint)
+        what = f"joint {joint.name}{'' if names.is_package else ' of the generic robot'}"
+        value = f"sweep{k}.{'phi' if unit == 'rad' else 's'}" if names.is_package else probe.swept(subject, joint)
+        yield Compared(Quantity.SWEEP, what, unit, (value,), times, Part.BENCHES), [[start], [end], [start]]
+        numbers = {f"range{k}[{i}]": limit for i, limit in enumerate(limits, 1) if abs(limit) < motion.ENDLESS}
+        if numbers:
+            range_ = Compared(Quantity.SWEEP, what, unit, tuple(numbers), (0.0,), Part.BENCHES, "range")
+            yield range_, [numbers.values()]
+        if names.is_package:
+            effort = "N·m" if unit == "rad" else "N"
+            yield Compared(Quantity.EFFORT, what, effort, (f"balance{k}",), times, Part.BENCHES, "Test"), [[0.0]] * 3
 
 
 def _unit(joint: Joint) -> str:

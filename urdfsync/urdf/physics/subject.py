@@ -13,6 +13,7 @@ from numpy.polynomial import Polynomial
 
 from urdfsync.checks.experiment import Sample
 from urdfsync.domain import Import
+from urdfsync.urdf.connectors import connector_names
 from urdfsync.urdf.drives import assembly, sharing_joint
 from urdfsync.urdf.kinematics.poses import position_ranges, start_positions
 from urdfsync.urdf.kinematics.tree import KinematicTree
@@ -82,8 +83,35 @@ class Subject:
                 checked |= {joint.name, other}
         return checked
 
-    def sweeps(self) -> Iterator[tuple[Joint, float, float]]:
+    @cached_property
+    def motor_torques(self) -> Mapping[str, float]:
+        """The torque at the motor of each joint that has one.
+
+        It is half of the joint's limit, and acts as the effort beyond the limit does: both have to count together.
+        """
+        torques, axes = dict[str, float](), {joint.name for joint in self.axes}
+        for name, drive in connector_names(self.tree, self.options).drives.items():
+            # a motor at a dependent joint of a loop would push the axes
+            if drive.motor and {name, drive.other or name} <= axes:
+                joint = self.second.joints[name]
+                effort = joint.number("limits.effort")
+                part = 0.5 * (effort if effort < motion.ENDLESS else 1.0)
+                torques[name] = -part / joint.number("transmission.reduction")
+        return torques
+
+    def pushed_by_motors(self, name: str) -> float:
+        """Return the effort of all motors on a joint: see `motor_torques`."""
+        joints, effort = self.second.joints, 0.0
+        for motor, torque in self.motor_torques.items():
+            effort += torque * joints[motor].number("transmission.reduction") * (motor == name)
+            if joints[motor].shares == name:
+                effort += torque * joints[motor].number("transmission.otherReduction")
+        return effort
+
+    def sweeps(self) -> Iterator[tuple[Joint, float, float, tuple[float, float, float]]]:
         """Yield each axis with the ends of its way in Test: the start, and the farther end of the range, with a margin.
+
+        Its range and its greatest speed come last, as the joints that follow it allow.
 
         The axis moves along a cosine: its greatest speed is pi/period times the way.
         """
@@ -100,7 +128,8 @@ class Subject:
                 reach = self.assembly.reach.get(joint.name, _REACH[MOTION_KINDS[joint.type]])
                 most = min(reach, _MARGIN * speed(joint) * motion.PERIOD / math.pi)
                 above, below = (min(most, _MARGIN * room) for room in (upper - start, start - lower))
-                yield joint, start, start + above if above >= below else start - below
+                end = start + above if above >= below else start - below
+                yield joint, start, end, (lower, upper, speed(joint))
 
     def is_in_loop(self, joint: Joint) -> bool:
         """Return whether loops restrict the motion of a joint."""

@@ -16,11 +16,49 @@ UNITS = {"a": '"m/s2"', "w": '"rad/s"', "f": '"N"', "t": '"N.m"'}
 SURFACE = {"kp": "stiffness", "kd": "viscosity", "mu": "friction", "minDepth": "minDepth"}
 """Parameters of contacts by the numbers of links."""
 
+ROBOT = "extends = UrdfSync.Robots.Partial{Base}Robot; m = {masses}; type of m = finalparameterModelica.Units.SI.Mass"
+LINK = "type of {c} = replaceableLinks.{C}; {c}.animation = animation; {c}.showCollisions = showCollisions"
+JOINT = "type of {c} = replaceableJoints.{C}"
+AXIS = "{c}.fixedStart = {fixed}; {c}.checkLimits = checkLimits"
+LEADER = (
+    "{c}.{q}_min = max({{{least}}}); {c}.{q}_max = min({{{most}}}); "
+    "{c}.{v}_max = min({{{c}.parameters.limits.velocity{speeds}}})"
+)
+FOLLOWER = (
+    "{c}.{q}_start = {start}; {c}.fixedStart = false; {c}.stateSelect = StateSelect.avoid; {c}.checkEffort = false; "
+    "{c}.checkLimits = checkLimits; {m}.parameters = {c}.parameters.mimic; type of {m} = UrdfSync.Couplings.{kind}"
+)
+COUPLING = "{m}.{q}_min = {c}.{q}_min; {m}.{q}_max = {c}.{q}_max; {m}.{v}_max = {c}.{v}_max"
+GEAR = "{g}.parameters = {c}.parameters.transmission; type of {g} = UrdfSync.Drives.SharedGear"
+SENSOR = "type of {c} = UrdfSync.Sensors.{kind}; {c}.parameters = sensorParameters.{c}"
+SENSORS = {"camera": "Camera", "lidar": "Lidar", "force_torque": "ForceTorque"}
+"""Classes of sensors by their kinds; all others are an Imu."""
+CONNECTORS = {
+    "Frame": "MultiBody.Interfaces.Frame_b", "Axis": "{kind}.Interfaces.Flange_a",
+    "Support": "{kind}.Interfaces.Flange_b", "Motor": "Rotational.Interfaces.Flange_a",
+}  # fmt: skip
+"""Types of the robot's connectors by the endings of their names."""
+FRICTION = (
+    "FrictionLaw = UrdfSync.Friction.{law}constrainedbyUrdfSync.Friction.Partial{kind}; "
+    "type of FrictionLaw = replaceablemodel; type of friction = FrictionLaw; friction.parameters = parameters.dynamics"
+)
+SPRING = (
+    "elasticity.stateSelect = StateSelect.default; elasticity.{q}_rel.fixed = fixedStart; "
+    "elasticity.{v}_rel.fixed = fixedStart; type of elasticity = "
+)
+SPRINGS = {
+    False: SPRING + "Modelica.Mechanics.{kind}.Components.SpringDamper; "
+    "elasticity.c = parameters.transmission.stiffness; elasticity.d = parameters.transmission.damping",
+    True: SPRING + "UrdfSync.Drives.{kind}Spring; elasticity.parameters = parameters.transmission; "
+    "elasticity.limits = parameters.limits",
+}  # fmt: skip
+"""The spring between drive and joint, by whether it saturates."""
 BENCH = {
     "fixed": "type of robot = replaceable{name}; robot.frame_a = world.frame_b; extends = UrdfSync.Robots.PartialBench",
     "floating": "type of robot = replaceable{name}; robot.frame_a = base.frame_b; stance = {name}Stance; "
     "load = robot.m*world.g; extends = UrdfSync.Robots.PartialMobileBench",
 }
+EXPERIMENT = "; experiment.StopTime = 10; experiment.Interval = 0.02; experiment.Tolerance = {tolerance}"
 OUTPUT = "{o} = {value}; {o}.unit = {unit}; type of {o} = Modelica.Blocks.Interfaces.RealOutput"
 _EFFORT = OUTPUT.format(o="{joint}_{f}", value="{axis}.{f}", unit="{F}")
 _DRIVE = "{axis} = {d}.flange; {support} = {d}.support; type of {d} = "
