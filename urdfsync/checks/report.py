@@ -45,10 +45,7 @@ def _sentences(result: CheckResult) -> list[tuple[str, str]]:
         changed = "; ".join(_change(*each) for each in _by_kind(effect.deviations, effect.owners))
         style = _edit_style(result) if changed else "dim"
         sentences.append((f"{_edited(effect)} {changed or 'no compared quantity'}", style))
-    told = {file for effect in result.effects for file in effect.files}
-    told |= {each.file for each in result.numbers.edits} if result.numbers else set()
-    untold = (file for file in result.edited if file not in told)
-    sentences += [(f"{file} (edited): its effect is not compared", "dim") for file in untold]
+    sentences += [(f"{file} (edited): its effect is not compared", "dim") for file in result.uncompared_edits]
     sentences += [(gap, "magenta") for gap in result.gaps]
     if not result.built:
         sentences.append(

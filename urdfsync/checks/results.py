@@ -144,7 +144,18 @@ class CheckResult(msgspec.Struct):
 
     KEYS = (
         *("robot", "package", "folder", "failed", "built", "in_step", "conflicting", "strict", "status", "summary"),
-        *("numbers", "edited", "freedoms", "reference", "agrees", "worst", "tools", "between", "between_edited"),
+        *(
+            "numbers",
+            "edited",
+            "uncompared_edits",
+            "freedoms",
+            "reference",
+            "agrees",
+            "worst",
+            "tools",
+            "between",
+            "between_edited",
+        ),
         *("notes", "unchecked", "gaps", "diagnostics", "seconds", "megabytes"),
     )
 
@@ -205,6 +216,13 @@ class CheckResult(msgspec.Struct):
     def effects(self) -> tuple[EditEffect, ...]:
         """The effects of the user's edits, by the first compiler that measured them."""
         return next((tool.effects for tool in self.tools if tool.effects), ())
+
+    @property
+    def uncompared_edits(self) -> tuple[str, ...]:
+        """The edited files whose effect nothing compared."""
+        compared = {file for effect in self.effects for file in effect.files}
+        compared |= {each.file for each in self.numbers.edits} if self.numbers else set()
+        return tuple(file for file in self.edited if file not in compared)
 
     @property
     def differs(self) -> bool:

@@ -82,6 +82,7 @@ def _check(
     """Check a package as far as this machine can; add all findings to the result."""
     robot, inputs = package.robot, package.inputs
     result.built, result.in_step, result.conflicting = bool(package.on_disk), package.in_step, package.conflicting
+    result.edited = package.changed
     checks: Checks | None = inputs.domain.checks
     result.freedoms = checks.freedoms(package.generation.now.snapshot, robot.options) if checks else None
     tell(f"{robot.name}: checking files and names")
@@ -121,7 +122,7 @@ def _check(
 def _compare_numbers(checks: Checks, package: RobotPackage, result: CheckResult) -> None:
     """Compare the numbers of a package with its source. A difference only of the package on disk is the user's edit."""
     tell(f"{package.robot.name}: reading the source again")
-    source, result.edited = package.inputs.source, package.changed
+    source = package.inputs.source
     on_disk = package.on_disk if package.in_step else package.generated
     model = f"{package.models[0]}.mo"
     models = {path for path, text in package.generated.items() if b"\nmodel " in text} - {model}
