@@ -220,7 +220,7 @@ class Domain(Protocol):
     advice: Any = None  # `urdfsync.config.advice.Advice`
     starter: Any = None  # `urdfsync.config.advice.Starter`
     beside: Any = None  # `urdfsync.engine.source.Beside`
-    catalogue: Any = None  # `urdfsync.engine.source.Catalogue`
+    named_file: Any = None  # `urdfsync.engine.source.NamedFile`
     imports: Any = None  # `urdfsync.engine.imports.Mentions`
     describe: Any = None  # `urdfsync.changes.Describe`
     effects: Any = None  # `urdfsync.changes.Effects`

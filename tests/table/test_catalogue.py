@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 from pathlib import Path
 
@@ -71,20 +72,31 @@ def test_the_catalogue_is_read_by_saved_answers_and_the_daemon(project: Path, mo
 
 
 @NEEDS_GIT
-def test_a_revision_has_the_catalogue_of_its_time(
+def test_a_revision_has_the_catalogue_that_it_names(
     project: Path, execute: Execute, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    repository, text = Repository(project, monkeypatch), Path(TOML).read_text()
+    Path(TOML).write_text(re.sub("(?m)^(catalogue|motors) = .*\n", "", text))
+    repository.commit()  # HEAD~2 names none
+    Path(TOML).write_text(text)
     SERVOS.rename("later.csv")
-    repository = Repository(project, monkeypatch)
-    repository.commit()
+    repository.commit()  # HEAD~1 lacks its catalogue
     Path("later.csv").rename(SERVOS)
     repository.commit()
     edit(SERVOS, "S41,410", "S41,430")
+    SERVOS.rename("later.csv")
+    edit(Path(TOML), 'catalogue/servos.csv"\nmotors', 'later.csv"\nmotors')
+    Path("arm.urdf").rename("later.urdf")
+    edit(Path(TOML), '"arm.urdf"', '"later.urdf"')
     found = execute("diff", "arm", "--against", "HEAD", code=1).words
     assert "1 parameter change since HEAD joint elbow: motor S41 / effort 4.1 → 4.3 N·m" in found
-    assert (
-        "joint elbow: motor S41 / effort 100 → 4.3 N·m" in execute("diff", "arm", "--against", "HEAD~1", code=1).words
-    )
+    found = execute("diff", "arm", "--against", "HEAD~1", code=Exit.ERROR).words
+    missing = "HEAD~1:catalogue/servos.csv can't be read: it does not exist; name a revision that has the file"
+    assert f"HEAD~1:urdfsync.toml:10: error: robot `arm`: the catalogue {missing}" in found
+    found = execute("diff", "arm", "--against", "HEAD~2", code=1).words
+    assert "joint elbow: motor S41 / effort 100 → 4.3 N·m" in found
+    Path("later.urdf").rename("arm.urdf")
+    edit(Path(TOML), '"later.urdf"', '"arm.urdf"')
     shutil.copy("arm.urdf", "other.urdf")
     edit(Path("other.urdf"), '<mass value="4"/>', '<mass value="5"/>')
     found = execute("diff", "arm", "--against", "other.urdf", code=1).words

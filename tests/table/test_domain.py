@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import pytest
@@ -91,8 +92,35 @@ def test_two_sides_conflict(project: Path, execute: Execute) -> None:
     assert "= 6.5;" in Path("modelica/Motors/Records/MX_64.mo").read_text()
 
 
+def name_connections() -> None:
+    with Path("urdfsync.toml").open("a") as file:
+        file.write('connections = "motors.connections.csv"\n')
+
+
+def test_connections_never_vanish_in_silence(folder: Path, execute: Execute) -> None:
+    table, connections = Path("motors.csv"), Path("motors.connections.csv")
+    table.write_text(MOTORS)
+    connections.write_text("from,to\nMX-64,XM 430\n")
+    assert 'connections = "motors.connections.csv"' in execute("init", "--domain", "table", "motors.csv").words
+    system = Path("templates/motors/system.mo.jinja")
+    system.write_text(system.read_text().replace("end <<", "// << connections | length >> connection\nend <<"))
+    execute("build")
+    edit(Path("urdfsync.toml"), 'source = "motors.csv"', 'source = "drives.csv"')
+    table.rename("drives.csv")
+    assert "motors: in step" in execute("build").words
+    connections.rename("away.csv")
+    missing = "the connections motors.connections.csv can't be read: No such file or directory; put the file there"
+    for command in ("build", "check", "diff"):
+        found = execute(command, code=Exit.ERROR).words
+        assert f"urdfsync.toml:11: error: robot `motors`: {missing}, or correct `connections` [no-source]" in found
+    assert "// 1 connection" in Path("modelica/Motors/Motors.mo").read_text()
+
+
 def test_a_fault_in_the_connections_is_told_in_their_file(project: Path, execute: Execute) -> None:
     Path("motors.connections.csv").write_text("from,to\nMX-64,XM 430\nMX-64,gone\n")
+    found = execute("build", code=Exit.ERROR).words
+    assert "urdfsync.toml:5: error: robot `motors`: motors.connections.csv stands beside the source" in found
+    name_connections()
     found = execute("build", code=Exit.ERROR)
     assert "motors.connections.csv:3: error: there is no element `gone`" in found.words
 
@@ -124,8 +152,19 @@ def test_a_package_without_a_system_is_checked_model_by_model(
     assert "2 models compile" in found, modelica_library
 
 
+def test_a_check_names_each_edited_file(project: Path, execute: Execute) -> None:
+    edit(Path("modelica/Motors/Records/MX_64.mo"), "= 6;", "= 7;")
+    edit(Path("modelica/Motors/Records/XM_430.mo"), "end XM_430;", "  // a comment alone\nend XM_430;")
+    found = execute("check", code=None)
+    assert "Records/MX_64.mo (edited): its effect is not compared" in found.words
+    assert "XM_430" not in found.out
+    (check,) = json.loads(execute("check", "--format", "json", code=None).out)["results"]
+    assert check["uncompared_edits"] == check["edited"] == ["Records/MX_64.mo"]
+
+
 def test_the_page_shows_elements_and_connections(project: Path, execute: Execute) -> None:
     Path("motors.connections.csv").write_text("from,to\nMX-64,XM 430\n")
+    name_connections()
     table = DOMAIN.read(MOTORS.encode() + MARK + b"from,to\nMX-64,XM 430\n", "motors.csv", Options()).snapshot
     picture, meshes = DOMAIN.pictures.scene(table, {}, Target("Motors", "Motors"), Options())
     assert [body.element for body in picture.bodies] == ["table Motors", "element MX-64", "element XM 430"]

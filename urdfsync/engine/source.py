@@ -8,7 +8,7 @@ import os
 import re
 import stat
 from bisect import bisect_right
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -36,6 +36,7 @@ from urdfsync.state.store import Store
 
 if TYPE_CHECKING:
     from urdfsync.engine.expansion import SourceFiles
+    from urdfsync.git.revisions import Revision
 
 MAX_TEMPLATE = 10_000_000
 """The most bytes of a file in the user's template folder; the longest template of urdfsync has 5,000."""
@@ -117,21 +118,21 @@ class Source(msgspec.Struct, frozen=True):
 
 
 def read_source(config: Config, robot: RobotConfig, store: Store, options: BuildOptions, name: str = "") -> Source:
-    """Read the robot's source with its catalogue; xacro or a command may have to make the source first.
+    """Read the robot's source with the file that an option names; xacro or a command may have to make the source first.
 
     `name` is the robot's name in the state, if it differs. xacro expands the source again, unless this machine has
     noted the text and its inputs. If xacro or a file is missing, the recorded text is used. A dry run runs no command.
     Raises SourceError for an unreadable source, at the line of the configuration, and ConfigError for an untrusted
     command.
     """
-    return with_catalogue(config, robot, _read_source(config, robot, store, options, name))
+    return with_named_file(config, robot, _read_source(config, robot, store, options, name))
 
 
 def _read_source(config: Config, robot: RobotConfig, store: Store, options: BuildOptions, name: str) -> Source:
     if not robot.command:
         content = _read(config, robot)  # reports a file that xacro can't read
         if robot.arguments is None and not is_xacro(robot.source, content):
-            return _with_file_beside(registry.domain(robot.domain), robot.source, content)
+            return _with_file_beside(registry.domain(robot.domain), robot.source, content, robot.options)
     from urdfsync.engine import expansion  # 5 ms, and few robots need it
 
     inputs = expansion.SourceFiles(config.root, robot.source, (*robot.package_paths, *options.package_paths))
@@ -190,6 +191,8 @@ class Beside(Protocol):
 
     SUFFIX: str
     """The suffix of this file; otherwise its path is that of the source."""
+    OPTION: str
+    """The option that has to name this file in a configuration, as `NamedFile.OPTION`; empty if none has to."""
 
     def join(self, content: bytes, other: bytes, file: str) -> tuple[bytes, Sequence[tuple[int, int]]]:
         """Return a source with new lines for the content of the other file, and their numbers in both files.
@@ -199,47 +202,60 @@ class Beside(Protocol):
         ...
 
 
-class Catalogue(Protocol):
-    """Adds numbers from a table that options name to a source; a domain's attribute `catalogue`."""
+class NamedFile(Protocol):
+    """Adds the content of a file that options name to a source; a domain's attribute `named_file`."""
+
+    OPTION: str
+    """The option with the file's path from the configuration's folder."""
 
     def file(self, options: Any) -> str:
-        """Return the path of the table from the configuration's folder; empty if there is none."""
+        """Return this path; empty if the source needs no such file."""
         ...
 
     def join(self, content: bytes, other: bytes, file: str, options: Any) -> tuple[bytes, Sequence[tuple[int, int]]]:
-        """Return a source with new lines for the content of the table; see `Beside.join`."""
+        """Return a source with new lines for the content of the file; see `Beside.join`."""
         ...
 
 
-def with_catalogue(
-    config: Config | None,
-    robot: RobotConfig,
-    text: Source,
-    contents: Callable[[Sequence[Path]], Mapping[Path, bytes]] | None = None,
+def with_named_file(
+    config: Config | None, robot: RobotConfig, text: Source, revision: Revision | None = None
 ) -> Source:
-    """Return a source with the rows of its robot's catalogue as it is on disk, or in the `contents` of a revision.
+    """Return a source with the content of the file that its robot's options name, on disk or in a revision.
 
-    A revision without the catalogue adds nothing. Raises SourceError.
+    A file outside of the revision's repository is read on disk. Raises SourceError for a missing file, and for one
+    beside the source that has to be named: else its content would vanish in silence once either is renamed.
     """
-    catalogue: Catalogue | None = registry.domain(robot.domain).catalogue
-    named = catalogue.file(robot.options) if catalogue and config else ""
-    if not (catalogue and config and named):
+    domain = registry.domain(robot.domain)
+    named: NamedFile | None = domain.named_file
+    if not (config and named and named.file(robot.options)):
+        path = file_beside(domain, robot.source)
+        if config and path and domain.beside.OPTION and not revision and is_file(path):
+            message = f"robot `{robot.name}`: {shown(path)} stands beside the source, and no option names it"
+            hint = f"set `{domain.beside.OPTION}` to its path, or move the file away"
+            raise SourceError.of("unnamed-file", message, shown(config.file), robot.lines[""], hint=hint)
         return text
-    path = config.root / named
+    path, label = config.root / named.file(robot.options), revision.label if revision else shown
     try:
-        content = read_file(path) if contents is None else contents([path]).get(path)
-    except OSError as error:
-        message = f"robot `{robot.name}`: the catalogue {shown(path)} can't be read: {error.strerror}"
-        place, hint = (shown(config.file), robot.lines["catalogue"]), "correct `catalogue`"
-        raise SourceError.of("no-source", message, *place, hint=hint) from None
-    if content is None:
-        return text
-    return _with_lines(text, *catalogue.join(text.content, content, shown(path), robot.options), path)
+        content = revision.contents([path])[path] if revision and revision.holds(path) else read_file(path)
+    except (OSError, KeyError) as error:
+        reason = error.strerror if isinstance(error, OSError) else "it does not exist"
+        message = f"robot `{robot.name}`: the {named.OPTION} {label(path)} can't be read: {reason}"
+        hint = "name a revision that has the file" if revision else f"put the file there, or correct `{named.OPTION}`"
+        raise SourceError.of("no-source", message, label(config.file), robot.lines[named.OPTION], hint=hint) from None
+    return _with_lines(text, *named.join(text.content, content, label(path), robot.options), path)
 
 
-def _with_file_beside(domain: Domain, source: Path, content: bytes) -> Source:
-    """Return a source that may have a file beside it. Raises SourceError."""
-    path = source.with_suffix(domain.beside.SUFFIX) if domain.beside else None
+def file_beside(domain: Domain, source: Path, options: Any = None) -> Path | None:
+    """Return the path of the file that may stand beside a source; None if `options` name it."""
+    beside: Beside | None = domain.beside
+    if beside is None or (beside.OPTION and getattr(options, beside.OPTION, "")):
+        return None
+    return source.with_suffix(beside.SUFFIX)
+
+
+def _with_file_beside(domain: Domain, source: Path, content: bytes, options: Any) -> Source:
+    """Return a source that may have a file beside it, unless the options name it. Raises SourceError."""
+    path = file_beside(domain, source, options)
     return joined(domain, content, shown(source), read_file(path) if path and is_file(path) else b"", path)
 
 
@@ -259,15 +275,20 @@ def _with_lines(source: Source, text: bytes, lines: Sequence[tuple[int, int]], p
     return msgspec.structs.replace(source, content=text, places=places)
 
 
-def read_file_source(domain: Domain, file: Path, arguments: Mapping[str, str], package_paths: Sequence[Path]) -> Source:
-    """Read a source that no configuration names, with these arguments if it is xacro. Raises SourceError."""
+def read_file_source(
+    domain: Domain, file: Path, arguments: Mapping[str, str], package_paths: Sequence[Path], options: Any = None
+) -> Source:
+    """Read a source that no configuration names, with these arguments if it is xacro. Raises SourceError.
+
+    A file beside it is left out if `options` name it: see `with_named_file`.
+    """
     try:
         content = read_unrecorded(file)
     except OSError as error:
         message, hint = f"the source can't be read: {error.strerror}", "name a file that is there and may be read"
         raise SourceError.of("no-source", message, shown(file), hint=hint) from None
     if not is_xacro(file, content):
-        return _with_file_beside(domain, file, content)
+        return _with_file_beside(domain, file, content, options)
     from urdfsync.engine import expansion
 
     inputs = expansion.SourceFiles(file.absolute().parent, file.absolute(), package_paths)

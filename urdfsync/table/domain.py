@@ -26,11 +26,21 @@ class _Module:
 
 
 class _Connections:
-    """The connections in a CSV beside the source, such as `rooms.connections.csv` beside `rooms.csv`."""
+    """The connections in a CSV, such as `rooms.connections.csv` beside `rooms.csv`."""
 
-    SUFFIX = ".connections.csv"
+    SUFFIX, OPTION = ".connections.csv", "connections"
 
-    def join(self, content: bytes, other: bytes, file: str) -> tuple[bytes, Sequence[tuple[int, int]]]:
+    def file(self, options: Options) -> str:
+        """Return the path of the CSV; see `NamedFile`."""
+        return options.connections
+
+    def join(
+        self,
+        content: bytes,
+        other: bytes,
+        file: str,
+        options: Options | None = None,  # noqa: ARG002 - see `NamedFile`
+    ) -> tuple[bytes, Sequence[tuple[int, int]]]:
         """Return the source with the connections at its end; see `Beside`."""
         from urdfsync.table.formats import join
 
@@ -44,7 +54,7 @@ class TableDomain(Domain):
     warnings = ("not-modelled",)
     model = Table
     options = Options
-    beside = _Connections()
+    beside = named_file = _Connections()
     advice, simulation, pictures = _Module("starter"), _Module("benches"), _Module("scene")
 
     def starter(self, snapshot: Table) -> Mapping[str, str]:

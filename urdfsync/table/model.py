@@ -41,6 +41,8 @@ class Options(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """The column that names the elements; empty for the first column."""
     kind: str = ""
     """The column that chooses the template of an element's model, `model/KIND.mo.jinja`; empty for `model.mo.jinja`."""
+    connections: str = ""
+    """The CSV with the connections; empty if the source has them, or none."""
     files: tuple[File, ...] = ("record", "model")
     """The files to generate: a record and a model for each element, and one model of the whole system."""
     classes: tuple[str, ...] = ()

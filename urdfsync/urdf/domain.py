@@ -57,7 +57,7 @@ class UrdfDomain(Domain):
     permissive_options = Options(allow=get_args(LeftOut))
     cured = ("loop-singular",)
     advice, effects, checks = _Module("advice"), _Module("diff.effects"), _Module("benches")
-    beside, catalogue, imports = _Module("parse.beside"), _Module("parse.catalogue"), _Module("meshes.lookup")
+    beside, named_file, imports = _Module("parse.beside"), _Module("parse.catalogue"), _Module("meshes.lookup")
     simulation, pictures = _Module("benches"), _Module("scene")
     describe = staticmethod(describe)
 

@@ -18,6 +18,7 @@ import msgspec
 from urdfsync import changes, registry
 from urdfsync.changes import Changes, Effect, Effects
 from urdfsync.config import FILE_NAME, Config, RobotConfig
+from urdfsync.config.load import parse as parse_config
 from urdfsync.diagnostics import ConfigError, Diagnostic, SourceError, findings_of
 from urdfsync.domain import ChangeClass, Domain, Lookup, Role, Target, Version
 from urdfsync.engine import imports
@@ -222,22 +223,23 @@ def _with_version(
         arguments, folders = robot.arguments or {}, (*robot.package_paths, *options.package_paths)
         if _is_file(against, source, folder):
             file = folder / against
-            text = source_files.read_file_source(domain, file, arguments, folders)
-            other = _VersionedSource(source_files.with_catalogue(config, robot, text), (file, source))
+            text = source_files.read_file_source(domain, file, arguments, folders, robot.options)
+            other = _VersionedSource(source_files.with_named_file(config, robot, text), (file, source))
         else:
             revision = Revision(source.parent, against)
-            text = source_files.with_catalogue(config, robot, _in_revision(revision, robot, config), revision.contents)
-            other = _VersionedSource(text, (source,), revision, Path(scratch))
+            before = _configured_in(revision, robot, config)
+            text = source_files.with_named_file(config, before, _in_revision(revision, before, config), revision)
+            other = _VersionedSource(text, (before.source,), revision, Path(scratch))
         if config and not robot.command:  # the file may be expanded already
             text = source_files.read_source(config, robot, Store(config.root), options)
         else:
-            text = source_files.read_file_source(domain, source, arguments, folders)
-            text = source_files.with_catalogue(config, robot, text)
+            text = source_files.read_file_source(domain, source, arguments, folders, robot.options)
+            text = source_files.with_named_file(config, robot, text)
         current = _VersionedSource(text, (source,))
         new, imported, told = _read(domain, robot, current, imports.Imported(), options)
         old, imported_before, told_before = _read(domain, robot, other, imported, options)
-    before = {(finding.code, finding.message) for finding in told_before}
-    new_findings = tuple(finding for finding in told if (finding.code, finding.message) not in before)
+    known = {(finding.code, finding.message) for finding in told_before}
+    new_findings = tuple(finding for finding in told if (finding.code, finding.message) not in known)
     result = msgspec.structs.replace(result, diagnostics=robot.without_ignored(new_findings))
     matching = find_matching(domain, old.snapshot, new.snapshot, robot.renamed)
     differences = changes.compare(old, new, domain, robot.options, matching)
@@ -262,6 +264,22 @@ def _with_version(
     return Comparison(result, shown(robot.source), against, effects=effects, versions=versions)
 
 
+def _configured_in(revision: Revision, robot: RobotConfig, config: Config | None) -> RobotConfig:
+    """Return a robot as the configuration of a revision has it; with default options if it has no such robot."""
+    if config is None or not revision.holds(config.file):
+        return robot
+    content = revision.contents([config.file]).get(config.file, b"")
+    try:
+        text = content.decode("utf-8-sig").replace("\r\n", "\n")
+        robots = parse_config(text, config.file, revision.label(config.file)).robots
+    except (UnicodeDecodeError, ConfigError):
+        return robot  # a later version may have repaired the configuration, or renamed its keys
+    named = [each for each in robots if each.name == robot.name]
+    of_source = [each for each in robots if each.source == robot.source]
+    unknown = msgspec.structs.replace(robot, options=registry.domain(robot.domain).options())
+    return next((each for each in (*named, *of_source) if each.domain == robot.domain), unknown)
+
+
 def _in_revision(revision: Revision, robot: RobotConfig, config: Config | None) -> Source:
     """Return a source in a revision; for xacro, its expansion of that time. Raises SourceError."""
     label = revision.label(robot.source)
@@ -270,7 +288,7 @@ def _in_revision(revision: Revision, robot: RobotConfig, config: Config | None) 
         content = revision.read(robot.source)
         if config is None or not source_files.is_xacro(robot.source, content):
             domain = registry.domain(robot.domain)
-            beside = robot.source.with_suffix(domain.beside.SUFFIX) if domain.beside else None
+            beside = source_files.file_beside(domain, robot.source, robot.options)
             other = revision.contents([beside]).get(beside, b"") if beside else b""
             return source_files.joined(domain, content, label, other, beside)
     path = Store(config.root).expansion(robot.name)

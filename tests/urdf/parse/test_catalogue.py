@@ -188,5 +188,5 @@ def test_strange_names_and_cells_are_read_as_they_are() -> None:
 
 def test_a_robot_without_motors_has_no_catalogue() -> None:
     options = Options(catalogue="motors.csv")
-    assert DOMAIN.catalogue.file(options) == ""
+    assert DOMAIN.named_file.file(options) == ""
     assert DOMAIN.read(URDF.encode(), "a.urdf", options).snapshot is not None

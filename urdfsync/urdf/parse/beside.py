@@ -22,7 +22,7 @@ from urdfsync.urdf.parse import xml
 
 AXES = "joint_axes"
 """Element that gives a joint several axes, one after the other: `<joint_axes joint axes>`."""
-SUFFIX = ".yaml"
+SUFFIX, OPTION = ".yaml", ""
 _KINDS = {"3d": "ball", "6d": "fixed"}
 _TYPES = {
     "FIXED": "",

@@ -21,6 +21,7 @@ from urdfsync.urdf.options import MotorNumber, Options
 from urdfsync.urdf.parse.fields import Reader
 from urdfsync.urdf.robot import MOTION_KINDS, Joint, Motor, Transmission
 
+OPTION = "catalogue"
 _ROW = "catalogue_row"
 _PLACES: Mapping[MotorNumber, tuple[str, str, str]] = {
     "effort": ("limit", "N.m", "N"),
