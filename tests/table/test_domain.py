@@ -118,8 +118,8 @@ def test_connections_never_vanish_in_silence(folder: Path, execute: Execute) -> 
 
 def test_a_fault_in_the_connections_is_told_in_their_file(project: Path, execute: Execute) -> None:
     Path("motors.connections.csv").write_text("from,to\nMX-64,XM 430\nMX-64,gone\n")
-    found = execute("build", code=Exit.ERROR).words
-    assert "urdfsync.toml:5: error: robot `motors`: motors.connections.csv stands beside the source" in found
+    unnamed = execute("build", code=Exit.ERROR).words
+    assert "urdfsync.toml:5: error: robot `motors`: motors.connections.csv stands beside the source" in unnamed
     name_connections()
     found = execute("build", code=Exit.ERROR)
     assert "motors.connections.csv:3: error: there is no element `gone`" in found.words

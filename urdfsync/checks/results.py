@@ -144,19 +144,8 @@ class CheckResult(msgspec.Struct):
 
     KEYS = (
         *("robot", "package", "folder", "failed", "built", "in_step", "conflicting", "strict", "status", "summary"),
-        *(
-            "numbers",
-            "edited",
-            "uncompared_edits",
-            "freedoms",
-            "reference",
-            "agrees",
-            "worst",
-            "tools",
-            "between",
-            "between_edited",
-        ),
-        *("notes", "unchecked", "gaps", "diagnostics", "seconds", "megabytes"),
+        *("numbers", "edited", "uncompared_edits", "freedoms", "reference", "agrees", "worst", "tools"),
+        *("between", "between_edited", "notes", "unchecked", "gaps", "diagnostics", "seconds", "megabytes"),
     )
 
     robot: str
