@@ -85,7 +85,12 @@ def _read_yaml(text: str) -> Any:
     import yaml
 
     class Loader(yaml.SafeLoader):  # type: ignore[misc] # PyYAML has no types
-        """PyYAML's loader takes the last one of equal keys."""
+        """PyYAML takes the last one of equal keys, `100:1` for 6001, and `010` for 8: here all cells are texts."""
+
+        yaml_implicit_resolvers = {  # noqa: RUF012 - PyYAML's name and type
+            first: [(tag, pattern) for tag, pattern in kinds if tag.endswith((":merge", ":null"))]
+            for first, kinds in yaml.SafeLoader.yaml_implicit_resolvers.items()
+        }
 
     def mapping(loader: yaml.SafeLoader, node: yaml.MappingNode) -> dict[Any, Any]:
         loader.flatten_mapping(node)
