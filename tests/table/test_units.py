@@ -37,7 +37,6 @@ from urdfsync.table.units import find_unit, is_same_kind
         ("J/kg/K", "2", 2, "m2/(s2.K)"),
         ("1/degC", "2", 2, "1/K"),
         ("1/s", "2", 2, "1/s"),
-        ("W/(m2.K)", "2", 2, "W/(m2.K)"),
         ("hPa", "2", 200, "Pa"),
     ],
 )
