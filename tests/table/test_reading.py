@@ -141,6 +141,12 @@ def test_numbers_and_texts_that_only_some_formats_have(file: str, content: str, 
     assert words in str(reading(content, file).diagnostics[0])
 
 
+def test_a_fault_in_a_connection_is_at_its_line() -> None:
+    links = '{"from": "a", "to": "b"},\n{"from": "a", "to": "c"}'
+    source = f'{{"elements": [\n{{"name": "a"}},\n{{"name": "b"}}],\n"connections": [\n{links}]}}'
+    assert str(reading(source, "a.json").diagnostics[0]).startswith("a.json:6: error: there is no element `c`")
+
+
 def test_numbers_in_yaml_are_decimal() -> None:
     assert table("- {name: a, 'mass [kg]': 010}\n", "a.yaml").elements == {"a": {"mass": 10.0}}
 
