@@ -6,7 +6,6 @@ import re
 from typing import Any
 
 import msgspec
-import msgspec
 import pytest
 from lxml import etree
 
