@@ -11,9 +11,9 @@ All elements are matched at once, by their contents, places and names:
 4. The remaining elements have other names. Two of them at the same place match if no other element has their content,
    or if another element has the old name now.
 
-Rows of a table are a kind of elements without neighbours: they have no places. So their texts count like numbers, and
-so does a whole content of zeros and ones, unless a row that keeps all else may have been switched on or off. After
-step 3, a row with another name matches if it is the only one with its content, or the only new one.
+Rows of a table are a kind without neighbours: they have no places. So a whole content counts whatever is in it; but if
+only zeros and ones changed under a name, the row may have been switched on or off. A text in a single column lets an
+element keep its name, or is a doubt. After step 3, rows of equal content match if only these two have other names.
 
 Numbers are equal if they differ by `NOISE` at most. If the place or a part of the content contradicts a match of step
 3, this is a `Doubt`. The time is linear in the number of elements.
@@ -136,9 +136,12 @@ class _Matcher:
                 self._pairs[old], self._taken[new], taken[old] = new, old, new
         return taken
 
-    def _votes(self) -> dict[ElementKey, dict[ElementKey, None]]:
-        """Return, for each old element, the new ones that share an aspect with it which no other element has."""
-        votes = defaultdict[ElementKey, dict[ElementKey, None]](dict)
+    def _votes(self) -> dict[ElementKey, dict[ElementKey, bool]]:
+        """Return, for each old element, the new ones that share an aspect with it which no other element has.
+
+        The value tells whether this may prove another name. A text alone can't: another pump may have the same maker.
+        """
+        votes = defaultdict[ElementKey, dict[ElementKey, bool]](dict)
         holders = defaultdict[tuple[str, Any], tuple[list[ElementKey], list[ElementKey]]](lambda: ([], []))
         for side, elements in enumerate((self._before, self._after)):
             for key, aspects in elements.items():
@@ -151,14 +154,16 @@ class _Matcher:
         for (_, aspect), (olds, news) in holders.items():
             if len(olds) == len(news) == 1:
                 is_named = isinstance(aspect, str) and olds == news and _has_name(aspect, olds[0][1])
-                votes[olds[0]].update({} if is_named else {news[0]: None})
+                is_proof = aspect not in self._telling or not isinstance(aspect[1], str)
+                found = votes[olds[0]]
+                found.update({} if is_named else {news[0]: is_proof or found.get(news[0], False)})
         return votes
 
-    def _proved(self, votes: Mapping[ElementKey, Collection[ElementKey]]) -> dict[ElementKey, ElementKey]:
+    def _proved(self, votes: Mapping[ElementKey, Mapping[ElementKey, bool]]) -> dict[ElementKey, ElementKey]:
         """Return the matches that contents prove."""
         proved = {}
         for key, found in votes.items():
-            if key in found or len(found) == 1:
+            if key in found or (len(found) == 1 and all(found.values())):
                 proved[key] = key if key in found else next(iter(found))
         claims = defaultdict[ElementKey, list[ElementKey]](list)
         for key, match_ in proved.items():
