@@ -305,9 +305,10 @@ class _Matcher:
                     holders[key[0], aspects][side].add(key)
         for olds, news in holders.values():
             removed, added = olds - news, news - olds
-            is_known = not removed.isdisjoint(self._new) or not added.isdisjoint(self._old)
-            if len(removed) == len(added) == 1 and not (is_known and len(olds) > 1):  # else it may be any of them
-                yield from zip(removed, added, strict=True)
+            if len(removed) == len(added) == 1:
+                (old,), (new,) = removed, added
+                if len(olds) == 1 or not (old in self._new or new in self._old):  # else it may be any of them
+                    yield old, new
 
     def _between(self) -> Iterator[tuple[ElementKey, ElementKey]]:
         """Yield pairs of elements: each is the only unmatched one of its kind between the same matched neighbours."""
