@@ -84,6 +84,24 @@ def test_an_edit_follows_an_element_with_another_key(project: Path, execute: Exe
     assert "Real mine" not in Path("modelica/Motors/Models/XM_430.mo").read_text()
 
 
+@pytest.mark.parametrize("rows", [
+    "A,1,foo B,1,bar C,1,baz → B,1,foo C,1,bar D,1,baz",
+    "A,1,foo B,0,bar C,2,baz → B,1,foo A,0,bar C,2,baz",
+])  # fmt: skip
+def test_edits_follow_rows_with_zeros_and_ones(folder: Path, execute: Execute, rows: str) -> None:
+    old, new = (table.split() for table in rows.split(" → "))
+    source = Path("p.csv")
+    source.write_text("\n".join(["name,ratio [1],part", *old]))
+    execute("init", "--domain", "table", "p.csv")
+    execute("build")
+    for row in old:
+        edit(Path(f"modelica/P/Models/{row[0]}.mo"), f"\nend {row[0]}", f"\n  Real {row[-3:]};\nend {row[0]}")
+    source.write_text("\n".join(["name,ratio [1],part", *new]))
+    execute("build")
+    for row in new:
+        assert f"Real {row[-3:]};" in Path(f"modelica/P/Models/{row[0]}.mo").read_text()
+
+
 def test_two_sides_conflict(project: Path, execute: Execute) -> None:
     edit(Path("modelica/Motors/Records/MX_64.mo"), "= 6;", "= 6.5;")
     edit(Path("motors.csv"), "600", "700")
