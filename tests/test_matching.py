@@ -76,6 +76,75 @@ def test_contents_and_places_speak_against_a_name(old: Elements, new: Elements, 
     assert joints == {f"to_{name}": f"to_{names[name]}" for name in names if ("joint", f"to_{name}") in old}
 
 
+def rows(table: str) -> Elements:
+    """Rows of a table: `A 1 foo, B 0` has an empty cell."""
+    elements = dict[ElementKey, Features]()
+    for name, *cells in map(str.split, table.split(",")):
+        values = [float(cell) if cell.isdigit() else cell for cell in cells]
+        elements["element", name] = Features(dict(zip(("n", "part"), values, strict=False)), {})
+    return elements
+
+
+def other_order(elements: Elements) -> Elements:
+    """The same elements; a record may have another order of columns than its source."""
+    return {
+        key: Features(dict(reversed([*features.contents.items()])), features.neighbours)
+        for key, features in elements.items()
+    }
+
+
+@pytest.mark.parametrize(("old", "new", "names"), [
+    ("A 5 foo, B 5 bar, C 5 baz", "B 5 foo, C 5 bar, D 5 baz", "A-B B-C C-D"),
+    ("A 1 foo, B 1 bar, C 1 baz", "B 1 foo, C 1 bar, D 1 baz", "A-B B-C C-D"),
+    ("A 5 foo, B 1 bar", "C 7 foo, B 1 bar", ""),
+    ("A 1 x, B 2 y, C 3 z", "B 1 x, C 2 y, D 3 z", "A-B B-C C-D"),
+    ("A 1, B 2, C 3", "B 1, C 2, D 3", "A-B B-C C-D"),
+    ("A 1 foo, B 0 bar", "B 1 foo, A 0 bar", "A-B B-A"),
+    ("A 1, B 2, C 3", "C 1, B 2, A 3", "A-C C-A"),
+    ("A 1 foo, B 1 bar, C 1 baz", "A 1 foo, B 1 baz", "C-B"),
+    ("A 600, B 600", "A 600, C 600", "B-C"),
+    ("A 600, B 600, C 600", "A 600, D 600, E 600", ""),
+    ("A 5 foo, B 6 bar", "A 5 bar, B 6 foo", ""),
+    ("A 1, B 2", "A 0, B 2", ""),
+])  # fmt: skip
+def test_rows_are_found_by_texts_and_by_zeros_and_ones(old: str, new: str, names: str) -> None:
+    found = match(rows(old), other_order(rows(new)))
+    assert " ".join(f"{former}-{name}" for (_, former), name in found.renames.items()) == names
+
+
+@pytest.mark.parametrize(("old", "new", "doubtful"), [
+    ("A 1, B 0", "A 0, B 1", "AB"),
+    ("A 1 pump, B 0 pump", "A 0 pump, B 1 pump", "AB"),
+    ("A 600, B 600, C 7", "B 600, C 600, D 7", "B"),
+    ("A 1 foo, B 1 bar, C 1 baz", "A 1 foo, B 1 baz", "B"),
+    ("A 1 foo, B 1 bar, C 1 baz", "B 2 foo, C 3 bar, D 4 baz", "BC"),
+])  # fmt: skip
+def test_a_row_that_was_switched_or_renamed_is_a_doubt(old: str, new: str, doubtful: str) -> None:
+    found = match(rows(old), other_order(rows(new)))
+    assert "".join(name for _, name in found.doubts) == doubtful
+
+
+@given(st.randoms(use_true_random=False))
+def test_no_row_has_the_name_of_another_one_without_a_doubt(random: Random) -> None:
+    """Whatever the cells are, if rows keep them under other names, and one row is removed or added."""
+    cells = [f"{number} {text}" for number in (0, 1, 5) for text in ("", "foo", "bar")]
+    contents = dict(zip("ABCDE", random.choices(cells, k=5), strict=True))
+    names = dict(zip("ABCDE", random.choice(["ABCDE", "BCDEF", "ACDEF", random.sample("ABCDE", 5)]), strict=True))
+    removed = random.choice("ABCDE-")
+    renamed = {names[old]: content for old, content in contents.items() if old != removed}
+    added = {"F": random.choice(cells)} if removed == "-" else {}
+    old, new = (
+        rows(", ".join(f"{name} {content}" for name, content in table.items())) for table in (contents, added | renamed)
+    )
+    found = match(old, new)
+    taken = {(kind, name) for (kind, _), name in found.renames.items()}
+    for key, features in old.items():
+        is_same_name = key in new and key not in taken and key not in found.renames and key not in found.doubts
+        present = key if is_same_name else (key[0], found.renames.get(key, ""))
+        is_right = present[1] == names[key[1]] and key[1] != removed
+        assert present not in new or is_right or features == new[present]
+
+
 def test_what_cannot_be_known_is_a_doubt() -> None:
     """The mass of `b` is at `c`, and its shape at `d`."""
 

@@ -558,7 +558,7 @@ def test_any_order_of_work_is_right(walks: type[Walk]) -> None:
     run_state_machine_as_test(
         walks,
         settings=settings(
-            max_examples=replay.STEPS // STEPS or 8,
+            max_examples=replay.STEPS // STEPS or 6,
             stateful_step_count=STEPS,
             derandomize=not replay.STEPS,
             suppress_health_check=list(HealthCheck),

@@ -11,6 +11,10 @@ All elements are matched at once, by their contents, places and names:
 4. The remaining elements have other names. Two of them at the same place match if no other element has their content,
    or if another element has the old name now.
 
+Rows of a table are a kind without neighbours: they have no places. So a whole content counts whatever is in it; but if
+only zeros and ones changed under a name, the row may have been switched on or off. A text in a single column lets an
+element keep its name, or is a doubt. After step 3, rows of equal content match if only these two have other names.
+
 Numbers are equal if they differ by `NOISE` at most. If the place or a part of the content contradicts a match of step
 3, this is a `Doubt`. The time is linear in the number of elements.
 """
@@ -90,6 +94,7 @@ class _Matcher:
     def __init__(self, old: Elements, new: Elements, declared: Mapping[ElementKey, ElementKey]) -> None:
         self._old, self._new = old, new
         self._before, self._after, self._telling = _comparable(old, new)
+        self._placed = _placed(old, new)
         self._children = _children(old), _children(new)
         self._pairs: dict[ElementKey, ElementKey] = {}
         self._taken: dict[ElementKey, ElementKey] = {}
@@ -108,6 +113,7 @@ class _Matcher:
         by_name = self._take((key, key) for key, _ in named if self._is_equal(key, key))
         self._spread(by_name, is_late=False)
         by_name |= self._take(named)
+        self._take(self._remaining())
         self._removed = {
             (key[0], aspects) for key, aspects in self._before.items() if key not in self._pairs and aspects
         }
@@ -130,28 +136,34 @@ class _Matcher:
                 self._pairs[old], self._taken[new], taken[old] = new, old, new
         return taken
 
-    def _votes(self) -> dict[ElementKey, dict[ElementKey, None]]:
-        """Return, for each old element, the new ones that share an aspect with it which no other element has."""
-        votes = defaultdict[ElementKey, dict[ElementKey, None]](dict)
+    def _votes(self) -> dict[ElementKey, dict[ElementKey, bool]]:
+        """Return, for each old element, the new ones that share an aspect with it which no other element has.
+
+        The value tells whether this may prove another name. A text alone can't: another pump may have the same maker.
+        """
+        votes = defaultdict[ElementKey, dict[ElementKey, bool]](dict)
         holders = defaultdict[tuple[str, Any], tuple[list[ElementKey], list[ElementKey]]](lambda: ([], []))
         for side, elements in enumerate((self._before, self._after)):
             for key, aspects in elements.items():
                 telling = [aspect for aspect in aspects if aspect in self._telling]
-                for aspect in (*telling, aspects) if telling and len(aspects) > 1 else telling:
+                is_whole = aspects and key[0] not in self._placed
+                for aspect in (*telling, aspects) if is_whole or (telling and len(aspects) > 1) else telling:
                     holders[key[0], aspect][side].append(key)
                 for file in dict.fromkeys((self._new if side else self._old)[key].files):
                     holders[key[0], file][side].append(key)
         for (_, aspect), (olds, news) in holders.items():
             if len(olds) == len(news) == 1:
                 is_named = isinstance(aspect, str) and olds == news and _has_name(aspect, olds[0][1])
-                votes[olds[0]].update({} if is_named else {news[0]: None})
+                is_proof = aspect not in self._telling or not isinstance(aspect[1], str)
+                found = votes[olds[0]]
+                found.update({} if is_named else {news[0]: is_proof or found.get(news[0], False)})
         return votes
 
-    def _proved(self, votes: Mapping[ElementKey, Collection[ElementKey]]) -> dict[ElementKey, ElementKey]:
+    def _proved(self, votes: Mapping[ElementKey, Mapping[ElementKey, bool]]) -> dict[ElementKey, ElementKey]:
         """Return the matches that contents prove."""
         proved = {}
         for key, found in votes.items():
-            if key in found or len(found) == 1:
+            if key in found or (len(found) == 1 and all(found.values())):
                 proved[key] = key if key in found else next(iter(found))
         claims = defaultdict[ElementKey, list[ElementKey]](list)
         for key, match_ in proved.items():
@@ -167,7 +179,12 @@ class _Matcher:
         }
 
     def _stays(self, key: ElementKey, proved: Mapping[ElementKey, ElementKey]) -> bool:
-        """Whether an element keeps its name and its neighbours, which contents prove to be the same."""
+        """Whether an element keeps its name and its neighbours, which contents prove to be the same.
+
+        If its kind has no neighbours, it keeps its aspects that can identify it: only zeros and ones differ.
+        """
+        if key in self._new and key[0] not in self._placed:
+            return self._telling & {*self._before[key]} == self._telling & {*self._after[key]}
         before = self._old[key].neighbours
         after = self._new[key].neighbours if key in self._new else {}
         return bool(before) and before == after and all(proved.get(one) == one for one in before.values())
@@ -279,6 +296,20 @@ class _Matcher:
                 return True
         return False
 
+    def _remaining(self) -> Iterator[tuple[ElementKey, ElementKey]]:
+        """Yield pairs of elements without places: of all elements with their content, only they have other names."""
+        holders = defaultdict[Hashable, tuple[set[ElementKey], set[ElementKey]]](lambda: (set(), set()))
+        for side, elements in enumerate((self._before, self._after)):
+            for key, aspects in elements.items():
+                if aspects and key[0] not in self._placed:
+                    holders[key[0], aspects][side].add(key)
+        for olds, news in holders.values():
+            removed, added = olds - news, news - olds
+            if len(removed) == len(added) == 1:
+                (old,), (new,) = removed, added
+                if len(olds) == 1 or not (old in self._new or new in self._old):  # else it may be any of them
+                    yield old, new
+
     def _between(self) -> Iterator[tuple[ElementKey, ElementKey]]:
         """Yield pairs of elements: each is the only unmatched one of its kind between the same matched neighbours."""
         ends = defaultdict[Hashable, tuple[list[ElementKey], list[ElementKey]]](lambda: ([], []))
@@ -302,11 +333,16 @@ class _Matcher:
             if self._taken.get(key, key) == key and self._before.get(key) != aspects:
                 changed[key[0], aspects].append(key)
         has_moved = any(old != new for old, new in self._pairs.items())  # else another place does not mean another part
-        removed = {(key[0], aspects) for key, aspects in self._before.items() if key not in self._pairs}
+        removed = {
+            (key[0], aspects)
+            for key, aspects in self._before.items()
+            if key not in self._pairs or (key[0] not in self._placed and self._after[self._pairs[key]] != aspects)
+        }
         held = {(key[0], aspect): key[1] for key in self._in_order() for aspect in self._before[key]}
         doubts = dict[ElementKey, Doubt]()
         for key in by_name:
-            is_other = self._before[key] != self._after[key] and not self._shared(key, key)
+            is_other = self._before[key] != self._after[key]
+            is_other = is_other and not (key[0] in self._placed and self._shared(key, key))
             twins = changed.get((key[0], self._before[key]), []) if is_other else []
             is_former = is_other and (key[0], self._after[key]) in removed
             places = [place for place in self._places.get(key, {}) if place != key]
@@ -358,28 +394,40 @@ def _comparable(
 ) -> tuple[dict[ElementKey, Aspects], dict[ElementKey, Aspects], set[tuple[str, Hashable]]]:
     """Return the aspects of all elements as keys that ignore noise, and the aspects that can identify an element.
 
-    Zeros and ones can't: many origins and axes have them.
+    Zeros and ones can't: many origins and axes have them. Texts can if places can't.
     """
-    contents = [features.contents for elements in (old, new) for features in elements.values()]
-    numbers = _clusters({number for content in contents for number in _numbers(content)})
+    placed = _placed(old, new)
+    values = [features.contents for elements in (old, new) for features in elements.values()]
+    numbers = _clusters({number for value in values for number in _numbers(value)})
+    order = dict.fromkeys(itertools.chain.from_iterable(values))  # a record may have another order than a source
     telling, sides = set[tuple[str, Hashable]](), list[dict[ElementKey, Aspects]]()
     for elements in (old, new):
         aspects_of = dict[ElementKey, Aspects]()
         for key, features in elements.items():
-            aspects = tuple((name, _frozen(value, numbers)) for name, value in features.contents.items())
+            contents = {name: features.contents[name] for name in order if name in features.contents}
+            aspects = tuple((name, _frozen(value, numbers)) for name, value in contents.items())
             telling.update(
-                aspect for aspect, value in zip(aspects, features.contents.values(), strict=True) if _is_telling(value)
+                aspect
+                for aspect, value in zip(aspects, contents.values(), strict=True)
+                if _is_telling(value, has_place=key[0] in placed)
             )
             aspects_of[key] = aspects
         sides.append(aspects_of)
     return sides[0], sides[1], telling
 
 
-def _is_telling(value: Any) -> bool:
+def _placed(*versions: Elements) -> set[str]:
+    """Return the kinds whose elements have places."""
+    return {key[0] for elements in versions for key, features in elements.items() if features.neighbours}
+
+
+def _is_telling(value: Any, *, has_place: bool) -> bool:
+    if isinstance(value, str):
+        return not has_place
     if isinstance(value, float | int):
         return abs(value) not in (0, 1)
     inside = value.values() if isinstance(value, Mapping) else value if isinstance(value, list | tuple) else ()
-    return any(map(_is_telling, inside))
+    return any(_is_telling(item, has_place=has_place) for item in inside)
 
 
 def _has_name(file: str, name: str) -> bool:

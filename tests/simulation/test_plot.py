@@ -13,6 +13,7 @@ from urdfsync.simulation.results import JointResult, Range, SimulateResult
 
 pytest.importorskip("matplotlib")
 
+from urdfsync.diagnostics import ConfigError
 from urdfsync.simulation.plot import draw
 
 
@@ -52,7 +53,15 @@ def test_six_joints_of_one_unit_share_a_column() -> None:
     assert count_panels(*rotational[:6]) == 2
     assert count_panels(*rotational) == 4
     assert count_panels(rotational[0], joint(7, "m"), joint(8, robot="other")) == 6
-    assert count_panels() == 3, "a model without joints"
+
+
+@pytest.mark.slow
+def test_a_model_without_joints_has_its_series_in_one_panel() -> None:
+    assert count_panels() == 1
+    assert {"q", "w"} <= set(texts())
+    many = msgspec.structs.replace(result(), series={f"x{number}": (0.0,) for number in range(13)})
+    with pytest.raises(ConfigError, match="no joints, and 13 variables: a picture has at most 12; name some"):
+        draw(many, "svg")
 
 
 @pytest.mark.slow

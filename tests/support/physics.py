@@ -32,6 +32,16 @@ class Case:
         trials = tuple(each for each in self.experiment.trials if each.name == trial)
         return Case(msgspec.structs.replace(self.experiment, trials=trials), self.package)
 
+    def without(self, *beginnings: str) -> Case:
+        """The same without variables of the probe that begin so: a recorded answer may be older than they are."""
+        trials = []
+        for trial in self.experiment.trials:
+            values = tuple(name for name in trial.probe.values if not name.startswith(beginnings))
+            compared = tuple(each for each in trial.compared if set(each.values) <= set(values))
+            probe = msgspec.structs.replace(trial.probe, values=values)
+            trials.append(msgspec.structs.replace(trial, probe=probe, compared=compared))
+        return Case(msgspec.structs.replace(self.experiment, trials=tuple(trials)), self.package)
+
     def changed(self, file: str, old: str, new: str) -> Case:
         """The same with another text in one file."""
         text = self.package.texts[file]

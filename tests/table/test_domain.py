@@ -42,7 +42,7 @@ def project(folder: Path, execute: Execute) -> Path:
 def test_init_writes_templates_for_the_columns(project: Path) -> None:
     record = Path("templates/motors/record.mo.jinja").read_text()
     assert "parameter Real torque(unit = << units.torque | string >>) = << row.torque | real >>;" in record
-    assert "<% if row.maker is not none %>" in record
+    assert "<% if row.maker is defined %>" in record
     assert 'parameter String maker = "Robotis";' in Path("modelica/Motors/Records/MX_64.mo").read_text()
     assert "maker" not in Path("modelica/Motors/Records/XM_430.mo").read_text()
 
@@ -83,6 +83,24 @@ def test_an_edit_follows_an_element_with_another_key(project: Path, execute: Exe
     assert "element XM 430: is now MX-64 mk2" in execute("build").out
     assert "Real mine = 1;" in Path("modelica/Motors/Models/MX_64_mk2.mo").read_text()
     assert "Real mine" not in Path("modelica/Motors/Models/XM_430.mo").read_text()
+
+
+@pytest.mark.parametrize("rows", [
+    "A,1,foo B,1,bar C,1,baz → B,1,foo C,1,bar D,1,baz",
+    "A,1,foo B,0,bar C,2,baz → B,1,foo A,0,bar C,2,baz",
+])  # fmt: skip
+def test_edits_follow_rows_with_zeros_and_ones(folder: Path, execute: Execute, rows: str) -> None:
+    old, new = (table.split() for table in rows.split(" → "))
+    source = Path("p.csv")
+    source.write_text("\n".join(["name,ratio [1],part", *old]))
+    execute("init", "--domain", "table", "p.csv")
+    execute("build")
+    for row in old:
+        edit(Path(f"modelica/P/Models/{row[0]}.mo"), f"\nend {row[0]}", f"\n  Real {row[-3:]};\nend {row[0]}")
+    source.write_text("\n".join(["name,ratio [1],part", *new]))
+    execute("build")
+    for row in new:
+        assert f"Real {row[-3:]};" in Path(f"modelica/P/Models/{row[0]}.mo").read_text()
 
 
 def test_two_sides_conflict(project: Path, execute: Execute) -> None:
@@ -131,11 +149,35 @@ def test_a_template_with_an_absent_column_is_told(project: Path, execute: Execut
     assert "templates/motors/model.mo.jinja:7: error: the template can't be rendered" in found.words
 
 
+def test_an_emptied_cell_that_a_template_needs_is_an_error(project: Path, execute: Execute) -> None:
+    edit(Path("motors.csv"), "MX-64,600", "MX-64,")
+    Path("templates/motors/model.mo.jinja").write_text(MODEL.replace("row.torque > 5", "true"))
+    found = execute("build", code=Exit.ERROR).words
+    assert "record.mo.jinja:6: error: the template can't be rendered for `Records/MX_64.mo`" in found
+    assert "`torque` has no value here: ask for it by `is defined`" in found
+
+
+def test_a_wrong_kind_is_told_before_all_connections(project: Path, execute: Execute) -> None:
+    Path("motors.connections.csv").write_text("from,to\nMX-64,XM 430\n")
+    with Path("urdfsync.toml").open("a") as file:
+        file.write('kind = "sort"\n')
+    assert "there is no column `sort`" in execute("build", code=Exit.ERROR).err
+    assert "no element" not in execute("build", code=Exit.ERROR).err
+
+
+def test_a_column_may_have_a_word_of_modelica_as_name(folder: Path, execute: Execute) -> None:
+    Path("motors.csv").write_text("name,model\nm1,XL\n")
+    execute("init", "--domain", "table", "motors.csv")
+    execute("build")
+    assert 'parameter String model_ = "XL";' in Path("modelica/Motors/Records/M1.mo").read_text()
+
+
 def test_templates_are_needed_for_each_kind(project: Path, execute: Execute) -> None:
     with Path("urdfsync.toml").open("a") as file:
         file.write('kind = "maker"\n')
     edit(Path("motors.csv"), "410,3,", "410,3,Acme")
-    assert "there is no template `model/" in execute("build", code=Exit.ERROR).words
+    found = execute("build", code=Exit.ERROR).words
+    assert "there is no template `model/Robotis.mo.jinja`; write templates/motors/model/Robotis" in found
 
 
 def test_the_record_of_a_domain_without_templates_has_all_columns() -> None:

@@ -94,6 +94,8 @@ def test_types_and_units_may_stand_in_the_configuration() -> None:
         (HEADER + "a b,1\na_b,2\n", "parts.csv:3: error: the key `a_b` is no name: in Modelica it has the same"),
         (HEADER + "time,1\n", "parts.csv:2: error: the key `time` is no name: `time` has a meaning in Modelica"),
         (HEADER + 'a,"1,5"\n', "parts.csv:2: error: column `mass`: `1,5` is no number: write 1.5"),
+        (HEADER + 'a,"60,000"\n', "parts.csv:2: error: column `mass`: `60,000` is no number: write 60.000 or 6"),
+        ("mass [kg],name\n1,a\n", "parts.csv:1: error: column `mass` has the unit kg: it can"),
         (HEADER + "a,1e999\n", "parts.csv:2: error: column `mass`: 1e999 is too large"),
         (HEADER + "a,1,2\n", "parts.csv:2: error: the row has 3 cells, and the header 2"),
         ("name,mass\na,1\n", "parts.csv:1: error: column `mass` has numbers, and no unit; write `mass [kg]`"),
@@ -124,6 +126,29 @@ def test_one_finding_for_a_fault_at_its_line(content: str | bytes, finding: str)
 def test_cells_of_workbooks(cells: list[Any], finding: str) -> None:
     (found,) = reading(rows(["name", "mass [kg]"], ["a", 1.5], cells), "a.xlsx").diagnostics
     assert str(found).startswith(finding)
+
+
+@pytest.mark.parametrize(
+    ("file", "content", "words"),
+    [
+        ("a.yaml", "- {name: a, 'mass [kg]': 100:1}\n", "column `mass`: `100:1` is no number"),
+        ("a.json", '[{"name": "a", "mass [kg]": NaN}]', "column `mass`: `nan` is no number"),
+        ("a.toml", '[a]\n"mass [kg]" = inf\n', "column `mass`: `inf` is no number"),
+        ("a.json", '[{"name": "a\\ud800", "mass [kg]": 1}]', "column `name`: 'utf-8' codec can't encode"),
+    ],
+)
+def test_numbers_and_texts_that_only_some_formats_have(file: str, content: str, words: str) -> None:
+    assert words in str(reading(content, file).diagnostics[0])
+
+
+def test_a_fault_in_a_connection_is_at_its_line() -> None:
+    links = '{"from": "a", "to": "b"},\n{"from": "a", "to": "c"}'
+    source = f'{{"elements": [\n{{"name": "a"}},\n{{"name": "b"}}],\n"connections": [\n{links}]}}'
+    assert str(reading(source, "a.json").diagnostics[0]).startswith("a.json:6: error: there is no element `c`")
+
+
+def test_numbers_in_yaml_are_decimal() -> None:
+    assert table("- {name: a, 'mass [kg]': 010}\n", "a.yaml").elements == {"a": {"mass": 10.0}}
 
 
 def test_merged_cells_are_refused() -> None:

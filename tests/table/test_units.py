@@ -28,6 +28,16 @@ from urdfsync.table.units import find_unit, is_same_kind
         ("rpm", "60", 2 * math.pi, "rad/s"),
         ("%", "50", 0.5, "1"),
         ("kOhm", "1", 1000, "Ohm"),
+        ("Ω", "1", 1, "kg.m2/(s3.A2)"),
+        ("Nm", "2", 2, "N.m"),
+        ("mNm", "30", 0.03, "N.m"),
+        ("Nm/A", "30", 30, "N.m/A"),
+        ("m^2", "2", 2, "m2"),
+        ("m²", "2", 2, "m2"),
+        ("J/kg/K", "2", 2, "m2/(s2.K)"),
+        ("1/degC", "2", 2, "1/K"),
+        ("1/s", "2", 2, "1/s"),
+        ("hPa", "2", 200, "Pa"),
     ],
 )
 def test_numbers_are_converted(unit: str, number: str, value: float, si: str) -> None:
@@ -36,9 +46,15 @@ def test_numbers_are_converted(unit: str, number: str, value: float, si: str) ->
     assert sorted(found.si) == sorted(si), "pint orders the units of a product"
 
 
-@pytest.mark.parametrize("unit", ["", "wibble", "kg..m", "m^", "2 + 3", "__import__('os')"])
+@pytest.mark.parametrize("unit", ["", "wibble", "kg..m", "m^", "2 + 3", "__import__('os')", "N.m^1e9", "m99999"])
 def test_no_unit(unit: str) -> None:
     with pytest.raises(ValueError, match="is no unit"):
+        find_unit(unit)
+
+
+@pytest.mark.parametrize("unit", ["PS", "mil", "G", "U/min", "dB", "dBm", "Np", "oz.in", "Pm"])
+def test_units_that_mean_something_else_than_a_table_are_refused(unit: str) -> None:
+    with pytest.raises(ValueError, match="is not known here"):
         find_unit(unit)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING, Any
@@ -184,7 +185,9 @@ def _render(renderer: Renderer, artifact: Artifact, package: str) -> bytes:
         problem = error
     else:
         return normalised(content)
-    if isinstance(problem, RecursionError):
+    if missing := isinstance(problem, jinja2.UndefinedError) and _MISSING.fullmatch(str(problem)):
+        reason = f"`{missing[1]}` has no value here: ask for it by `is defined`"
+    elif isinstance(problem, RecursionError):
         reason = "it includes or calls itself without end"
     elif isinstance(problem, MemoryError):
         reason = "it needs more memory than its limit"
@@ -246,10 +249,13 @@ def _template_error(folders: Sequence[Path], template: str, file: str, line: int
     file = file or next((str(folder / template) for folder in folders if (folder / template).is_file()), template)
     is_own = any(folder in Path(file).parents for folder in folders[:-1])
     hint = "correct the template, or delete it to use that of urdfsync" if is_own else "install urdfsync again"
+    if not is_own and len(folders) > 1 and file == template:  # there is none, and the user has a folder of templates
+        hint = f"write {shown(folders[0] / template)}"
     file = shown(Path(file)) if Path(file).is_absolute() else file
     return ConfigError.of("template", message, file, line, hint=hint)
 
 
+_MISSING = re.compile("'dict object' has no attribute '(.+)'")
 _RENDERING = (
     *(ArithmeticError, AssertionError, AttributeError, LookupError, MemoryError, NameError, RuntimeError),
     *(SyntaxError, TypeError, ValueError),

@@ -10,10 +10,13 @@ from matplotlib import rc_context
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
+from urdfsync.diagnostics import ConfigError
 from urdfsync.simulation.results import JointResult, Range, SimulateResult
 
 _ROWS = ("position", "speed", "effort")
 _PER_COLUMN = 6
+_MOST = 12
+"""The most series of a picture without joints."""
 _WIDTH, _HEIGHT = 6.4, 2.6
 """Width and height of a panel, in inches."""
 _COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
@@ -21,11 +24,20 @@ _COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
 
 
 def draw(result: SimulateResult, kind: str) -> bytes:
-    """Return a picture, `png` or `svg`; the same result gives the same bytes."""
+    """Return a picture, `png` or `svg`; the same result gives the same bytes.
+
+    Without joints it has the other series. Raises ConfigError if these are too many.
+    """
+    series = [] if result.joints else [name for name in result.series if name != "time"]
+    if not (result.joints or 0 < len(series) <= _MOST):
+        message = f"the simulation has no joints, and {len(series)} variables: a picture has at most {_MOST}"
+        raise ConfigError.of("no-plot", message, hint="name some with `--variable`")
     # no dates in SVG; `$` in the name of a joint begins no formula
     plain = {"svg.hashsalt": "urdfsync", "text.parse_math": False, "text.usetex": False}
     with rc_context({**plain, "font.size": 9, "axes.grid": True, "grid.alpha": 0.3}):
-        columns = list(_columns(result.joints)) or [()]
+        if series:
+            return _saved(_draw_series(result, series), kind)
+        columns = list(_columns(result.joints))
         figure = Figure(figsize=(_WIDTH * len(columns), _HEIGHT * len(_ROWS)), layout="constrained")
         FigureCanvasAgg(figure)
         panels: Any = figure.subplots(len(_ROWS), len(columns), sharex=True, squeeze=False)
@@ -33,18 +45,33 @@ def draw(result: SimulateResult, kind: str) -> bytes:
         for column, joints in enumerate(columns):
             last = panels[0][column]
             for row, name in enumerate(_ROWS):
-                if joints and not any(getattr(joint, name) for joint in joints):
+                if not any(getattr(joint, name) for joint in joints):
                     panels[row][column].set_visible(False)  # following joints have no effort
                     continue
                 last = panels[row][column]
                 _draw_panel(last, name, joints, result)
             last.set_xlabel("time [s]")
             last.tick_params(labelbottom=True)
-            if joints:
-                panels[0][column].legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False)
-        content = io.BytesIO()
-        metadata = {"Date": None} if kind == "svg" else {"Software": None}
-        figure.savefig(content, format=kind, dpi=120, metadata=metadata)
+            panels[0][column].legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False)
+        return _saved(figure, kind)
+
+
+def _draw_series(result: SimulateResult, names: Sequence[str]) -> Figure:
+    figure = Figure(figsize=(2 * _WIDTH, 2 * _HEIGHT), layout="constrained")
+    FigureCanvasAgg(figure)
+    panel: Any = figure.subplots()
+    figure.suptitle(result.model)
+    for name in names:
+        panel.plot(result.series["time"], result.series[name], label=name)
+    panel.set_xlabel("time [s]")
+    panel.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False)
+    return figure
+
+
+def _saved(figure: Figure, kind: str) -> bytes:
+    content = io.BytesIO()
+    metadata = {"Date": None} if kind == "svg" else {"Software": None}
+    figure.savefig(content, format=kind, dpi=120, metadata=metadata)
     return content.getvalue()
 
 

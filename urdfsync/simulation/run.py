@@ -134,6 +134,8 @@ def _task(options: SimulateOptions, prepared: Prepared) -> tuple[CompileTask, st
         raise ConfigError.of("inputs", f"`{model.name}` has inputs", hint=hint)
     tolerance = options.tolerance or model.settings.get("Tolerance", TOLERANCE)
     wanted = [_OWN, joints.pattern(prepared.bench), *(_glob(variable) for variable in options.variables)]
+    if not (any(prepared.bench.layouts) or options.variables):  # without joints, all variables are of interest
+        wanted.append(".*")
     task = CompileTask(
         "Probe_.Probe",
         _probe(robot, model.name, course, changes),

@@ -9,7 +9,7 @@ from typing import Any
 
 from urdfsync.domain import Artifact, Domain, ElementKey, Features, Import, Order, Reading, Role, Target
 from urdfsync.table.model import FROM, TO, Options, Table, Value, shown_unit
-from urdfsync.table.names import component_name, type_name
+from urdfsync.table.names import column_name, component_name, type_name
 
 _TITLES = {"Records": "Numbers of the elements", "Models": "Models of the elements"}
 
@@ -99,7 +99,7 @@ class TableDomain(Domain):
         if system:
             connections = [
                 {"name": key, "start": elements[str(row[FROM])], "end": elements[str(row[TO])]}
-                | {"row": dict.fromkeys(sorted(snapshot.connection_columns)) | row}
+                | {"row": dict(sorted(row.items()))}
                 for key, row in snapshot.connections.items()
             ]
             data = of_package | {"class": target.name, "elements": [*elements.values()], "connections": connections}
@@ -140,18 +140,18 @@ def _package(folder: str, data: Mapping[str, Any]) -> Artifact:
 
 
 def _element(snapshot: Table, key: str, options: Options) -> dict[str, Any]:
-    """Return an element as templates have it; an empty cell is None in its row."""
+    """Return an element as templates have it; its row has no empty cells."""
     row = snapshot.elements[key]
     names: dict[str, Any] = {"name": key, "class": type_name(key), "component": component_name(key)}
     names["units"] = dict(sorted(snapshot.columns.items()))  # a recorded table has them in this order
-    return {**names, "kind": row.get(options.kind, ""), "row": dict.fromkeys(sorted(snapshot.columns)) | row}
+    return {**names, "kind": row.get(options.kind, ""), "row": dict(sorted(row.items()))}
 
 
 def _columns(row: Mapping[str, Value], types: Mapping[str, str]) -> list[dict[str, Any]]:
     """Return the filled cells of a row as a record declares them, sorted by column."""
     return [
         {
-            "name": component_name(column, "column"),
+            "name": column_name(column),
             "title": column,
             "type": _MODELICA.get(types[column], "Real"),
             "unit": types[column],

@@ -85,7 +85,12 @@ def _read_yaml(text: str) -> Any:
     import yaml
 
     class Loader(yaml.SafeLoader):  # type: ignore[misc] # PyYAML has no types
-        """PyYAML's loader takes the last one of equal keys."""
+        """PyYAML takes the last one of equal keys, `100:1` for 6001, and `010` for 8: here all cells are texts."""
+
+        yaml_implicit_resolvers = {  # noqa: RUF012 - PyYAML's name and type
+            first: [(tag, pattern) for tag, pattern in kinds if tag.endswith((":merge", ":null"))]
+            for first, kinds in yaml.SafeLoader.yaml_implicit_resolvers.items()
+        }
 
     def mapping(loader: yaml.SafeLoader, node: yaml.MappingNode) -> dict[Any, Any]:
         loader.flatten_mapping(node)
@@ -122,10 +127,14 @@ def _from_data(data: object, text: str, file: str) -> tuple[Sheet, Sheet]:
     if unknown := lists.keys() - {"elements", CONNECTIONS}:
         hint = f"a table has `elements` and `{CONNECTIONS}`"
         raise SourceError.of("table-file", f"`{min(map(str, unknown))}` is unknown", file, hint=hint)
-    return _from_entries(lists["elements"], text, file), _from_entries(lists.get(CONNECTIONS, []), text, file)
+    elements, connections = (
+        _from_entries(lists.get(name, []), text, file, max(text.find(name), 0)) for name in ("elements", CONNECTIONS)
+    )
+    return elements, connections
 
 
-def _from_entries(entries: object, text: str, file: str) -> Sheet:
+def _from_entries(entries: object, text: str, file: str, position: int) -> Sheet:
+    """Return the sheet of entries that begin behind a position of the text."""
     if isinstance(entries, Mapping) and all(isinstance(entry, Mapping) for entry in entries.values()):
         column = "key" if any("name" in entry for entry in entries.values()) else "name"
         entries = [{column: name, **entry} for name, entry in entries.items()]
@@ -133,15 +142,24 @@ def _from_entries(entries: object, text: str, file: str) -> Sheet:
         hint = "write one entry for each element, with its columns as keys"
         raise SourceError.of("table-file", "the elements are neither a list nor a table of entries", file, hint=hint)
     header = list(dict.fromkeys(str(column) for entry in entries for column in entry))
-    rows, position = list[tuple[int, Sequence[object]]](), 0
+    rows = list[tuple[int, Sequence[object]]]()
     for entry in entries:
         cells = {str(column): value for column, value in entry.items()}
         # entries are in order, so the line of one is where its first value stands behind that of the last one
         first = next(iter(cells.values()), "")
-        found = text.find(str(first), position) if isinstance(first, str | int | float) else -1
-        position = found if found >= 0 else position
-        rows.append((text.count("\n", 0, position) + 1, [cells.get(column) for column in header]))
+        found = _find_word(text, str(first), position) if isinstance(first, str | int | float) else -1
+        rows.append((text.count("\n", 0, max(found, position)) + 1, [cells.get(column) for column in header]))
+        position = max(found + 1, position)
     return Sheet(header, rows)
+
+
+def _find_word(text: str, word: str, position: int) -> int:
+    """Return where a whole word stands from a position on; -1 if it does not."""
+    while (found := text.find(word, position)) >= 0:
+        if not (text[found - 1 : found].isalnum() or text[found + len(word) : found + len(word) + 1].isalnum()):
+            return found
+        position = found + 1
+    return -1
 
 
 def _read_xlsx(content: bytes, file: str) -> tuple[Sheet, Sheet]:

@@ -24,6 +24,12 @@ def component_name(key: str, noun: str = "element") -> str:
     return stem[0].lower() + stem[1:]
 
 
+def column_name(column: str) -> str:
+    """Return the identifier of a column: that of a component, with `_` behind a word that Modelica reserves."""
+    name = component_name(column, "column")
+    return f"{name}_" if name in KEYWORDS else name
+
+
 def type_name(key: str) -> str:
     """Return the identifier of an element's record and model, from a capital letter on."""
     name = component_name(key)

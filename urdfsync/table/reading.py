@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import datetime
+import math
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from decimal import Decimal
@@ -75,7 +76,8 @@ class _Reader:
             self._error(
                 "key-clash", f"the key `{name}` is no name: {reason}", self.lines[f"element {name}"], "rename it"
             )
-        joined = self._connections(connections, links, rows)
+        is_whole = not self.of_options and len(rows) == len(elements.rows)
+        joined = self._connections(connections, links, rows) if is_whole else {}
         self.findings += [
             Diagnostic(Severity.NOTE, "not-modelled", f"not modelled: {note}", self._file) for note in elements.notes
         ]
@@ -93,6 +95,9 @@ class _Reader:
                 self._error("no-column", f"column {number + 1} has no name", 1, "name it in the header")
             elif name in (column.name for column in columns):
                 self._error("no-column", f"there are two columns `{name}`", 1, "rename one")
+            if name in texts and unit not in ("", "text"):
+                hint = "let `key` and `kind` name columns of texts, in the table of the configuration"
+                self._error("no-key", f"column `{name}` has the unit {unit}: it can't name elements", 1, hint)
             is_text = name in texts or not name
             columns.append(_Column(name, "text" if is_text else self._type(name, unit, sheet, number)))
         for name, reason in find_clashes([column.name for column in columns if column.name], "column"):
@@ -190,7 +195,7 @@ def name_and_unit(header: str) -> tuple[str, str]:
 def _is_number(cell: object) -> bool:
     if isinstance(cell, str):
         return _NUMBER.fullmatch(cell.strip()) is not None
-    return isinstance(cell, int | float) and not isinstance(cell, bool)
+    return isinstance(cell, int | float) and not isinstance(cell, bool) and math.isfinite(cell)
 
 
 def read_value(cell: object, kind: Unit | str) -> Value | None:
@@ -211,12 +216,15 @@ def read_value(cell: object, kind: Unit | str) -> Value | None:
     if kind == "text":
         if not isinstance(text, str | int | float):
             raise ValueError("a list or a table is no cell")  # its text may be endless
+        str(text).encode()  # JSON may have half of a character: an error of Unicode is a ValueError
         return str(text)
     if not isinstance(text, str | int | float):
         raise ValueError("a list or a table is no number")  # noqa: TRY004 - as all faults of cells
     if not _is_number(text):
-        comma = str(text).replace(",", ".") if str(text).count(",") == 1 else ""
-        more = f": write {comma}" if _NUMBER.fullmatch(comma) else ""
+        point = str(text).replace(",", ".") if str(text).count(",") == 1 else ""
+        more = f": write {point}" if _NUMBER.fullmatch(point) else ""
+        if re.fullmatch(r"[-+]?\d{1,3},\d{3}", str(text)):  # in English a number of thousands
+            more = f": write {point} or {str(text).replace(',', '')}, whichever it is"
         raise ValueError(f"`{text}` is no number{more}")
     number = Decimal(str(text))
     if isinstance(kind, Unit):

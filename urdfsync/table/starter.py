@@ -9,7 +9,7 @@ from urdfsync.config.advice import Proposal
 from urdfsync.diagnostics import Diagnostic
 from urdfsync.domain import Target
 from urdfsync.table.model import Table
-from urdfsync.table.names import component_name
+from urdfsync.table.names import column_name
 
 
 def propose(snapshot: Table, diagnostics: Sequence[Diagnostic]) -> Sequence[Proposal]:  # noqa: ARG001 - see `Advice`
@@ -34,7 +34,7 @@ def templates(snapshot: Table) -> Mapping[str, str]:
 
 def _declare(snapshot: Table, column: str) -> list[str]:
     """Return the lines that declare a column; if elements have an empty cell in it, only for the others."""
-    name, kind = component_name(column, "column"), snapshot.columns[column]
+    name, kind = column_name(column), snapshot.columns[column]
     cells = [row[column] for row in snapshot.elements.values() if column in row]
     if not cells:
         return []
@@ -44,7 +44,7 @@ def _declare(snapshot: Table, column: str) -> list[str]:
     declaration = f"  parameter {head.format(name)} = << {value.format(cell)} >>;"
     if len(cells) == len(snapshot.elements):
         return ["", declaration]
-    return [f"<% if {cell} is not none %>", "", declaration, "<% endif %>"]
+    return [f"<% if {cell} is defined %>", "", declaration, "<% endif %>"]
 
 
 _DECLARATIONS = {

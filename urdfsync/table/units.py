@@ -12,8 +12,24 @@ from urdfsync.extras import install_command
 
 _COHERENT = frozenset("m kg s A K mol cd rad sr Hz N Pa J W C V F Ohm S Wb T H lm lx Bq Gy kat".split())
 """The SI units without a prefix: most tables have no others, and pint takes longer to load than a whole build."""
-_UNIT = re.compile(r"(?=.)(?!.*[.*/^]{2})(1/)?[^\W\d_%°]*[%°]?[\w.*/()^-]*")
-_TERM = re.compile(r"([A-Za-z]+)(-?[1-9])?")
+_TERM = rf"(?:{'|'.join(sorted(_COHERENT))})(?:-?[1-9])?"
+_MODELICA = re.compile(rf"(?:1|{_TERM}(?:\.{_TERM})*)(?:/(?:{_TERM}|\({_TERM}(?:\.{_TERM})+\)))?")
+"""Matches a product of SI units over at most one such product, as Modelica writes it."""
+_UNIT = re.compile(r"(?=.)(?!.*[.*/^]{2})(?!.*\d[\deE])(1/)?[^\W\d_%°]*[%°]?[\w.*/()^-]*")
+_KNOWN = frozenset(
+    "meter gram second ampere kelvin mole candela radian steradian hertz newton pascal joule watt coulomb volt "
+    "farad ohm Ohm siemens weber tesla henry lumen lux becquerel gray sievert katal minute hour day degree turn "
+    "liter metric_ton bar revolutions_per_minute degree_Celsius delta_degree_Celsius degree_Fahrenheit "
+    "delta_degree_Fahrenheit arcminute arcsecond standard_atmosphere pound_force_per_square_inch meter_Hg inch foot "
+    "yard mile pound force_pound gallon force_kilogram force_ounce horsepower metric_horsepower electron_volt "
+    "watt_hour ampere_hour volt_ampere calorie british_thermal_unit knot kilometer_per_hour mile_per_hour percent "
+    "ppm".split()
+)
+"""The units of tables, by pint's names. It knows many more, and takes `mil` for an angle, `G` for gauss."""
+_TORQUE = re.compile(r"\b([mk]?N)([cm]?m)\b")
+"""Matches torques without a dot, such as `Nm`, which pint takes for a textile unit."""
+_PREFIXES = frozenset(" pico nano micro milli centi deci hecto kilo mega giga tera".split(" "))
+"""Others make units of typing errors: `PS` would be petasiemens."""
 
 
 class Unit(NamedTuple):
@@ -35,7 +51,8 @@ def find_unit(text: str) -> Unit:
 
     Raises ValueError for an unknown one, SourceError without pint.
     """
-    if text == "1" or _is_coherent(text):
+    text = _TORQUE.sub(r"\1.\2", text)
+    if _MODELICA.fullmatch(text):
         return Unit(Decimal(1), Decimal(0), text)
     registry = _load_registry(text)
     one, zero = (_quantity(registry, number, text).to_base_units() for number in (1, 0))
@@ -45,16 +62,11 @@ def find_unit(text: str) -> Unit:
 
 def is_same_kind(text: str, other: str) -> bool:
     """Whether numbers in one unit can be converted to the other one. Raises as `find_unit`."""
+    text, other = (_TORQUE.sub(r"\1.\2", each) for each in (text, other))
     if text == other:
         return True
     registry = _load_registry(text)
     return bool(_quantity(registry, 1, text).is_compatible_with(_quantity(registry, 1, other)))
-
-
-def _is_coherent(text: str) -> bool:
-    """Whether a unit is a product of SI units without prefixes, over at most one such product."""
-    terms = re.split(r"[./]", text) if text.count("/") <= 1 else [""]
-    return all((term := _TERM.fullmatch(part)) and term[1] in _COHERENT for part in terms)
 
 
 def _load_registry(text: str) -> Any:
@@ -77,16 +89,20 @@ def _registry() -> Any:
 def _quantity(registry: Any, number: int, text: str) -> Any:
     product = re.sub(r"(?<=[\w%°)])\.(?=[^\W\d(])", "*", text) if _UNIT.fullmatch(text) else "no unit"
     try:
-        return registry.Quantity(Decimal(number), re.sub(r"(?<=[^\W\d])(-?[1-9])", r"**\1", product))
+        quantity = registry.Quantity(Decimal(number), re.sub(r"(?<=[^\W\d])(-?[1-9])", r"**\1", product))
     except Exception:  # noqa: BLE001 - pint parses any text, and raises errors of many kinds
         raise ValueError(f"`{text}` is no unit") from None
+    for name, _ in quantity.unit_items():
+        prefix, unit, _ = next(iter(registry.parse_unit_name(name)))
+        if unit not in _KNOWN or prefix not in _PREFIXES:
+            raise ValueError(f"`{text}` is no unit: {name.replace('_', ' ')} is not known here")
+    return quantity
 
 
 def _si(text: str, registry: Any) -> str:
-    """Return a unit without its prefixes if that is in SI, such as `N.m` for `N.cm`; else nothing."""
+    """Return a unit without its prefixes if Modelica writes it so, such as `N.m` for `N.cm`; else nothing."""
     plain = re.sub(r"[A-Za-z]+", lambda match: _without_prefix(match[0], registry), text)
-    quantity = _quantity(registry, 0, plain).to_base_units()
-    return plain if quantity.magnitude == 0 and _quantity(registry, 1, plain).to_base_units().magnitude == 1 else ""
+    return plain if _MODELICA.fullmatch(plain) else ""
 
 
 def _without_prefix(symbol: str, registry: Any) -> str:

@@ -88,6 +88,13 @@ def test_the_second_reader_and_pinocchio_have_the_same_numbers() -> None:
     assert joints(completed) == joints(content)
 
 
+def test_both_readings_take_torques_without_a_dot() -> None:
+    plain, dotless = joined(), joined(CSV.replace("[N.cm]", "[Ncm]"))
+    assert joints(dotless) == joints(plain)
+    again = [read_again(content, Options()).joints["elbow"] for content in (plain, dotless)]
+    assert [each.values["limits.effort"].value for each in again] == [(pytest.approx(4.1),)] * 2
+
+
 @pytest.mark.parametrize("path", ["limits.effort", "limits.velocity", "transmission.reduction", "dynamics.armature"])
 def test_a_wrong_number_of_a_drive_is_found(path: str, monkeypatch: pytest.MonkeyPatch) -> None:
     block, field = {"limits": "limit"}.get(path.partition(".")[0], path.partition(".")[0]), path.partition(".")[2]

@@ -32,6 +32,7 @@ def _read(text: str) -> float:
         import pint
     except ImportError:
         return float(number)  # without pint, the first reading refuses all units but those of SI
-    product = re.sub(r"(?<=[^\W\d])\.", "*", unit.replace("integer", "1"))
+    torque = re.sub(r"\b([mk]?N)([cm]?m)\b", r"\1.\2", unit.replace("integer", "1"))
+    product = re.sub(r"(?<=[^\W\d])\.", "*", torque)
     one: Any = pint.Quantity(re.sub(r"(?<=[A-Za-z])(-?\d)", r"**\1", product))
     return float(number) * float(one.to_base_units().magnitude)
