@@ -159,6 +159,7 @@ def test_an_emptied_cell_that_a_template_needs_is_an_error(project: Path, execut
 
 def test_a_wrong_kind_is_told_before_all_connections(project: Path, execute: Execute) -> None:
     Path("motors.connections.csv").write_text("from,to\nMX-64,XM 430\n")
+    name_connections()
     with Path("urdfsync.toml").open("a") as file:
         file.write('kind = "sort"\n')
     assert "there is no column `sort`" in execute("build", code=Exit.ERROR).err
