@@ -6,6 +6,7 @@ import contextlib
 import errno
 import logging
 import os
+import warnings
 from pathlib import Path
 from queue import SimpleQueue
 from typing import TYPE_CHECKING, NamedTuple
@@ -40,6 +41,8 @@ _HINTS = {
 
 # watchdog warns of lost events; the next rescan makes up for them
 logging.getLogger("watchdog").addHandler(logging.NullHandler())
+# it also warns of a folder that was deleted and made again while it is watched: the new watch replaces the old one
+warnings.filterwarnings("ignore", category=RuntimeWarning, module="watchdog")
 
 
 class FileEvent(NamedTuple):
