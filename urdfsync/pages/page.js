@@ -280,6 +280,7 @@ const showPositions = fillAxes(element("axes"), element("units"), data, move, se
 const markTree = fillTree(element("tree"), data, select);
 let markDiagram = () => {}; // its layout takes as long as the picture
 showPositions(page.positions);
+fillDetails(element("details"), data, null, select);
 say("");
 if (data.now.hinges.some((hinge) => hinge.motion)) {
   for (const [name, [purpose]] of page.poses) {

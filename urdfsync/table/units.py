@@ -26,8 +26,6 @@ _KNOWN = frozenset(
     "ppm".split()
 )
 """The units of tables, by pint's names. It knows many more, and takes `mil` for an angle, `G` for gauss."""
-_TORQUE = re.compile(r"\b([mk]?N)([cm]?m)\b")
-"""Matches torques without a dot, such as `Nm`, which pint takes for a textile unit."""
 _PREFIXES = frozenset(" pico nano micro milli centi deci hecto kilo mega giga tera".split(" "))
 """Others make units of typing errors: `PS` would be petasiemens."""
 
@@ -51,7 +49,7 @@ def find_unit(text: str) -> Unit:
 
     Raises ValueError for an unknown one, SourceError without pint.
     """
-    text = _TORQUE.sub(r"\1.\2", text)
+    text = _with_dots(text)
     if _MODELICA.fullmatch(text):
         return Unit(Decimal(1), Decimal(0), text)
     registry = _load_registry(text)
@@ -62,11 +60,16 @@ def find_unit(text: str) -> Unit:
 
 def is_same_kind(text: str, other: str) -> bool:
     """Whether numbers in one unit can be converted to the other one. Raises as `find_unit`."""
-    text, other = (_TORQUE.sub(r"\1.\2", each) for each in (text, other))
+    text, other = map(_with_dots, (text, other))
     if text == other:
         return True
     registry = _load_registry(text)
     return bool(_quantity(registry, 1, text).is_compatible_with(_quantity(registry, 1, other)))
+
+
+def _with_dots(text: str) -> str:
+    """Return a unit with `N.m` for `Nm`, which pint takes for a textile unit, and the like."""
+    return re.sub(r"\b([mk]?N)([cm]?m)\b", r"\1.\2", text)
 
 
 def _load_registry(text: str) -> Any:

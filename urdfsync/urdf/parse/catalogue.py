@@ -51,7 +51,7 @@ def file(options: Options) -> str:
 
 
 def join(content: bytes, other: bytes, file: str, options: Options) -> tuple[bytes, Sequence[tuple[int, int]]]:
-    """Return the URDF with the rows before its last tag, and the line of each in both files; see `Catalogue`.
+    """Return the URDF with the rows before its last tag, and the line of each in both files; see `NamedFile`.
 
     The check of options reports missing rows. Raises SourceError for other faults of the table.
     """
