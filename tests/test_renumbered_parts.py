@@ -159,7 +159,7 @@ def test_models_and_configuration_that_use_another_part_are_told_until_they_are_
     execute("build")
     Path("arm.urdf").write_text(arm(1.1, 2.2, 3.3, order="132"))
     told = (
-        "Mine.mo:3: warning: `link_2` names another part now; the former one is called `link_3`",
+        "Mine.mo:3: warning: `link_2` names another part now; the former part is called `link_3`",
         "urdfsync.toml:5: warning: `joint_2` names another part now",
     )
     for command in ("build", "build", "status"):

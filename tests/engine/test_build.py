@@ -62,7 +62,7 @@ def test_a_package_that_moves_takes_edits_along_and_leaves_what_is_the_users(pro
     assert said(result) == [
         "urdfsync.toml:1: warning: the package moved from modelica/Ladder to modelica/Filter; these files are "
         "not deleted, since urdfsync did not write them: modelica/Ladder/Bench.mo, modelica/Ladder/package.mo, "
-        "modelica/Ladder/package.order; take over what you need, then delete the old folder [left-behind]"
+        "modelica/Ladder/package.order; move the files that you need, then delete the old folder [left-behind]"
     ]
     assert run().in_step
     assert run().diagnostics == ()

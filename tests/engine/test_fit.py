@@ -58,7 +58,7 @@ BROKEN: dict[str, tuple[Callable[[Execute], object], str]] = {
     "another within": (lambda _: edit(ELBOW, "within Arm.Joints", "within Arm"), "the file says `within Arm;`"),
     "nowhere": (
         lambda _: edit(ELBOW, "extends UrdfSync.Icons", "extends Nowhere.To.Be;\n  extends UrdfSync.Icons"),
-        "there is no class `Nowhere.To.Be`; name the library in `uses` if `Nowhere` is one",
+        "there is no class `Nowhere.To.Be`; if `Nowhere` is a library, name it in `uses`",
     ),
     "itself": (
         lambda _: edit(ELBOW, "extends UrdfSync.Icons", "extends Elbow;\n  extends UrdfSync.Icons"),
@@ -120,7 +120,7 @@ def test_a_class_whose_file_waits_is_no_misspelled_one(arm: Path, execute: Execu
     hint = execute("status", code=3).lines[-1]
     assert hint.endswith("(or --keep, --take); --merge settles 1 of 2")
     found = execute("resolve", "--all", "--merge", code=3).words
-    assert "there is no class `Links.Limp`; settle the conflicts; its file waits for that" in found
+    assert "there is no class `Links.Limp`; settle the conflicts: the file of this class waits until then" in found
     execute("resolve", "--all", "--merge", "--prefer", "mine")
 
 
@@ -143,7 +143,7 @@ def test_models_of_the_users_are_warnings_as_long_as_they_are_true(arm: Path, ex
 def test_a_library_that_uses_names_may_have_anything(arm: Path, execute: Execute) -> None:
     cell = "model Cell\n  extends Plant.Cells.Cell;\n  Arm.Arm robot;\n  Real y = x;\n{}end Cell;\n"
     Path("Cell.mo").write_text(cell.format(""))
-    assert "there is no class `Plant.Cells.Cell`; name the library in `uses`" in execute("build").err
+    assert "there is no class `Plant.Cells.Cell`; if `Plant` is a library" in execute("build").err
     Path("Cell.mo").write_text(cell.format('  annotation (uses(Plant(version="1.0.0")));\n'))
     assert execute("build").err == ""
 

@@ -52,7 +52,7 @@ def test_a_dependency_that_cant_be_opened_is_not_called_missing(project: Path) -
     Path("step.csv").unlink()
     os.mkfifo("step.csv")
     assert said(run()) == [
-        "ladder.json:3: warning: table `step.csv` can't be read: it is no regular file; left out; "
+        "ladder.json:3: warning: table `step.csv` can't be read: it is not a regular file; left out; "
         "replace it by a table that can be read [table-unreadable]"
     ]
 

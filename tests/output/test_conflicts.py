@@ -22,7 +22,7 @@ ELBOW = "modelica/Arm/Elbow.mo"
 BASE = "within Arm;\nmodel Elbow\n  Real a = 1;\n\n  Real b = 2;\nend Elbow;\n"
 EDITED = BASE.replace("a = 1;", "a = 1; // measured")
 EXPORTED = BASE.replace("b = 2;", "b = 3;")
-FOLDER = "you made a folder of the class"
+FOLDER = "you turned the class into a folder"
 CHANGED = "You edited it, and its generated text changed too."
 OPPOSED = BASE.replace("a = 1;", "a = 7;"), BASE.replace("a = 1;", "a = 9;")
 

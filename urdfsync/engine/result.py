@@ -207,9 +207,7 @@ class Result(msgspec.Struct, frozen=True):
                 phrase = reason.to_do if self.dry else reason.done
                 phrases.append(phrase.format(n=number, them=them, have=have, s=s))
         if given_back := sum(one.choice is Choice.UNDO and one.is_conflict for one in self.actions):
-            phrases.insert(
-                0, f"{counted(given_back, 'file')} given back as you had {'it' if given_back == 1 else 'them'}"
-            )
+            phrases.insert(0, f"{counted(given_back, 'file')} set back to your former text")
         if self.renews and self.in_step and not (self.writes or self.dry or self.settled):
             phrases.append("recorded state renewed: commit .urdfsync")
         if waiting := sum(action.is_waiting for action in self.actions.decided):
