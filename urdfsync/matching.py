@@ -371,7 +371,8 @@ class _Matcher:
     def _contradicts(self, key: ElementKey) -> bool:
         """Whether an element has other neighbours than before.
 
-        All must differ, or one that also has this element as its neighbour. A removed neighbour counts only if the new neighbour matches another old element.
+        All must differ, or one that also has this element as its neighbour. A removed neighbour counts only if the new
+        neighbour matches another old element.
         """
         before, after = self._old[key].neighbours, self._new[key].neighbours
         others = [
