@@ -99,11 +99,11 @@ CAN_NOT = "can't be the name of a class; rename the file, or move it elsewhere [
         (
             {"Joints/package.mo": INSIDE},
             "Joints/package.mo:3: error: `Elbow` is declared here, and also has the file Joints/Elbow.mo; "
-            "put all of it into one file, and delete the other [class-twice]",
+            "put the whole class into one file, and delete the other file [class-twice]",
         ),
         (
             {ORDER: arm.text(ORDER).replace("Turret\n", "")},
-            f"{ORDER}: warning: `Turret` is not named; add a line for it: without one, tools put it last, or warn "
+            f"{ORDER}: warning: `Turret` is not named; add a line for this class: without a line, tools list the class last, or warn "
             "[order-lacks]",
         ),
         (
