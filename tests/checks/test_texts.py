@@ -63,7 +63,7 @@ def test_markers_of_a_conflict_are_the_cause_of_what_does_not_parse() -> None:
     (found,) = findings(edits)
     place = f"{ELBOW}:{arm.line('equation')}"
     assert found.startswith(
-        f"{place}: error: joint elbow: the file has the conflict marker `<<<<<<<`; correct it first"
+        f"{place}: error: joint elbow: the file has the conflict marker `<<<<<<<`; correct this first"
     )
 
 
@@ -103,8 +103,8 @@ CAN_NOT = "can't be the name of a class; rename the file, or move it elsewhere [
         ),
         (
             {ORDER: arm.text(ORDER).replace("Turret\n", "")},
-            f"{ORDER}: warning: `Turret` is not named; add a line for this class: without a line, tools list the class last, or warn "
-            "[order-lacks]",
+            f"{ORDER}: warning: `Turret` is not named; add a line for this class: without a line, tools list the "
+            "class last, or warn [order-lacks]",
         ),
         (
             {"Joints/elbow.mo": SMALL_ELBOW, ORDER: arm.text(ORDER) + "elbow\n"},

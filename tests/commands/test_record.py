@@ -130,7 +130,7 @@ def test_a_link_stays_a_link(execute: Execute, folder: Path) -> None:
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        (["lost.urdf"], "lost.urdf: error: the source can't be read: No such file or directory; name a file that is"),
+        (["lost.urdf"], "lost.urdf: error: the source can't be read: No such file or directory; name an existing"),
         ([TWIG, "-o", "lost/Twig.mo"], "lost/Twig.mo: error: there is no such folder; make it first"),
         ([TWIG, "-o", "."], ".: error: a folder is in its place; name a file"),
         ([TWIG, "--class", "twig"], "error: 'twig' can't be a class; choose a name that begins with a capital"),

@@ -98,7 +98,8 @@ def test_the_order_names_what_is_there_once() -> None:
     found = lines(check_order(text, {"Elbow", "Turret"}, {"pi", "e"}))
     unknown = "is named, but the package has no such class or constant"
     assert found == [
-        "0: warning: `Turret` is not named; add a line for this class: without a line, tools list the class last, or warn [order-lacks]",
+        "0: warning: `Turret` is not named; add a line for this class: without a line, tools list "
+        "the class last, or warn [order-lacks]",
         "4: warning: `Elbow` is named twice, first in line 1; delete one of the lines [order-twice]",
         f"5: error: `Turet` {unknown}; did you mean `Turret`? [order-unknown]",
         f"6: error: `Wheel` {unknown}; delete the line, or restore the class [order-unknown]",

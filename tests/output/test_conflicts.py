@@ -179,7 +179,7 @@ SHOULDER = "urdfsync resolve modelica/Arm/Shoulder.mo --merge --prefer mine"
         ),
         (
             *(rejected(None, FOLDER), Reason.CONFLICT),
-            f"{CHANGED} You made a folder of the class.",
+            f"{CHANGED} You turned the class into a folder.",
             f"urdfsync resolve {ELBOW} --keep --keep your file as it is",
         ),
     ],
