@@ -1,7 +1,7 @@
-"""The functions behind the commands, for scripts and notebooks: `urdfsync.build` and the others (docs/api.md).
+"""The functions behind the commands, for scripts and notebooks: `urdfsync.build` and further functions (docs/api.md).
 
-They print nothing, and raise the errors of the commands. Each function imports its own modules: the checks take 100 ms
-to load, the merge 20 ms, and a build has to be quick.
+They print nothing, and raise the errors of the commands. Each function imports its own modules, so that a build is
+quick: the checks take 100 ms to load, the merge 20 ms.
 """
 
 from __future__ import annotations
@@ -40,8 +40,8 @@ Place: TypeAlias = Config | Path | str | None
 
 Recorder: TypeAlias = Callable[[Reading, str, Target, Any], tuple[Artifact, Sequence[Diagnostic]]]
 """Returns a model as one record without a package, and the findings about it; the attribute `record` of a domain. Its
-arguments are a reading without errors, the source's name in diagnostics, the class and the package of the record, and
-options. No files are imported for the record. Pure.
+arguments are a reading without errors, the source's name in diagnostics, the record's class and package, and options.
+No files are imported for the record. Pure.
 """
 
 

@@ -125,8 +125,8 @@ class Change(msgspec.Struct, frozen=True):
 Describe: TypeAlias = Callable[[Version, Version, Mapping[ElementKey, str], Any], Iterable[Change]]
 """Returns the changes from one version to another. Further arguments: new names by old elements, the new options.
 
-The attribute `describe` of a domain. Without it, additions and removals are structural changes. A changed value is a
-structural change if it changes the text of a model (see `by_texts`), else a parameter change.
+The attribute `describe` of a domain. Without it, additions and removals are structural changes. A value is a structural
+change if the text of a model changes (see `by_texts`), else a parameter change.
 """
 
 
@@ -346,7 +346,7 @@ def by_deepdiff(path: tuple[Any, ...], old: Any, new: Any) -> list[Difference]:
         old,
         new,
         view="tree",
-        zip_ordered_iterables=True,  # else a changed number of a vector counts as one removed and one added
+        zip_ordered_iterables=True,  # else a changed number of a vector counts as a removal and an addition
         threshold_to_diff_deeper=0,  # else mappings with few common keys are compared as a whole
         ignore_private_variables=False,
     )

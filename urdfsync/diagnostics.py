@@ -17,7 +17,7 @@ IGNORABLE = frozenset(
     "renamed-robot repeated same-but-for-case stray-state stray-template terminated too-long too-many-folders "
     "units unknown-build unused-argument unresolved wrong-kind wrong-within xacro-said".split()
 )
-"""Codes of warnings and notes that a configuration may ignore, beside those of the robot's domain."""
+"""Codes of warnings and notes that a configuration may ignore, beside the codes of the robot's domain."""
 
 
 _LONGEST = 1000
@@ -43,9 +43,9 @@ class Severity(enum.StrEnum):
 class Diagnostic(msgspec.Struct, frozen=True):
     """One finding about one place of the user's input.
 
-    `code` is a stable, lower-case slug such as `duplicate-link`; `message` is one sentence without
-    a full stop that names the culprit; `hint` says what to do. `file` is shown as it is given;
-    `line` and `column` count from 1, and 0 stands for unknown.
+    `code` is a stable, lower-case word such as `duplicate-link`. `message` is a sentence without a full stop that names
+    the faulty thing. `hint` says what to do. `file` is shown as it is given; `line` and `column` count from 1, and 0
+    stands for unknown.
     """
 
     severity: Severity
@@ -143,7 +143,7 @@ class OutputError(UrdfsyncError):
 
 
 def findings_of(error: Exception) -> tuple[Diagnostic, ...]:
-    """Return the diagnostics of an exception; for a bug in urdfsync, one about an internal error.
+    """Return the diagnostics of an exception; for a bug in urdfsync, a diagnostic about an internal error.
 
     Loops over robots catch every exception and call this function, so one robot never stops the others.
     """

@@ -1,8 +1,8 @@
 """The interface of a domain (URDF, or another data format), and the values that core and domain exchange.
 
 The core reads the source, and asks the domain for a *snapshot* of the model. The core imports the files that the model
-refers to. Then the core asks for the *artifacts* that follow from snapshot, imports and options, and renders, plans and
-writes these files. This module depends on no domain and does no IO.
+refers to. Then the core asks for the *artifacts* that follow from snapshot, imports and options. The core renders,
+plans and writes these files. This module depends on no domain and does no IO.
 """
 
 from __future__ import annotations
@@ -108,7 +108,7 @@ class Import(msgspec.Struct, frozen=True, omit_defaults=True):
 
     target: str
     source_hash: str
-    """SHA-256 (hex) of the dependency's bytes, and of those of `others`."""
+    """SHA-256 (hex) of the dependency's bytes and of the bytes of `others`."""
     target_hash: str
     """SHA-256 (hex) of the imported bytes."""
     facts: Mapping[str, Any]
@@ -265,7 +265,7 @@ class Domain(Protocol):
     def convert(self, dependency: Dependency, file: Path, content: bytes, others: Mapping[str, bytes]) -> Conversion:
         """Convert a dependency found at `file` for the package. Raises SourceError if it can't be read.
 
-        `others` has the contents of the files that `Mentions.mentioned` named; empty for unreadable ones.
+        `others` has the contents of the files that `Mentions.mentioned` named; an unreadable file has an empty content.
         """
         return Conversion(content, {})
 

@@ -4,15 +4,15 @@ All elements are matched at once, by their contents, places and names:
 
 1. Declared matches hold. A content is one aspect of an element, such as its shapes, or all aspects together. If a
 content is unique in both versions, its two elements match, whatever their names are. If an element's aspects match
-different elements, they prove nothing; but if one aspect stays with a name, the elements of this name match. If an
-element keeps its name and its unchanged neighbours, a content that moved to it is only a change of numbers. 2.
+different elements, they prove nothing. But if one of these aspects stays with a name, the elements of this name match.
+If an element keeps its name and its neighbours, a content that seems to move there is only a change of numbers. 2.
 Neighbours of matched elements match if they are at the same place and have equal contents.
 3. Then names win: elements of the same name match.
-4. The remaining elements have other names. Two of them at the same place match if no other element has their content,
-   or if another element has the old name now.
+4. The remaining elements have other names. Two of these at the same place match if no other element has their content.
+They also match if another element has the old name now.
 
-Rows of a table are a kind without neighbours: they have no places. So a whole content counts, whatever its values are;
-but if only zeros and ones changed under a name, somebody may have switched the row on or off. A unique text in one
+Rows of a table are a kind without neighbours: they have no places. So a whole content counts, whatever its values are.
+But if only zeros and ones changed under a name, somebody may have switched the row on or off. A unique text in one
 column proves no new name: the element keeps its name, or there is a doubt. After step 3, two rows of equal content
 match if all other rows of this content have kept their names.
 
@@ -313,7 +313,7 @@ class _Matcher:
                     yield old, new
 
     def _between(self) -> Iterator[tuple[ElementKey, ElementKey]]:
-        """Yield pairs of elements: each is the only unmatched one of its kind between the same matched neighbours."""
+        """Yield pairs of elements, each the only unmatched element of its kind between the same matched neighbours."""
         ends = defaultdict[Hashable, tuple[list[ElementKey], list[ElementKey]]](lambda: ([], []))
         for key, features in self._old.items():
             around = [self._pairs.get(one) for one in features.neighbours.values()]

@@ -147,12 +147,15 @@ def file_type(path: str | os.PathLike[str], *, follow: bool = True) -> int:
 
 
 def is_file(path: str | os.PathLike[str]) -> bool:
-    """Whether a regular file, or a link to one, is at a path. Raises OSError if the path can't be accessed."""
+    """Whether a regular file, or a link to a regular file, is at a path.
+
+    Raises OSError if the path can't be accessed.
+    """
     return file_type(path) == stat.S_IFREG
 
 
 def is_folder(path: str | os.PathLike[str]) -> bool:
-    """Whether a folder, or a link to one, is at a path. Raises OSError if the path can't be accessed."""
+    """Whether a folder, or a link to a folder, is at a path. Raises OSError if the path can't be accessed."""
     return file_type(path) == stat.S_IFDIR
 
 

@@ -75,7 +75,7 @@ class Stream:
 
 
 class SafeStreams:
-    """Replaces both standard streams by a `Stream` inside a `with` block; the block gets that of stdout."""
+    """Replaces both standard streams by a `Stream` inside a `with` block; the block gets the `Stream` of stdout."""
 
     def __init__(self, transcript: Transcript | None = None) -> None:
         self._before = sys.stdout, sys.stderr

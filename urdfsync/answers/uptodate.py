@@ -1,11 +1,11 @@
 """The up-to-date check: repeats the answer of a command while its dependencies are unchanged.
 
-`.urdfsync/stamp-build` holds the last answer of `build`, the list of all files that it read, and a hash of the facts
-about them; `stamp-status` and `stamp-hook` hold the same for these commands. If anything has changed, the command runs.
-The list contains the program's own modules: developers change them. A file that was young when it was read is compared
-by its content, as git does with racy entries of its index. Once all files are old, the answer is written again: later
-checks compare stat values. Each command begins with the check, so this module imports only modules that load in a
-fraction of a ms: contextlib would take 1 of 12 ms.
+`.urdfsync/stamp-build` holds the last answer of `build`, the list of all files that `build` read, and a hash of the
+facts about these files. The commands `status` and `hook` have such files, too. If anything has changed, the command
+runs. The list contains the program's own modules: developers change them. A file that was young when it was read is
+compared by its content, as in git's racy index entries. Once all files are old, the answer is written again: later
+checks compare stat values. Each command begins with the check, so this module imports only modules that load fast:
+contextlib would take 1 of 12 ms.
 """
 
 from __future__ import annotations
@@ -90,8 +90,7 @@ def answer_key(arguments: list[str], config_file: str) -> str:
 def find_answer(config_file: str, command: str, key: str) -> list[str] | None:
     """Return the saved answer of a command, if its dependencies are unchanged; None otherwise.
 
-    The answer counts only in the file that this program wrote on this machine: a copy, such as a committed one, is
-    ignored.
+    Only the file that this program wrote on this machine counts: a copy, such as a committed copy, is ignored.
     """
     try:
         return _find_answer(_stamp(config_file, command), key)

@@ -144,7 +144,7 @@ class _Builder:
         return not self._transactions.is_pending() and Store(self._config.root).is_unchanged(plan.state)
 
     def _recover(self) -> None:
-        """Wait for a build that is writing; finish a killed one."""
+        """Wait for a build that is writing; finish a killed build."""
         if not self._transactions.is_pending():
             return
         if not self._options.dry:

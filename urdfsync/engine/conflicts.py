@@ -24,7 +24,7 @@ class Conflict(msgspec.Struct, frozen=True):
     path: str
     """Path of the generated text as in the record: from the configuration's folder, POSIX."""
     base: str | None
-    """The last generated text that *mine* contains or was merged with; None if there was none, or if it is lost."""
+    """The last generated text that *mine* contains or was merged with; None if this text is missing or lost."""
     mine: str
     generated: str
     merge: Merge | None
@@ -57,7 +57,7 @@ def find_conflict(
 ) -> Conflict:
     """Merge the texts of a file. Ambiguous merges and wrong Modelica are rejected.
 
-    `bases` are all texts that may be the base, best first; `names` has new names by old ones.
+    `bases` are all texts that may be the base, best first; `names` has new names by old names.
     """
     from urdfsync.merge import merge
 
@@ -76,7 +76,7 @@ def find_conflict(
 
 
 def over_bases(bases: Sequence[str], mine: str, *, is_modelica: bool) -> list[tuple[str, str]]:
-    """Carry the edits of a file over to its last and its first base; return each base with its edited text.
+    """Move the edits of a file to its last and its first base; return both bases with their edited texts.
 
     Git may have recorded bases of several branches, so a difference between two bases is no edit. The result leaves out
     a base if the edits contradict it.
@@ -99,7 +99,7 @@ def resolve(
     """Decide on every file that the user and the source changed.
 
     Returns the actions, and the texts of merged files by path. `conflicts` has the disputed text files by path. A file
-    that moves with its element takes the merge; other files take it only if the configuration allows clean merges
+    that moves with its element takes the merge. Other files take it only if the configuration allows clean merges
     (`merging`). A `choice` of `PREFERENCES` decides contradictions for one side.
     """
     resolved, texts = [], {}

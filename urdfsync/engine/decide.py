@@ -188,8 +188,7 @@ def _conflict(
     record = last.files.get(key)
     hashes = record.hashes if record and action.base in record.hashes else (action.base,)
     known = [generated if sha256 == action.generated else last.base(sha256) for sha256 in hashes]
-    # a file may have several bases: if the text of one is lost, the changes since then are unknown, so nothing is
-    # merged
+    # if the text of one of several bases is lost, the user's changes are unknown: nothing is merged
     bases = [text for text in known if text is not None] if None not in known else []
     base, rejected, moved_to = bases[0] if bases else None, "", ""
     if mine is None:
@@ -263,7 +262,7 @@ def _find_misfits(after: PackageAfter, only: Collection[str] | None = None) -> S
 
 
 def _renumbered(after: PackageAfter, changes: Changes | None, conflicts: Mapping[str, Conflict]) -> frozenset[str]:
-    """Return the records in which only numbers change, including those in conflict."""
+    """Return the records in which only numbers change, including records in conflict."""
     inputs, keys, by_element = after.inputs, set(), changes.by_element() if changes else {}
     for action in after.actions:
         if action.role is not Role.RECORD or action.origin is not None:
@@ -349,7 +348,7 @@ def _decide_orders(
 ) -> tuple[list[Action], dict[str, str], list[SharedFile]]:
     """Decide on `package.order` files, and on the packages around the robot's.
 
-    Returns the actions, the new texts of orders, and the files around this package and that of the last build.
+    Returns the actions, the new texts of orders, and the files around this package and around the last build's package.
     """
     files, robot = inputs.files, inputs.robot
     is_same = not (differences.is_structural or inputs.has_moved)

@@ -1,4 +1,4 @@
-"""Compares the last complete build of a robot with the present one: elements, model, names of files."""
+"""Compares the last complete build of a robot with the present build: elements, model, names of files."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ GONE = "_gone"
 
 
 class Differences(msgspec.Struct, frozen=True):
-    """The differences between the last complete build and the present one."""
+    """The differences between the last complete build and the present build."""
 
     matching: Matching
     """Renamed elements, and elements that may be other parts than their names say."""
@@ -54,7 +54,7 @@ class Differences(msgspec.Struct, frozen=True):
 
 
 def compare_with_last(inputs: Inputs, generation: Generation) -> Differences:
-    """Compare the last complete build of a robot with the present one."""
+    """Compare the last complete build of a robot with the present build."""
     last, now, package = inputs.last, generation.now.snapshot, generation.package
     matching = _find_matching(inputs, now)
     news = _find_changes(inputs, generation, matching)
@@ -76,7 +76,7 @@ def compare_with_last(inputs: Inputs, generation: Generation) -> Differences:
 
 
 def _find_matching(inputs: Inputs, now: Snapshot) -> Matching:
-    """Match the elements of the last complete build with the present ones.
+    """Match the elements of the last complete build with the present elements.
 
     A stranger may have written the recorded model: names count as exchanged only if the records on disk confirm it.
     """
@@ -93,7 +93,7 @@ def _find_matching(inputs: Inputs, now: Snapshot) -> Matching:
 
 
 def _agrees(inputs: Inputs, owners: Collection[str]) -> bool:
-    """Whether the unedited records of these elements on disk equal those from the recorded model."""
+    """Whether the unedited records of these elements on disk equal the records from the recorded model."""
     last, package = inputs.last, inputs.last.package
     if package is None or not owners:
         return not owners
@@ -118,7 +118,7 @@ def _find_changes(inputs: Inputs, generation: Generation, matching: Matching) ->
     except NO_MODEL:
         return None
     if news.change_class.rank >= ChangeClass.STRUCTURAL.rank and last.package is None:
-        return None  # git may have merged two models into an invalid one
+        return None  # git may have merged two models into an invalid model
     if domain.describe is None and news.changes and last.package is not None:
         news = changes.by_texts(news, generation.package.changed_models(last.package))
     is_same = last.record.generator == inputs.generator and last.target == robot.target

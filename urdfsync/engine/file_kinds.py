@@ -1,4 +1,4 @@
-"""Recognises files that users name as a source although they hold no robot, such as an archive or a launch file."""
+"""Recognises files without a robot that users name as a source, such as an archive or a launch file."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import NamedTuple
 from urdfsync.modelica.markers import find_markers
 
 _BEGINNING = 20_000
-"""The number of bytes at the beginning of a file that are searched for its kind: the file may be long."""
+"""The bytes at the beginning of a file in which its kind is searched: the file may be long."""
 _TAR = slice(257, 262)
 _PACKED = (
     (b"\x1f\x8b", "packed by gzip", "gunzip < FILE > ROBOT.urdf"),
@@ -48,7 +48,7 @@ class FileKind(NamedTuple):
 
 
 def find_kind(content: bytes) -> FileKind | None:
-    """Return the kind of a file that is not XML of a robot; None for a robot, and for an unknown kind."""
+    """Return the kind of a file without a robot; None for a robot, and for an unknown kind."""
     packed = next((kind for kind in _PACKED if content.startswith(kind[0])), None)
     if content[_TAR] == b"ustar" and b"\0" in content[: _TAR.start]:
         packed = b"", "a tar archive", "tar xf FILE"

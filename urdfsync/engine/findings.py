@@ -56,7 +56,7 @@ _MAYBE = "?"
 
 
 def find_all(inputs: Inputs, generation: Generation, decision: Decision) -> list[Diagnostic]:
-    """Return all findings of a build, except those about uses of other parts."""
+    """Return all findings of a build, except the findings of `tell_uses`."""
     findings = [*generation.diagnostics, *inputs.parents.diagnostics]
     if decision.misfits:
         renamed = inputs.last.notes.renamed  # the renames of this machine's last build
@@ -112,7 +112,7 @@ def _diagnose(
 
 
 def _hint(inputs: Inputs, snapshot: Snapshot, renamed: Mapping[str, str], use: Unresolved) -> str:
-    """Return a hint for an unresolved name; `renamed` has new identifiers by old ones."""
+    """Return a hint for an unresolved name; `renamed` has new identifiers by old identifiers."""
     target, options = inputs.robot.target, inputs.robot.options
     if use.part == inputs.last.target.package != target.package and target.name not in use.candidates:
         return f"use `{target.package}` instead"
@@ -158,7 +158,7 @@ def _first(names: Sequence[str], most: int) -> str:
 
 
 def _changed_connectors(inputs: Inputs, generation: Generation, changes: Changes | None) -> Iterator[Diagnostic]:
-    """Yield notes on renamed and removed connectors, and one note on new ones."""
+    """Yield notes on renamed and removed connectors, and one note on new connectors."""
     complete, robot = inputs.last.version, inputs.robot
     effects: Effects | None = inputs.domain.effects
     if (

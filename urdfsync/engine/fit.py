@@ -2,8 +2,8 @@
 
 These texts are edited files of the package, the user's own classes in it, and the user's models outside. Findings
 depend only on the project: the package, UrdfSync, and the user's files. A name from an unread library is no fault.
-Generated texts fit each other. So only two kinds of statements are read: edited statements, and statements with a name
-that an edit adds, changes or removes.
+Generated texts fit each other. So this reads only edited statements, and statements with a name that an edit adds,
+changes or removes.
 """
 
 from __future__ import annotations

@@ -59,7 +59,7 @@ class Package:
         return {self.hash(path): path for path in self.artifacts}
 
     def find_like(self, path: str, owner: str) -> str | None:
-        """Return the path of the owner's file with the same template as the file at `path`; None if there is none."""
+        """Return the path of the owner's file with the template of the file at `path`; None if there is none."""
         template = self.artifacts[path].template
         return next((a.path for a in self.artifacts.values() if (a.owner, a.template) == (owner, template)), None)
 

@@ -101,8 +101,8 @@ def import_files(
 ) -> Imported:
     """Import every dependency; `source` is the source's name in diagnostics.
 
-    If this machine has noted a conversion, and its input is the same, its result is used again; not in a full build, or
-    if the package `has_moved`. A missing or unreadable file is left out, or replaced by its recorded copy. Raises
+    If this machine has noted a conversion of the same input, the result is used again. A full build, and a package that
+    `has_moved`, convert again. A missing or unreadable file is left out, or replaced by its recorded copy. Raises
     StateError if the facts of that copy are lost.
     """
     importer = _Importer(domain, recorded, source, options.full, has_moved)

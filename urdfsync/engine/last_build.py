@@ -69,8 +69,8 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
     def file(self, key: str, role: Role, on_disk: OnDisk, generated: str | None) -> FileRecord:
         """Return the record of a file on disk.
 
-        A text among the bases, or from this machine, is urdfsync's own even if the record differs: an overtaken build
-        may have written the text, git may have restored it, or the state is lost.
+        A text among the bases, or from this machine, is urdfsync's own even if the record differs. Then an overtaken
+        build wrote the text, git restored it, or the state is lost.
         """
         record = self.files.get(key, NEVER_WRITTEN)
         if not isinstance(on_disk, str) or role is Role.IMPORT or on_disk in (generated, *record.hashes):

@@ -31,7 +31,7 @@ class BuildOptions(msgspec.Struct, frozen=True):
     renews: bool = True
     """Renew the recorded state even if the package is in step; otherwise only builds that write a file renew it."""
     adopts: bool = False
-    """Treat files that exist before the first build as edits of the generated ones."""
+    """Treat files that exist before the first build as edited generated files."""
     removes: bool = False
     """Remove the robots' packages and records, as if their sources were empty."""
     draw: bool = False
@@ -43,7 +43,7 @@ class BuildOptions(msgspec.Struct, frozen=True):
     choices: Mapping[str, UsersChoice] = msgspec.field(default_factory=dict)
     """The user's decisions about files, by their keys."""
     jobs: int | None = None
-    """Processes that may work at once; None for one per core."""
+    """Processes that may work at once; None for one process per core."""
     executor: str = ""
     """Address of a Dask scheduler whose workers plan robots; empty for processes of this machine."""
     progress: Progress = no_progress

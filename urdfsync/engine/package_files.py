@@ -44,7 +44,7 @@ class FileState(NamedTuple):
 
 
 _unchanged: dict[str, tuple[tuple[int, ...], FileState]] = {}
-"""The states of read files with their stat values, by absolute path: the daemon reads a file again if its stat values
+"""The states and the stat values of read files, by absolute path: the daemon reads a file again if its stat values
 differ.
 
 Serves the rows "one mass changed in the daemon" of docs/speed.md: saves a sixth of the time. Dropping it changes no
@@ -125,7 +125,7 @@ class PackageFiles:
             raise OutputError.of("no-text", message, place, line, hint=hint) from None
 
     def any_text(self, key: str) -> str:
-        """Return the text of a file for a search; empty if the file, which may be the user's, can't be read."""
+        """Return the text of a file, which may be the user's, for a search; empty for an unreadable file."""
         try:
             return self.text(key) or ""
         except OutputError:
@@ -240,7 +240,7 @@ def text_hash(text: str) -> str:
 
 
 def encode(text: str) -> bytes:
-    """Return the bytes of a text that `PackageFiles.text` gave, or of an edited one."""
+    """Return the bytes of a text from `PackageFiles.text`, or of a changed text."""
     return text.encode(errors="surrogateescape")
 
 

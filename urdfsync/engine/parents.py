@@ -1,7 +1,7 @@
 """The packages around a generated package, and their `package.order` files.
 
-Missing packages are made only with `create_parents`. A `package.order` has to name every class of its package, and only
-a Modelica parser finds the classes inside of a `package.mo`. So urdfsync adds its names to an existing `package.order`,
+Missing packages are made only with `create_parents`. A `package.order` must name every class of its package. Only a
+Modelica parser finds the classes inside of a `package.mo`. So urdfsync adds its names to an existing `package.order`,
 and makes a `package.order` only together with a new package.
 """
 
@@ -56,7 +56,7 @@ class Parents(msgspec.Struct, frozen=True):
     shared: tuple[SharedFile, ...] = ()
     """The files of missing packages, and the `package.order` files that have to name these packages."""
     listed: bool = True
-    """Whether the parent's `package.order`, an existing or a new one, has to name the robot's package."""
+    """Whether an existing or new `package.order` of the parent has to name the robot's package."""
     diagnostics: tuple[Diagnostic, ...] = ()
 
 
@@ -147,7 +147,7 @@ def merge_order(text: str | None, names: Sequence[str], owned: Collection[str] =
 
     `owned` are the names that urdfsync wrote last, in order. All other lines are the user's and keep their
     places. urdfsync's lines follow the order of `names`, unless the user has moved them. A new line stands next to its
-    neighbour in `names`. Line endings are those of the file. The result is empty if no line remains.
+    neighbour in `names`. The line endings of the file stay. The result is empty if no line remains.
     """
     if text is None:
         return "".join(f"{name}\n" for name in names)

@@ -38,8 +38,8 @@ def match_with_last(inputs: Inputs, now: Snapshot, declared: Mapping[str, str]) 
     """Match the elements of the last complete build with the present elements.
 
     While a conflict is open, one export may rename an element, and the next export may change its numbers. So this
-    joins two steps: the renames up to the model that the last build read, and the renames since then. `declared` has
-    only renames that no complete build has made.
+    joins the renames up to the model that the last build read with the renames since then. `declared` has only renames
+    that no complete build has made.
     """
     last, domain = inputs.last, inputs.domain
     if last.version is None:

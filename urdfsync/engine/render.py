@@ -1,8 +1,8 @@
 """Renders templates: the Jinja environment, with the literals of Modelica as filters.
 
 Modelica uses braces for arrays, so the delimiters are `<< >>`, `<% %>` and `<# #>`. Strings from a source reach
-Modelica only through `string` or `html`, numbers only through `real`, `vector` or `matrix`: no value can end a literal
-or a line.
+Modelica only through `string` or `html`, numbers only through `real`, `vector` or `matrix`. So no value can end a
+literal or a line.
 """
 
 from __future__ import annotations

@@ -76,7 +76,7 @@ def decide(files: Mapping[str, File], moves: Mapping[str, str]) -> tuple[Action,
     """Decide on every file of a robot, by path.
 
     `moves` has old paths by new paths of files whose element was renamed. An edited file moves to its new path (MOVE
-    there, MOVED_AWAY at the old path), unless another file of the user's is there.
+    there, MOVED_AWAY at the old path), unless a file of the user's is there.
     """
     edited = _edited_moves(files, moves)
     origins = set(edited.values())
@@ -148,8 +148,8 @@ def files_after(
 ) -> dict[str, FileRecord]:
     """Return the records of a package's files after a build.
 
-    A complete build renews the records of all files. An incomplete build renews only those of files that it wrote or
-    found in step.
+    A complete build renews the records of all files. An incomplete build renews only the records of files that it wrote
+    or found in step.
     """
     records = {} if is_complete else dict(recorded)
     for action in actions:

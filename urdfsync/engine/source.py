@@ -52,7 +52,7 @@ NEVER: tuple[str, ...] = ("no expansion is recorded",)
 def is_xacro(file: Path, content: bytes) -> bool:
     """Return whether a file is xacro, by its name or by its elements.
 
-    An expanded URDF may still have unused elements of xacro, or some in comments; but it has links, and no `${…}`.
+    An expanded URDF may still have elements of xacro, unused or in comments; but it has links, and no `${…}`.
     """
     if file.suffix == ".xacro" or b"xmlns:xacro" not in content:
         return file.suffix == ".xacro"
@@ -190,7 +190,7 @@ class Beside(Protocol):
     """Reads a second file beside a source, if there is one; a domain's attribute `beside`."""
 
     SUFFIX: str
-    """The suffix of this file; the rest of its path is that of the source."""
+    """The suffix of this file; its path is the source's path with this suffix."""
     OPTION: str
     """The option that must name this file in a configuration (see `NamedFile.OPTION`); empty if it needs no option."""
 
@@ -222,9 +222,8 @@ def with_named_file(
 ) -> Source:
     """Return a source with the content of the file that its robot's options name, on disk or in a revision.
 
-    A file outside of the revision's repository is read on disk. Raises SourceError for a missing file, and for a file
-    beside the source that no option names: after a rename of source or file, its content would be missing without a
-    message.
+    A file outside of the revision's repository is read on disk. Raises SourceError for a missing file. Raises
+    SourceError for a file beside the source that no option names: a rename would remove its content without a message.
     """
     domain = registry.domain(robot.domain)
     named: NamedFile | None = domain.named_file

@@ -1,9 +1,9 @@
 """Stages one robot's plan with all its writes: files, texts saved beside them, bases, and last the record.
 
 Two kinds of texts are saved below `.urdfsync/`. `aside` has a copy of each replaced text that this machine did not
-generate, for `--undo`. The list in `aside` drops a text once the user saves the text's file and another build writes
-files; the copy stays. `conflicts` has the versions of each file in conflict: base, generated, and a proposed merge. If
-a person changed a proposal, builds never overwrite it, and `resolve --edit` begins with it.
+generate, for `--undo`. Once the user saves a text's file, and another build writes files, the list in `aside` drops the
+text; the copy stays. `conflicts` has the versions of each file in conflict: base, generated, and a proposed merge. If a
+person changed a proposal, builds never overwrite it, and `resolve --edit` begins with it.
 """
 
 from __future__ import annotations
@@ -420,7 +420,7 @@ def _replaced(
 ) -> Iterator[tuple[str, Former]]:
     """Yield the key and the former text of each replaced or deleted file; leave out texts that this machine generated.
 
-    A `package.order` is saved only if git has united two states: then a build may remove lines that it did not write.
+    A `package.order` is saved only if git has united two states: a build may then remove foreign lines.
     """
     files, last, folder = inputs.files, inputs.last, inputs.folder.key("")
     origins = {action.origin for action in decision.actions if action.origin and action.writes}
@@ -446,7 +446,7 @@ def _bases_given_back(
     """Return the bases of a text after `--undo`."""
     place = (action.origin or "") if action.reason is Reason.MOVE else action.path
     record = inputs.last.files.get(place, FileRecord())
-    # with the old base, the next build would merge the text again, or take it for a generated one
+    # with the old base, the next build would merge the text again, or take it for a generated text
     merging = {robot.name for robot in inputs.config.robots if robot.on_conflict == "merge"}  # not only this command
     is_merge = (action.reason is Reason.MERGE or action.is_left_by_git) and inputs.robot.name in merging
     is_own_base = text_digest(text) in record.hashes

@@ -232,8 +232,8 @@ def _plain(text: str) -> str:
 def _is_untouched(text: str, sides: Sides) -> bool:
     """Return whether a text is git's merge of two versions, with the driver or by lines.
 
-    After a merge by lines, each side of a conflict has one version, with all changes of the other version that do not
-    touch its own changes. This compares the changes, since git may compare lines in several ways.
+    After a merge by lines, each side of a conflict has one version, with changes of the other version where its own
+    text is unchanged. This compares the changes, since git may compare lines in several ways.
     """
     from urdfsync.merge.texts import merge_file
 

@@ -140,7 +140,7 @@ def _merge_whole(path: Path, base: Node | None, mine: Node, generated: Node) -> 
 
 
 def _has_lines(path: Path, node: Node) -> bool:
-    """Whether a text that the user changed can be merged line by line; if not, it is merged as a whole."""
+    """Whether a text that the user changed is merged line by line; other texts are merged as a whole."""
     if not isinstance(node, Leaf):
         return False
     is_block = path[-1] == "equation" and node.words[0] in _BLOCKS
@@ -238,7 +238,7 @@ def _merge_parts(
             pieces = [_contradiction((*path, part.key), old.node, None, part.node)]
         items[part.key] = _Item(part.key, part.before, pieces, part.after, part.remark)
     order = sequence if sequence and mine.kind is TreeKind.ARRAY else _order(trees, items)
-    # the order may name an element that one side moved and the other removed
+    # the order may name an element that one side moved and the other side removed
     if sequence is None or set(order) - items.keys() or [key for key in order if key in sequence] != sequence:
         place = (*path, "order") if mine.kind is TreeKind.BODY else path
         return [_contradiction(place, base, mine, generated)]

@@ -79,7 +79,7 @@ def _is_new_part(contradiction: Contradiction) -> bool:
 
 
 def _preferring(side: str, pieces: Sequence[Piece], ending: str) -> str:
-    """Return the text with one side of each contradiction."""
+    """Return the text in which `side` wins all contradictions."""
     texts = (piece if isinstance(piece, str) else _with_ending(getattr(piece, side), ending) for piece in pieces)
     return "".join(texts)
 
@@ -134,7 +134,7 @@ def _merge_pieces(
 
 
 def _merge_classes(texts: Sequence[str], statements: KnownStatements, *, is_export: bool) -> list[Piece] | None:
-    """Merge texts with one class each; None if a text is not one class, or if the texts differ too much."""
+    """Merge texts of one class each; None for any other text, or if the texts differ too much."""
     base, _, generated = texts
     base_tree, mine_tree, generated_tree = (read_tree(text, statements) for text in texts)
     if not (base_tree and mine_tree and generated_tree):

@@ -1,4 +1,4 @@
-"""Writes values as Modelica: literals that give the same value when they are read, and text that can't end a string."""
+"""Writes values as Modelica: literals that tools read as the same value, and text that can't end a string."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def vector(values: Iterable[float]) -> str:
 
 
 def matrix(rows: Sequence[Sequence[float]], columns: int) -> str:
-    """Return a Modelica matrix `[a, b; c, d]`, or an empty one with `columns` columns."""
+    """Return a Modelica matrix `[a, b; c, d]`, or an empty matrix with `columns` columns."""
     if not rows:
         return f"fill(0, 0, {columns})"
     return "[" + "; ".join(", ".join(map(real, row)) for row in rows) + "]"

@@ -1,8 +1,8 @@
 """Reads Modelica text: names, faults, and parts.
 
-The grammar is the concrete syntax of the language specification 3.6 (appendix A), without the restrictions for kinds of
-classes, and without the precedence of operators. Elements and equations are read one by one, so a fault in one element
-does not hide faults in other elements.
+The grammar is the concrete syntax of the language specification 3.6 (appendix A). It ignores restrictions for kinds of
+classes, and the precedence of operators. Elements and equations are read one by one, so a fault in an element does not
+hide faults in others.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """A class as a tree of things: elements, equations, modifiers. The tree keeps every byte.
 
-Things have keys, to find them in another version of the class: the name of a component or modifier, the words of an
-equation. Blanks and comments stand between things, and belong to no thing. At first, only the name of an element or
-equation is read; the parts of most are never needed.
+A thing has the same key in all versions of the class: the name of a component or modifier, or the words of an equation.
+Blanks and comments stand between things, and belong to no thing. At first, only the name of an element or equation is
+read; the parts of most are never needed.
 """
 
 from __future__ import annotations
@@ -244,7 +244,7 @@ def comments(text: str) -> list[str]:
 
 
 def key_by_whole_equation(*trees: SyntaxTree) -> tuple[SyntaxTree, ...]:
-    """If one version of a body has several equations for a variable, key these by all their words in all versions."""
+    """Key equations for a variable by all their words, in all versions, if one version has several of them."""
     counts = [Counter(_variable(part) for part in tree.parts) for tree in trees]
     several = {name for names in counts for name, count in names.items() if name and count > 1}
     return tuple(tree.with_parts(list(_keyed(tree.parts, several))) if several else tree for tree in trees)

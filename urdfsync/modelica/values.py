@@ -131,7 +131,7 @@ def _modifiers(text: str, tokens: Sequence[Token], at: int, path: str, type_: st
 
 
 def _close(words: Sequence[str], at: int) -> int:
-    """Return the place of the bracket that closes the one at a place."""
+    """Return the place of the bracket that closes the bracket at a place."""
     depth = 0
     for k in range(at, len(words)):
         depth += _DEPTH.get(words[k], 0)

@@ -41,7 +41,7 @@ class Expansion(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True, f
     """Messages of xacro."""
     places: str = ""
     """The original places of elements: `12=0:7` means that line 12 of the text is from line 7 of the first of `files`,
-    in the order of their names.
+    sorted by name.
     """
     sum: str = ""
     """Hash of all other fields."""

@@ -69,7 +69,7 @@ def write(path: Path, content: bytes, like: Path) -> None:
 
 
 class Bound(msgspec.Struct, frozen=True, kw_only=True):
-    """The content of a JSON file that states the file's own inode and time: a copy or a clone has others."""
+    """The content of a JSON file with the file's own inode and time; a copy has another inode or time."""
 
     inode: int = 0
     written_at: int = 0

@@ -1,7 +1,8 @@
 """The record of a robot: the files that urdfsync wrote last, to tell edits from exports.
 
-The record is committed, so a stranger may have changed it: it never decides which text is generated, restored or left
-out. A build that ends with a conflict keeps the recorded model, but renews the bases of the files that it writes.
+The record is committed, so a stranger may have changed it: it never decides which text a build generates, restores or
+leaves out. A build that ends with a conflict keeps the recorded model, but renews the bases of the files that it
+writes.
 """
 
 from __future__ import annotations
@@ -110,8 +111,8 @@ class Record(msgspec.Struct, frozen=True, kw_only=True):
     confirmed: frozenset[str] = frozenset()
     """Hashes of the user's texts for which he has confirmed the file."""
     imports: Mapping[str, tuple[Import, ...]] = {}
-    """The imports by key; a file has several imports if git has united two states, or after a renewal by an incomplete
-    build."""
+    """The imports by key. A file has several if git has united two states, or if an incomplete build renewed the
+    file."""
     files: Mapping[str, FileRecord] = {}
     open: Open | None = None
     """None if the last build was complete."""

@@ -84,7 +84,7 @@ def _facts(record: Record) -> Iterator[tuple[str, object]]:
 
 
 def _elements(snapshot: Mapping[str, Any]) -> Iterator[tuple[Any, ...]]:
-    """Yield each element of a model: kind, name and element; the name is None for a value that is not a mapping."""
+    """Yield each element of a model: kind, name and element; the name is None unless the value is a mapping."""
     for part, value in snapshot.items():
         if isinstance(value, Mapping) and value:
             yield from ((part, name, element) for name, element in value.items())

@@ -86,7 +86,7 @@ class Store:
         return statefile.loads(content.decode(errors="replace").replace("\r\n", "\n"), shown(path))
 
     def load_expansion(self, robot: str) -> Expansion | None:
-        """Return the robot's last expanded source; None without a readable one."""
+        """Return the robot's last expanded source; None if it is missing or unreadable."""
         content = self._bytes(self.expansion(robot))
         return None if content is None else expansion.loads(content)
 

@@ -50,8 +50,7 @@ class FileChange(msgspec.Struct, frozen=True):
     old: str | None
     """SHA-256 (hex) of the bytes at the time of the plan; None if there was no file."""
     is_moved: bool = False
-    """Whether this is a user's text that moves here from another path; if the move fails, the text is kept under
-    another name."""
+    """Whether this is a user's text from another path; if it can't move here, it is kept under another name."""
 
 
 class PlannedFile(msgspec.Struct, frozen=True, omit_defaults=True):
