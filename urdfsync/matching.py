@@ -5,7 +5,7 @@ All elements are matched at once, by their contents, places and names:
 1. Declared matches hold. A content is one aspect of an element, such as its shapes, or all aspects together. If a
 content is unique in both versions, its two elements match, whatever their names are. If an element's aspects match
 different elements, they prove nothing. But if one of these aspects stays with a name, the elements of this name match.
-If an element keeps its name and its neighbours, a content that seems to move there is only a change of numbers. 2.
+If an element keeps its name and its neighbours, its numbers changed, even if another element had its new content. 2.
 Neighbours of matched elements match if they are at the same place and have equal contents.
 3. Then names win: elements of the same name match.
 4. The remaining elements have other names. Two of these at the same place match if no other element has their content.

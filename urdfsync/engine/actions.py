@@ -127,7 +127,7 @@ class Reason(enum.StrEnum):
 
 
 ORPHANS = frozenset(reason for reason in Reason if reason.status is FileStatus.ORPHAN)
-"""Reasons for which a file stays that is no longer generated."""
+"""Reasons to keep a file that is no longer generated."""
 CONFLICTS = frozenset(reason for reason in Reason if reason.kind is Kind.CONFLICT)
 DISPUTED = CONFLICTS | {Reason.MOVE}
 """Reasons of actions that depend on the user's and the generated text, or on the user's choice."""

@@ -28,7 +28,7 @@ _OTHERS = (
         "this is a launch file of ROS, not URDF",
     ),
 )
-"""Each kind of file by its code, a pattern of its beginning, and a message."""
+"""For each kind of file: its code, a pattern for its beginning, and a message."""
 HINTS = {
     "compressed": "unpack it, and name the file in it",
     "lfs-pointer": "run `git lfs pull`",

@@ -257,7 +257,7 @@ def _facts(path: Path) -> tuple[int, ...]:
 
 
 def _lines(path: Path, names: Mapping[str, str]) -> dict[str, int]:
-    """Return the first line in which a file uses each name; a declaration of a name is no use."""
+    """Return the first line in which a file uses each name; declarations do not count."""
     from urdfsync.merge.renames import find_uses_of  # the lexer takes a while to load
     from urdfsync.modelica.files import text_of
 

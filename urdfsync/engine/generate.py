@@ -96,7 +96,7 @@ class Package:
         return frozenset(changed)
 
     def changed_models(self, last: Package) -> set[str]:
-        """Return the owners of files whose text differs from that in another package; records are left out."""
+        """Return the owners of files whose text differs from the text in another package; records are left out."""
         both = (path for path in self.changed_since(last) if self.artifacts[path].role is not Role.RECORD)
         changed = (path for path in both if path not in last.artifacts or self.hash(path) != last.hash(path))
         return {self.artifacts[path].owner for path in changed}

@@ -174,8 +174,8 @@ def keep_needed(after: PackageAfter, origins: Collection[str]) -> tuple[Action, 
 def _code_words(content: bytes) -> set[str]:
     """Return all names and keywords in a text, without strings, comments, its own classes and its `within` clause.
 
-    Without its own classes, since an edited file may have the old name of its class. Without the `within` clause, since
-    a package may have the name of the robot's model. The text need not be valid Modelica.
+    Its own classes are left out: an edited file may have the old name of its class. The `within` clause is left out: a
+    package may have the name of the robot's model. The text need not be valid Modelica.
     """
     code = re.sub(r"\A\ufeff?\s*within\b[^;]*;", "", text_of(code_of(content)))
     words = re.findall(r"[^\W\d]\w*", code)

@@ -113,7 +113,7 @@ class _CodeCache(jinja2.BytecodeCache):
         return super().get_cache_key(name, filename) if (filename or "").startswith(self._folder) else ""
 
     def get_source_checksum(self, source: str) -> str:
-        """See Jinja, which adds the version of Python."""
+        """See Jinja, which adds Python's version."""
         return super().get_source_checksum(f"{self._compiler}\0{source}")
 
     def load_bytecode(self, bucket: Bucket) -> None:

@@ -391,7 +391,7 @@ def read(domain: Domain, options: Any, content: bytes, name: str) -> tuple[Snaps
 
     Raises SourceError with all faults.
     """
-    return _without_errors(_read_model(domain, msgspec.json.encode(options), content, name))  # type: ignore[arg-type] # it is an object
+    return _without_errors(_read_model(domain, msgspec.json.encode(options), content, name))  # type: ignore[arg-type] # the domain is an object
 
 
 def _without_errors(reading: Reading) -> tuple[Snapshot, Reading]:
@@ -408,7 +408,7 @@ def read_permissively(domain: Domain, text: Source) -> tuple[Snapshot, Reading]:
     """
     options = msgspec.json.encode(domain.permissive_options or domain.options())
     with text.locating():
-        reading = _read_model(domain, options, text.content, text.name)  # type: ignore[arg-type] # it is an object
+        reading = _read_model(domain, options, text.content, text.name)  # type: ignore[arg-type] # the domain is an object
         diagnostics = tuple(
             msgspec.structs.replace(one, severity=Severity.WARNING) if one.code in domain.cured else one
             for one in reading.diagnostics

@@ -420,7 +420,7 @@ def _replaced(
 ) -> Iterator[tuple[str, Former]]:
     """Yield the key and the former text of each replaced or deleted file; leave out texts that this machine generated.
 
-    A `package.order` is saved only if git has united two states: a build may then remove foreign lines.
+    A `package.order` is saved only if git has united two states: then a build may remove the user's lines.
     """
     files, last, folder = inputs.files, inputs.last, inputs.folder.key("")
     origins = {action.origin for action in decision.actions if action.origin and action.writes}

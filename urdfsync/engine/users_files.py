@@ -71,9 +71,8 @@ def find_users_files(
 ) -> UsersFiles:
     """Return the user's Modelica files, and those that mention a name of a robot's package.
 
-    This searches below the configuration's folder, `output` and the paths of `users`. The packages of all robots are
-    left out, and a package in `former_folder`. Other projects, virtual environments, and unreadable files are left out,
-    too.
+    This searches below the configuration's folder, `output` and the paths of `users`. It leaves out the packages of all
+    robots, the package in `former_folder`, other projects, virtual environments, and unreadable files.
     """
     packages = {str(configured.folder) for configured in config.robots} | {str(former_folder)}
     places = (config.root, robot.output, *robot.users)

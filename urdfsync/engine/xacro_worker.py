@@ -218,7 +218,7 @@ class _Builder(expatbuilder.ExpatBuilderNS):
 
 
 class _Copied(xml.dom.UserDataHandler):
-    """Copies the place of an element to its copies, such as in a macro."""
+    """Gives a copy of an element, such as in a macro, the place of the original."""
 
     def handle(self, operation: int, key: str, data: Any, src: Any, dst: Any) -> None:  # noqa: ARG002 - DOM's signature
         """Record the place of a copied element."""

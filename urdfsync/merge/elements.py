@@ -43,7 +43,7 @@ from urdfsync.modelica.tree import (
 from urdfsync.spelling import same_count
 
 ROUNDING = 1e-6
-"""Two numbers are equal up to rounding if they differ by less than this, relative to the larger one."""
+"""The greatest difference of two numbers by rounding, relative to the larger number."""
 
 _ROLES = (
     "within prefixes word head type name sizes connect equation import external components arguments sign expression "

@@ -168,7 +168,7 @@ def _with_markers(pieces: Sequence[Piece], ending: str, markers: Sequence[tuple[
 
 
 def _shown(row: Sequence[Piece], ending: str, markers: Sequence[tuple[str, str]]) -> list[str]:
-    """Return one line, or for contradictions its versions between markers."""
+    """Return one line; if it has contradictions, return its versions between markers."""
     if all(isinstance(piece, str) for piece in row):
         return [piece for piece in row if isinstance(piece, str)]
     versions: list[str] = []

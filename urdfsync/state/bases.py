@@ -1,8 +1,9 @@
 """Reads and writes the bases of one robot: the last generated text of each file, by the text's hash.
 
-The files are `.urdfsync/bases/<robot>/0` to `f`, which are committed. A text is in the file named like the first digit
-of its hash. All sixteen files always exist, so that git sees no renames. A line has the hash, and the text as a JSON
-string. Git unites the lines of two branches (`merge=union`). A damaged line is skipped: its hash and its text differ.
+The files are `.urdfsync/bases/<robot>/0` to `f`, which are committed. The name of a text's file is the first digit of
+the text's hash. All sixteen files always exist, so that git sees no renames. A line has the hash, and the text as a
+JSON string. Git unites the lines of two branches (`merge=union`). A damaged line is skipped: its hash and its text
+differ.
 """
 
 from __future__ import annotations

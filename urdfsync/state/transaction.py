@@ -46,7 +46,7 @@ class FileChange(msgspec.Struct, frozen=True):
 
     path: Path
     content: bytes | None
-    """None to delete the file."""
+    """The new content; None to delete the file."""
     old: str | None
     """SHA-256 (hex) of the bytes at the time of the plan; None if there was no file."""
     is_moved: bool = False
@@ -285,7 +285,7 @@ class _Target(msgspec.Struct, frozen=True):
     def clear(self, temporary_files: Collection[str]) -> Iterator[Path]:
         """Remove files under temporary names.
 
-        Unplanned contents are kept, and a user's text that could not move here; yields the new names of these files.
+        Keeps unplanned contents, and a user's text that could not move here, under new names; yields these names.
         `temporary_files` are the paths of all temporary files.
         """
         for path in (self.temporary, file_operations.spare(self.temporary)):
