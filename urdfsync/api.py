@@ -98,10 +98,9 @@ class WholeRecord(msgspec.Struct, frozen=True):
 
 
 def load(config: Place = None) -> Config:
-    """Return the configuration in a file; a loaded configuration is returned as it is.
+    """Return the configuration in a file; return a loaded configuration as it is.
 
-    The field `robots` has the robots with their names, sources and packages. Raises ConfigError with all faults of the
-    file.
+    Its field `robots` has the robots with names, sources and packages. Raises ConfigError with all faults of the file.
     """
     if isinstance(config, Config):
         return config

@@ -232,10 +232,7 @@ class Domain(Protocol):
     pictures: Any = None  # `urdfsync.pages.scene.Pictures`
 
     def read(self, content: bytes, file: str, options: Any) -> Reading:
-        """Read a source; `file` is its name in diagnostics. Pure.
-
-        For bad input it raises nothing: the `Reading` has the errors.
-        """
+        """Read a source; `file` is its name in diagnostics. Pure. Errors of the input are in the `Reading`."""
         ...
 
     def names(self, snapshot: Snapshot, target: Target) -> Mapping[str, Mapping[str, str]]:

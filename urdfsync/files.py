@@ -81,10 +81,9 @@ class Templates(NamedTuple):
 
 
 def templates_digest(folders: Sequence[Path]) -> str:
-    """Return the SHA-256 (hex) of the names and contents of all templates in use.
+    """Return the SHA-256 (hex) of names and contents of the templates in use; hidden files are left out.
 
-    A template hides templates of the same name in later folders; the last folder is the program's. Hidden files are
-    left out.
+    A template hides templates of the same name in later folders. The last folder is the program's.
     """
     templates: dict[str, str] = {}
     for folder in reversed(folders):

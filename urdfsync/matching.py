@@ -140,8 +140,7 @@ class _Matcher:
     def _votes(self) -> dict[ElementKey, dict[ElementKey, bool]]:
         """Return, for each old element, the new elements that share a unique aspect with it.
 
-        The value tells whether the aspect may prove another name. A text alone can't: two pumps may have the same
-        maker.
+        The value tells whether the aspect may prove a new name. A text alone can't: two pumps may have one maker.
         """
         votes = defaultdict[ElementKey, dict[ElementKey, bool]](dict)
         holders = defaultdict[tuple[str, Any], tuple[list[ElementKey], list[ElementKey]]](lambda: ([], []))
@@ -369,10 +368,9 @@ class _Matcher:
         return doubts
 
     def _contradicts(self, key: ElementKey) -> bool:
-        """Whether an element has other neighbours than before.
+        """Whether an element has other neighbours: all differ, or one that has this element as its neighbour.
 
-        All must differ, or one that also has this element as its neighbour. A removed neighbour counts only if the new
-        neighbour matches another old element.
+        A removed neighbour counts only if the new neighbour matches another old element.
         """
         before, after = self._old[key].neighbours, self._new[key].neighbours
         others = [
@@ -397,8 +395,7 @@ def _comparable(
 ) -> tuple[dict[ElementKey, Aspects], dict[ElementKey, Aspects], set[tuple[str, Hashable]]]:
     """Return the aspects of all elements as keys that ignore noise, and the aspects that can identify an element.
 
-    Zeros and ones can't identify: many origins and axes have them. Texts can only identify elements of kinds without
-    places.
+    Zeros and ones can't: many origins and axes have them. Texts can if the kind has no places.
     """
     placed = _placed(old, new)
     values = [features.contents for elements in (old, new) for features in elements.values()]

@@ -147,15 +147,12 @@ def file_type(path: str | os.PathLike[str], *, follow: bool = True) -> int:
 
 
 def is_file(path: str | os.PathLike[str]) -> bool:
-    """Whether a regular file, or a link to a regular file, is at a path.
-
-    Raises OSError if the path can't be accessed.
-    """
+    """Whether a regular file, or a link to such a file, is at a path. Raises OSError if that is unknown."""
     return file_type(path) == stat.S_IFREG
 
 
 def is_folder(path: str | os.PathLike[str]) -> bool:
-    """Whether a folder, or a link to a folder, is at a path. Raises OSError if the path can't be accessed."""
+    """Whether a folder, or a link to a folder, is at a path. Raises OSError if that is unknown."""
     return file_type(path) == stat.S_IFDIR
 
 
@@ -181,12 +178,7 @@ def note_content(check: str, path: str | os.PathLike[str], content: bytes) -> No
 
 
 def read_stat(path: str | os.PathLike[str]) -> tuple[int, ...]:
-    """Return the stat values of a path, links not followed; `(0,)` for a missing path.
-
-    Call this before the content is read.
-
-    Raises OSError.
-    """
+    """Return the stat values of a path, links not followed; `(0,)` for none. Call it before reading. Raises OSError."""
     return _look(LSTAT, path)
 
 

@@ -115,10 +115,7 @@ def hash_content(content: bytes) -> str:
 
 
 def read_unrecorded(path: str | os.PathLike[str]) -> bytes:
-    """Read a file as `read_file` does, but record nothing.
-
-    Use it after `read_stat`, or if no answer depends on the file.
-    """
+    """Read a file without recording it, after `read_stat` or for no answer; otherwise like `read_file`."""
     # opening a pipe would wait for a writer
     with open(path, "rb", buffering=0, opener=lambda path, flags: os.open(path, flags | _NONBLOCK)) as file:
         status = os.fstat(file.fileno())

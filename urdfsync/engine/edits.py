@@ -27,7 +27,6 @@ class EditedFile(msgspec.Struct, frozen=True):
     path: str
     """The path from the configuration's folder, POSIX."""
     owner: str
-    """Element that the file belongs to, in the domain's words."""
     base: str | None
     """The base: the text that urdfsync wrote last. None if the base is lost, or if urdfsync never wrote the file."""
     mine: str

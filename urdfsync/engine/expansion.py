@@ -69,7 +69,7 @@ class SourceFiles:
         return Path(os.path.relpath(file, self.root) if file.parts[:2] == self.root.parts[:2] else file).as_posix()
 
     def look(self, robot: RobotConfig, names: Expansion) -> Expansion:
-        """Return the present inputs of a source: those that `names` lists. The text is left empty.
+        """Return the present inputs of a source, without text: those that `names` lists.
 
         If a package is missing on this machine, its files count as unchanged. For a command, the configuration lists
         the files.

@@ -67,7 +67,6 @@ class Misfit(msgspec.Struct, frozen=True):
     is_broken: bool = False
     """Whether the fault breaks the package; only an edited generated file can."""
     use: Unresolved | None = None
-    """The unresolved name."""
     lacking: str = ""
     """A name that a generated text mentions, and that is missing in this file."""
 

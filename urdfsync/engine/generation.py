@@ -31,10 +31,7 @@ class Generation(msgspec.Struct, frozen=True):
     package: Package
 
     def content(self, path: str, role: Role, mine: bytes) -> bytes | None:
-        """Return the content of a file of the package; a text has the line ends of `mine`.
-
-        None for a missing import.
-        """
+        """Return a file's content, with the line ends of `mine` in texts; None for a missing import."""
         if role is Role.IMPORT:
             return self.imported.contents.get(path)
         return with_line_ends(self.package.content(path), mine)

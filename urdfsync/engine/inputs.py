@@ -33,7 +33,6 @@ class Former(NamedTuple):
     text: bytes
     record: FileRecord
     bases: Mapping[str, str]
-    """Texts of the known bases, by hash."""
 
 
 class Settled(msgspec.Struct):
@@ -69,7 +68,6 @@ class Inputs(msgspec.Struct, frozen=True, dict=True):
     last: LastBuild
     files: PackageFiles
     folder: Folder
-    """The present folder of the package."""
     parents: Parents
     program: str
     """Hash of the program and the templates; this machine's notes are valid only for this hash."""

@@ -95,10 +95,7 @@ class LastBuild(msgspec.Struct, frozen=True, dict=True):
 
     @cached_property
     def imports(self) -> Mapping[str, RecordedFile]:
-        """The imported files and their copies.
-
-        Of a file's several records, the one with the hash of the copy counts.
-        """
+        """The imported files and their copies. If a file has several records, the copy's hash decides."""
         imports = dict[str, RecordedFile]()
         for name, entries in self.record.imports.items():
             files = list[RecordedFile]()

@@ -18,10 +18,7 @@ from urdfsync.files import Tree, digest, placed, shown, text_digest
 
 
 class Folder(str):
-    """The key of a package's folder.
-
-    A file has a key (its path from the configuration's folder), and a path below the package's folder.
-    """
+    """The key of a package's folder. It turns keys of files into paths below the folder, and back."""
 
     __slots__ = ()
 

@@ -75,10 +75,7 @@ def elements_by_identifier(domain: Domain, snapshot: Snapshot, target: Target) -
 
 
 def identifier_of(part: str, identifiers: Collection[str]) -> str:
-    """Return the longest identifier at the beginning of a name; the name's first letter may be small or capital.
-
-    Empty for none.
-    """
+    """Return the longest identifier that a name begins with, in any case of the first letter; empty for none."""
     for end in range(len(part), 0, -1):
         for first in (part[0], part[0].lower(), part[0].upper()):
             if (start := first + part[1:end]) in identifiers:

@@ -26,8 +26,7 @@ from urdfsync.state.transaction import FileChange
 class SharedFile(msgspec.Struct, frozen=True):
     """A `package.mo` or a `package.order` around the package; other robots may share it.
 
-    A build reads the file again before writing it. So robots with the same parent package can be planned at the same
-    time.
+    A build reads the file again before it writes, so robots of the same parent package can be planned at the same time.
     """
 
     path: Path

@@ -131,7 +131,6 @@ class Result(msgspec.Struct, frozen=True):
     changes: Changes | None = None
     """Changes of the model since the last complete build; None if there are none, or if they are unknown."""
     conflict_texts: tuple[Conflict, ...] = ()
-    """The texts of the files in conflict, in the order of their paths."""
     settled: frozenset[str] = frozenset()
     """The keys of the files for which a choice was carried out."""
     checked: Checked | None = None

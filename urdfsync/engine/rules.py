@@ -38,7 +38,6 @@ class File(msgspec.Struct, frozen=True):
 
     role: Role
     owner: str = ""
-    """Element that the file belongs to, in the domain's words."""
     record: FileRecord = NEVER_WRITTEN
     on_disk: OnDisk = None
     generated: str | None = None

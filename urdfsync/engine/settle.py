@@ -124,7 +124,7 @@ class _Choices:
         settled.actions[key] = msgspec.structs.replace(action, **changes)
 
     def _move(self, action: Action, named: str | None) -> bool:
-        """Move an edit to the file of another element, by default the likely element.
+        """Move an edit to another element's file, by default the likely one's.
 
         Raises ConfigError for an impossible move. If another edit leaves a file in the same command, this edit may move
         there.

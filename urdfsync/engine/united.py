@@ -53,8 +53,8 @@ class Sides(NamedTuple):
 def lay_over(inputs: Inputs, key: str) -> bool:
     """Overlay a file with its meaning if the file still is git's merge of two branches.
 
-    If nobody edited the versions, the meaning is our version. Otherwise the meaning is a merge by elements, if there
-    are no contradictions.
+    If nobody edited the versions, the meaning is our version. Otherwise it is a merge by elements without
+    contradictions.
     """
     found = _find_meaning(inputs, key)
     if isinstance(found, str):

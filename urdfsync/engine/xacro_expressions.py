@@ -53,10 +53,7 @@ class _Reader(ast.NodeTransformer):
         return super().visit(node)
 
     def visit_Name(self, node: ast.Name) -> ast.Name:
-        """Refuse a name of Python's own.
-
-        A name with one leading `_` is allowed: only properties can have such names.
-        """
+        """Refuse a name of Python's own. A name with one leading `_` is allowed: only properties have such names."""
         _check_name(node.id)
         return node
 

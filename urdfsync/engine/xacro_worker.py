@@ -248,10 +248,7 @@ def _parse(file: _File) -> Any:
 
 
 def expand(request: Request) -> Answer:
-    """Expand a file as the program `xacro` does, without the comment at the top.
-
-    This changes modules of this process and does not restore them.
-    """
+    """Expand a file as the program `xacro` does, without the comment at the top. Changes modules of this process."""
     try:
         import xacro
 

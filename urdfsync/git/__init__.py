@@ -85,10 +85,10 @@ def _list(command: str, *arguments: str) -> list[str]:
 
 
 def run(*arguments: str) -> str:
-    """Run git at the top of the repository around the working folder; return its output. Raises GitError.
+    """Run git at the top of the repository around the working folder; return its output.
 
-    Git's environment variables stay: GIT_DIR and GIT_INDEX_FILE name the repository and the index of the present
-    commit.
+    Raises GitError. Git's environment variables stay: GIT_DIR and GIT_INDEX_FILE name the commit's repository and
+    index.
     """
     # git before 2.38 ignores safe.bareRepository; later versions fail instead of skipping such a folder
     top = None

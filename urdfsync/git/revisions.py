@@ -88,7 +88,7 @@ class Revision:
         return not any((folder / ".git").exists() for folder in inside)
 
     def contents(self, files: Sequence[Path]) -> Mapping[Path, bytes]:
-        """Return the contents of the files that exist in this revision.
+        """Return the contents of those files that this revision has.
 
         Raises SourceError if the clone lacks a content.
         """

@@ -54,10 +54,7 @@ def split_lines(text: str) -> list[str]:
 
 
 def merge_lines(base: str, mine: str, generated: str) -> list[Piece]:
-    """Merge texts line by line.
-
-    Kinds of line endings are no difference; an unchanged line keeps the line ending of `mine`.
-    """
+    """Merge texts line by line. Kinds of line endings are no difference; unchanged lines keep those of `mine`."""
     written, new_written = split_lines(mine), split_lines(generated)
     old, own, new = (split_lines(text.replace("\r\n", "\n")) for text in (base, mine, generated))
     pieces: list[Piece] = []

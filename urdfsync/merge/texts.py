@@ -51,9 +51,8 @@ def merge(
 ) -> Merge:
     """Apply to `mine` the changes from `base` to `generated`; `names` has new names by old names.
 
-    Line endings are no difference. Lines of `mine` keep their endings; other lines get the most frequent ending of
-    `mine`. With `is_modelica`, classes are merged by their elements, and the merge is checked for flaws that neither
-    side has.
+    Line endings are no difference. Lines of `mine` keep theirs; other lines get the most frequent ending of `mine`.
+    With `is_modelica`, classes are merged by their elements, and the merge is checked for flaws that neither side has.
     """
     if names:
         base, mine = rename(base, mine, without_clashes(names, mine))

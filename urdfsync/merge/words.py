@@ -23,7 +23,6 @@ _ROLES = {
     "sizes": "size",
     "type": "type",
 }
-"""The words for parts of an element."""
 
 
 def place_of(path: tuple[str, ...]) -> tuple[str, str]:

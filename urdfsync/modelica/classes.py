@@ -20,7 +20,6 @@ class Node(msgspec.Struct, eq=False, dict=True):
     file: str = ""
     """The path of the class's file, as in `StoredClasses`; empty without a file."""
     parent: Node | None = None
-    """The class around this class."""
     classes: dict[str, Node | None] = msgspec.field(default_factory=dict)
     """Classes inside of this class that were read so far."""
     bases: tuple[Type, ...] | None = None

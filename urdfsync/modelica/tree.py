@@ -149,10 +149,7 @@ class SyntaxTree:
         return {part.key: part for part in self.parts}
 
     def says(self, *, layout: bool) -> list[tuple[str, str, Node]]:
-        """Return the parts with their keys.
-
-        Without `layout`, the result is sorted, without layout and section words.
-        """
+        """Return the parts with their keys; without `layout`, sorted, and without layout and section words."""
         if layout:
             return [(part.key, "", part.node) for part in self.parts]
         parts = [

@@ -16,7 +16,6 @@ import msgspec
 from urdfsync.files import digest
 
 DIGITS = "0123456789abcdef"
-"""The names of the sixteen files."""
 
 _DECODER = msgspec.json.Decoder(str)
 

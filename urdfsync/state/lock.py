@@ -33,10 +33,7 @@ class LockedError(UrdfsyncError):
 
 
 class Lock:
-    """A lock file in a state folder.
-
-    The file stays after a build, and contains the process number of the last holder.
-    """
+    """A lock file in a state folder. The file stays, and contains the process number of the last holder."""
 
     def __init__(self, file: Path, wait: float) -> None:
         """`wait` is in seconds; at least 0.2."""

@@ -27,10 +27,7 @@ def as_recorded(snapshot: Snapshot) -> dict[str, Any]:
 
 
 def as_read(data: Mapping[str, Any], model: Any) -> Snapshot:
-    """Return the snapshot from the result of `as_recorded`.
-
-    Raises ValueError, TypeError or AttributeError for other data.
-    """
+    """Return the snapshot from a result of `as_recorded`. Raises ValueError, TypeError or AttributeError."""
     parts = {part: data.get(part, {}) for part in _named(model)}
     lists = {part: [{"name": name, **one[name]} for name in sorted(one)] for part, one in parts.items()}
     return msgspec.convert({**data, **lists}, model)
@@ -77,7 +74,6 @@ class Generator(msgspec.Struct, frozen=True):
     release: str
     """The version of urdfsync, such as `1.4.0`."""
     templates: str
-    """Hash of the templates."""
 
 
 class Open(msgspec.Struct, frozen=True):

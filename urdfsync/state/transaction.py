@@ -61,7 +61,6 @@ class PlannedFile(msgspec.Struct, frozen=True, omit_defaults=True):
     old: str | None = None
     new: str | None = None
     is_moved: bool = False
-    """As in `FileChange`."""
 
 
 class PlannedBuild(file_operations.Bound, frozen=True):

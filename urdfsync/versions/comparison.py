@@ -93,10 +93,7 @@ class Comparison(msgspec.Struct, frozen=True):
 
 
 def exit_code(comparisons: Sequence[Comparison]) -> Exit:
-    """Return the exit code of the worst comparison: error, then lock, then out of step.
-
-    A conflict counts as out of step.
-    """
+    """Return the exit code of the worst result: error, lock, out of step. A conflict counts as out of step."""
     code = exit_code_of(comparison.result for comparison in comparisons)
     if code in (Exit.ERROR, Exit.LOCKED):
         return code
