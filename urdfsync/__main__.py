@@ -11,7 +11,7 @@ _GARBAGE_THRESHOLD = 1_000_000
 def main() -> int:
     """Run the command line; returns the exit code."""
     gc.set_threshold(_GARBAGE_THRESHOLD, *gc.get_threshold()[1:])
-    # saves the collection of garbage at Python's exit: 40 of 290 ms of a build, 3 of 40 ms of an up-to-date check
+    # collects no garbage at exit: saves 40 of 290 ms of a build, 3 of 40 ms of an up-to-date check
     atexit.register(gc.freeze)
     try:
         from urdfsync.answers import uptodate  # imported here, so that Ctrl-C during the import leaves no traceback

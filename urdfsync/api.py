@@ -1,7 +1,7 @@
 """The functions behind the commands, for scripts and notebooks: `urdfsync.build` and further functions (docs/api.md).
 
-They print nothing, and raise the errors of the commands. Each function imports its own modules, so that a build is
-quick: the checks take 100 ms to load, the merge 20 ms.
+They print nothing, and raise the errors of the commands. Each function imports its own modules, so that builds are
+quick: loading the checks takes 100 ms, the merge 20 ms.
 """
 
 from __future__ import annotations

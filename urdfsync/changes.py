@@ -46,7 +46,7 @@ class Difference(msgspec.Struct, frozen=True):
     def change(self, path: tuple[str, ...], change_class: ChangeClass, unit: str = "") -> Change:
         """Return the difference in the domain's words: `("joint elbow", "origin", "xyz[2]")` begins with the element.
 
-        `unit` is the unit of both values, or `old → new` if the units differ; empty for a value without unit.
+        `unit` is the unit of both values, or `old → new` for two units; empty for a value without unit.
         """
         return Change(path, self.kind, change_class, self.old, self.new, unit)
 
@@ -72,13 +72,13 @@ class Effects(Protocol):
         ...
 
     def loads(self, old: Version, new: Version, renames: Mapping[ElementKey, str]) -> Sequence[Effect]:
-        """Return the greatest load of each element in the new version, with its limit; `old` is None for a new one."""
+        """Return each element's greatest load in the new version, with its limit; `old` is None for a new element."""
         ...
 
     def interface(
         self, old: Version, new: Version, renames: Mapping[ElementKey, str], target: Target, options: Any
     ) -> Sequence[Effect]:
-        """Return changed names that users may have connected to; `old` is None for a new name, `new` for a removed one.
+        """Return changed names of connectors and variables; `old` is None for a new name, `new` for a removed name.
 
         `options` belong to the new version, and to an old version without `options`.
         """

@@ -110,7 +110,7 @@ def kind_of(mode: int) -> str:
 
 
 def placed(prefix: str, key: str) -> str:
-    """Return the path of a file by its POSIX path from a folder; `prefix` is the folder with a final separator.
+    """Return a file's path by its POSIX path from a folder; `prefix` is the folder with a final separator.
 
     This is faster than pathlib for thousands of paths: hardly any path contains `.` or `..`.
     """

@@ -5,7 +5,7 @@ All elements are matched at once, by their contents, places and names:
 1. Declared matches hold. A content is one aspect of an element, such as its shapes, or all aspects together. If a
 content is unique in both versions, its two elements match, whatever their names are. If an element's aspects match
 different elements, they prove nothing. But if one of these aspects stays with a name, the elements of this name match.
-If an element keeps its name and its neighbours, its numbers changed, even if another element had its new content. 2.
+If an element keeps its name and its neighbours, its numbers changed, whatever content it has now. 2.
 Neighbours of matched elements match if they are at the same place and have equal contents.
 3. Then names win: elements of the same name match.
 4. The remaining elements have other names. Two of these at the same place match if no other element has their content.
@@ -191,7 +191,7 @@ class _Matcher:
         return bool(before) and before == after and all(proved.get(one) == one for one in before.values())
 
     def _is_contested(self, key: ElementKey, match_: ElementKey) -> bool:
-        """Whether an element with a new name has the old place, or an element with a removed name had the new place."""
+        """Whether a new name's element has the old place, or a removed name's element had the new place."""
         for relation, one in self._old[key].neighbours.items():
             if self._before[one] == self._after.get(one) and one not in self._new[match_].neighbours.values():
                 heirs = self._children[1].get(one, {}).get(relation, ())

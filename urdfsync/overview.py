@@ -1,4 +1,4 @@
-"""The help of the whole program, from the table of the shells: loading the parsers of all commands takes 200 ms."""
+"""The program's help, from the table of the shells: loading the parsers of all commands takes 200 ms."""
 
 from __future__ import annotations
 

@@ -46,8 +46,8 @@ class Dependencies:
         self._is_program = is_program
         self._token: Token[Dependencies | None] | None = None
         self.entries: dict[Entry, tuple[int, ...]] = {}
-        """The facts about each path: a `Stat`, a tuple of the file type, a checksum of names, `NOTHING`, or a negative
-        error number."""
+        """The facts about each path: a `Stat`, the file type, a checksum of names, `NOTHING`, or a negative error
+        number."""
         self.hashes: dict[Entry, str] = {}
         """Hash of the content of each file that was young when it was read; empty if unknown."""
         self.modules: dict[Entry, tuple[int, ...]] = {}

@@ -1,6 +1,6 @@
 """Standard streams whose faults do not stop a command.
 
-The reader may stop early (`| head`), the disk may be full, the stream closed, or a character not in the encoding. The
+The reader may stop early (`| head`), the disk may be full, or the encoding may lack a character. The
 command finishes its work, and reports the fault at its end.
 """
 

@@ -1,11 +1,10 @@
 """The up-to-date check: repeats the answer of a command while its dependencies are unchanged.
 
-`.urdfsync/stamp-build` holds the last answer of `build`, the list of all files that `build` read, and a hash of the
-facts about these files. The commands `status` and `hook` have such files, too. If anything has changed, the command
-runs. The list contains the program's own modules: developers change them. A file that was young when it was read is
-compared by its content, as in git's racy index entries. Once all files are old, the answer is written again: later
-checks compare stat values. Each command begins with the check, so this module imports only modules that load fast:
-contextlib would take 1 of 12 ms.
+`.urdfsync/stamp-build` holds the last answer of `build`, the list of all read files, and a hash of the facts about
+these files. The commands `status` and `hook` have such files, too. If anything has changed, the command runs. The list
+contains the program's own modules: developers change them. A file that was young when it was read is compared by its
+content, as in git's racy index entries. Once all files are old, the answer is written again: later checks compare stat
+values. Each command begins with the check, so this module imports only fast modules: contextlib would take 1 of 12 ms.
 """
 
 from __future__ import annotations
@@ -177,7 +176,7 @@ def _without_implied(entries: dict[Entry, tuple[int, ...]]) -> dict[Entry, tuple
 
 
 def _write(stamp: str, facts_hash: str, read: list[str], answer: list[str]) -> None:
-    """Write an answer with its key and its dependencies: a check, a path and a hash or `_OLD` for each entry."""
+    """Write an answer with its key and its dependencies; each has a check, a path, and a hash or `_OLD`."""
     folder = os.path.dirname(stamp)
     temporary = os.path.join(folder, ".stamp.urdfsync-tmp")
     if os.path.islink(folder):  # a repository may have committed a link to another folder

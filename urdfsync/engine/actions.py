@@ -79,7 +79,7 @@ class FileStatus(enum.StrEnum):
 class Reason(enum.StrEnum):
     """The reason of an action. The reason decides the effect on the file, and the words in messages."""
 
-    # Each reason has a word, kind, status (None without a file), and the end of a sentence that begins with the path.
+    # Each reason has a word, kind, status (None without a file), and the rest of a sentence after the path.
     # Then the words for n such files: in a dry run, and after a build if these words differ. Output has this order.
     # fmt: off
     UPDATE = ("update", Kind.WRITE, FileStatus.STALE, "its generated text changed",

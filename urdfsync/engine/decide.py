@@ -53,7 +53,7 @@ class Decision(msgspec.Struct, frozen=True):
     misfits: tuple[Misfit, ...] = ()
     """Unknown names and syntax errors in the user's files."""
     names: Mapping[str, str] = {}
-    """New names by old names, from before the choices; empty if neither an edit nor a text in `aside` needs them."""
+    """New names by old names, from before the choices; empty if no edit and no text in `aside` needs them."""
 
     @property
     def conflicts(self) -> tuple[Conflict, ...]:
@@ -321,8 +321,8 @@ def _removable_lines(
 ) -> list[str]:
     """Return the lines of a `package.order` to remove: deleted classes, and recorded lines without a class.
 
-    A recorded line may name a class of the user's, so this looks for the class on disk and in `package.mo`. If git has
-    united two states, this looks for the class of each line: the other branch may have renamed it.
+    A recorded line may name a user's class, so this looks for the class on disk and in `package.mo`. If git has united
+    two states, this looks for each line's class: the other branch may have renamed it.
     """
     folder = order.removesuffix("package.order")
     paths = (action.path.removesuffix("/package.mo").removesuffix(".mo") for action in actions if action.is_deletion)

@@ -150,7 +150,7 @@ def _find_identifiers(inputs: Inputs, now: Snapshot, differences: Differences) -
 
 
 def _find_moves(inputs: Inputs, package: Package, differences: Differences) -> dict[str, str]:
-    """Return the old key of each text file that moves with its element or with the package, by its new key."""
+    """Return old keys by new keys of text files that move with their element or with the package."""
     last = inputs.last
     texts = set(map(last.folder.path, last.files))
     recorded = last.package.artifacts if last.package else {}

@@ -142,7 +142,7 @@ def _lines(text: str) -> Counter[str]:
 
 
 def _look(inputs: Inputs, generation: Generation, commit: Revision, edits: Mapping[Action, _Edit]) -> dict[str, Doubt]:
-    """Return a doubt for each edit that a commit has in the same file, if the file's element was renamed since."""
+    """Return a doubt for each edit that a commit has in its file, if the file's element was renamed since."""
     state = inputs.store.path(inputs.last.name)
     try:
         contents = commit.contents([state, *(inputs.files.path(action.path) for action in edits)])

@@ -87,7 +87,7 @@ def find_all(inputs: Inputs, generation: Generation, decision: Decision) -> list
 def _diagnose(
     inputs: Inputs, snapshot: Snapshot, decision: Decision, renamed: Mapping[str, str]
 ) -> Iterator[Diagnostic]:
-    """Yield one finding for all places in a file with the same fault: an error if the fault breaks the package."""
+    """Yield one finding for all places of a fault in a file: an error if the fault breaks the package."""
     waiting = (one.path for one in decision.actions if one.is_waiting and not one.is_deletion)
     classes = {class_of(path) for path in waiting if path.endswith(".mo")}
     places: dict[tuple[object, ...], list[Misfit]] = {}

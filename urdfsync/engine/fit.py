@@ -82,7 +82,7 @@ class Misfit(msgspec.Struct, frozen=True):
 def find_misfits(after: PackageAfter, only: Collection[str] | None = None) -> list[Misfit]:
     """Return all findings about the user's texts; with `only`, about the merged texts of the files with these keys.
 
-    In a merge, a removed name counts as a fault even if a class may inherit the name from an unread library.
+    In a merge, a removed name is a fault even if a class may inherit it from an unread library.
     """
     return _Package(after).misfits(only)
 

@@ -245,7 +245,7 @@ def _without_word(text: str, word: str) -> str:
 
 
 def _template_error(folders: Sequence[Path], template: str, file: str, line: int, message: str) -> ConfigError:
-    """Return the error at a line of a file in a template folder; without a file, the error is in `template`."""
+    """Return the error at a line of a template folder's file; without a file, the error is in `template`."""
     file = file or next((str(folder / template) for folder in folders if (folder / template).is_file()), template)
     is_own = any(folder in Path(file).parents for folder in folders[:-1])
     hint = "correct the template, or delete it to use urdfsync's template" if is_own else "install urdfsync again"

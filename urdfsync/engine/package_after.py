@@ -186,7 +186,7 @@ def _find_mentioned(after: PackageAfter, origins: Collection[str]) -> frozenset[
     """Return the files that are no longer generated, but that the user's texts need.
 
     The user's texts need the records that they mention, except records of renamed elements: his texts get the new name.
-    A kept file needs all files that it mentions; these files stay with all files that they mention, and so on.
+    A kept file needs all files that it mentions; these need the files that they mention, and so on.
     """
     inputs, before, actions = after.inputs, after.inputs.last.package, after.actions
     words = {inputs.files.key(file): _code_words(content) for file, content in after.users.items()}

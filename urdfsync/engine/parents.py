@@ -26,7 +26,7 @@ from urdfsync.state.transaction import FileChange
 class SharedFile(msgspec.Struct, frozen=True):
     """A `package.mo` or a `package.order` around the package; other robots may share it.
 
-    A build reads the file again before it writes, so robots of the same parent package can be planned at the same time.
+    A build reads the file again before it writes, so robots of one parent package can be planned at once.
     """
 
     path: Path
@@ -144,9 +144,9 @@ def files(robot: RobotConfig) -> Iterator[str]:
 def merge_order(text: str | None, names: Sequence[str], owned: Collection[str] = ()) -> str:
     """Return a `package.order` with `names`, without the rest of `owned`; `text` is None if there is no file.
 
-    `owned` are the names that urdfsync wrote last, in order. All other lines are the user's and keep their
-    places. urdfsync's lines follow the order of `names`, unless the user has moved them. A new line stands next to its
-    neighbour in `names`. The line endings of the file stay. The result is empty if no line remains.
+    `owned` are the names that urdfsync wrote last, in order. All other lines are the user's and keep their places. The
+    lines of `names` are in this order, unless the user has moved them. A new line stands next to its neighbour in
+    `names`. The line endings of the file stay. The result is empty if no line remains.
     """
     if text is None:
         return "".join(f"{name}\n" for name in names)

@@ -71,7 +71,7 @@ _BLANK = re.compile(r"\A(?:\0[^\0]*\0[0-9]*\0|\s)*")
 GRACE = 30.0
 """Seconds of CPU time beyond `MAX_SECONDS` after which the system ends the process.
 
-Python can't interrupt one of its own steps, such as a power of large numbers, or a comparison of deeply nested lists.
+Python can't interrupt its own steps, such as a power of large numbers, or a comparison of nested lists.
 """
 
 

@@ -74,8 +74,8 @@ def decide_file(base: str | None, mine: OnDisk, generated: str | None) -> Reason
 def decide(files: Mapping[str, File], moves: Mapping[str, str]) -> tuple[Action, ...]:
     """Decide on every file of a robot, by path.
 
-    `moves` has old paths by new paths of files whose element was renamed. An edited file moves to its new path (MOVE
-    there, MOVED_AWAY at the old path), unless a file of the user's is there.
+    `moves` has old paths by new paths of files whose element was renamed. An edited file moves to its new path (MOVE,
+    and MOVED_AWAY at the old path), unless a user's file is there.
     """
     edited = _edited_moves(files, moves)
     origins = set(edited.values())

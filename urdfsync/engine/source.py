@@ -120,10 +120,9 @@ class Source(msgspec.Struct, frozen=True):
 def read_source(config: Config, robot: RobotConfig, store: Store, options: BuildOptions, name: str = "") -> Source:
     """Read the robot's source, with the file that an option names; xacro or a command may make the source first.
 
-    `name` is the robot's name in the state, if it differs. xacro expands the source again, unless this machine has
-    noted the text and its inputs. If xacro or a file is missing, the recorded text is used. A dry run runs no command.
-    Raises SourceError for an unreadable source, at the line of the configuration, and ConfigError for an untrusted
-    command.
+    `name` is the robot's name in the state, if it differs. The source is expanded again, unless this machine has noted
+    the text and its inputs. If xacro or a file is missing, the recorded text is used. A dry run runs no command. Raises
+    SourceError for an unreadable source, at the line of the configuration, and ConfigError for an untrusted command.
     """
     return with_named_file(config, robot, _read_source(config, robot, store, options, name))
 
@@ -223,7 +222,7 @@ def with_named_file(
     """Return a source with the content of the file that its robot's options name, on disk or in a revision.
 
     A file outside of the revision's repository is read on disk. Raises SourceError for a missing file. Raises
-    SourceError for a file beside the source that no option names: a rename would remove its content without a message.
+    SourceError for a file beside the source that no option names: a rename would silently remove its content.
     """
     domain = registry.domain(robot.domain)
     named: NamedFile | None = domain.named_file

@@ -1,8 +1,8 @@
 """Stages one robot's plan with all its writes: files, texts saved beside them, bases, and last the record.
 
 Two kinds of texts are saved below `.urdfsync/`. `aside` has a copy of each replaced text that this machine did not
-generate, for `--undo`. Once the user saves a text's file, and another build writes files, the list in `aside` drops the
-text; the copy stays. `conflicts` has the versions of each file in conflict: base, generated, and a proposed merge. If a
+generate, for `--undo`. Once the user saves a text's file, and a build writes files, the list in `aside` drops the text;
+the copy stays. `conflicts` has the versions of each file in conflict: base, generated, and a proposed merge. If a
 person changed a proposal, builds never overwrite it, and `resolve --edit` begins with it.
 """
 
@@ -446,7 +446,7 @@ def _bases_given_back(
     """Return the bases of a text after `--undo`."""
     place = (action.origin or "") if action.reason is Reason.MOVE else action.path
     record = inputs.last.files.get(place, FileRecord())
-    # with the old base, the next build would merge the text again, or take it for a generated text
+    # with the old base, the next build would merge the text again, or take it for generated
     merging = {robot.name for robot in inputs.config.robots if robot.on_conflict == "merge"}  # not only this command
     is_merge = (action.reason is Reason.MERGE or action.is_left_by_git) and inputs.robot.name in merging
     is_own_base = text_digest(text) in record.hashes

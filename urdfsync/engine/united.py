@@ -196,7 +196,7 @@ def _staged(repository: pygit2.Repository, file: Path, text: str) -> Iterator[Si
         if ours and theirs and entries:
             yield Sides(*texts)
         elif entries and text in texts[1:]:
-            # if both branches renamed a file, git writes the merge to both paths; each branch has only one of the paths
+            # if both branches renamed a file, git writes the merge to both paths; each branch has only one path
             for name in ("HEAD",) if ours else (*_UNDER_WAY, label[1] if label else ""):
                 if (own := _read(name, file)) is not None:
                     yield Sides(own, own, own)
@@ -232,8 +232,8 @@ def _plain(text: str) -> str:
 def _is_untouched(text: str, sides: Sides) -> bool:
     """Return whether a text is git's merge of two versions, with the driver or by lines.
 
-    After a merge by lines, each side of a conflict has one version, with changes of the other version where its own
-    text is unchanged. This compares the changes, since git may compare lines in several ways.
+    After a merge by lines, each side of a conflict has one version, with the other version's changes to unchanged
+    lines. This compares the changes, since git may compare lines in several ways.
     """
     from urdfsync.merge.texts import merge_file
 

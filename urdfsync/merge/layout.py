@@ -39,7 +39,7 @@ Box: TypeAlias = tuple[complex, complex]
 
 
 def find_users_layout(base: SyntaxTree, mine: SyntaxTree) -> frozenset[str]:
-    """Return the annotations with the user's layout: all of a layer, diagram or icon, in which the user moved a thing.
+    """Return the annotations with the user's layout: all of the diagram or icon in which the user moved a thing.
 
     A thing that the user added does not count as moved.
     """

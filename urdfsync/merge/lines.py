@@ -115,7 +115,7 @@ def compare(old: Sequence[Hashable], new: Sequence[Hashable]) -> list[Change]:
     """Return the changes that turn `old` into `new`, in order; between two changes there is a common item.
 
     If several lists of changes are shortest, this returns git's list. As in git, the list may be too long if items are
-    frequent, or if long sequences have little in common.
+    frequent, or if long sequences are very different.
     """
     # importing pygit2 takes 55 ms and 20 MB, which only a conflict needs ("one mass changed" in docs/speed.md)
     import pygit2

@@ -39,7 +39,7 @@ def rename(base: str, other: str, names: Mapping[str, str], *, modifiers: bool =
 def without_clashes(names: Mapping[str, str], mine: str) -> dict[str, str]:
     """Return the new names that are free in the user's text, by old names.
 
-    A new name is taken if the text has the old and the new name, unless the new name is renamed, too.
+    A new name is taken if the text has both names, unless the new name is renamed, too.
     """
     alone = {token.text for before, token in _uses(mine) if not before}
     free = dict(names)

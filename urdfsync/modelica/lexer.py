@@ -36,7 +36,7 @@ _ESCAPE = re.compile(r"""\\(['"?\\abfnrtv]|(?P<meaningless>.))""", re.DOTALL)
 
 
 class Fault(NamedTuple):
-    """A fault of a text: the end of a sentence about the text (`lacks ; before x`), and the line, from 1."""
+    """A fault of a text: the end of a sentence (`lacks ; before x`), and the line, from 1."""
 
     reason: str
     line: int

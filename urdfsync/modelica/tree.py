@@ -1,6 +1,6 @@
 """A class as a tree of things: elements, equations, modifiers. The tree keeps every byte.
 
-A thing has the same key in all versions of the class: the name of a component or modifier, or the words of an equation.
+A thing's key is the same in all versions of the class: a component's or modifier's name, or an equation's words.
 Blanks and comments stand between things, and belong to no thing. At first, only the name of an element or equation is
 read; the parts of most are never needed.
 """
@@ -280,7 +280,7 @@ def _words(tokens: Sequence[str]) -> Words:
 
 
 def _number(text: str) -> float:
-    """Return the value of a number; a number without a point is an Integer, unless it is too long for tools."""
+    """Return the value of a number; without a point it is an Integer, unless it is too long for tools."""
     return int(text) if text.isdecimal() and len(text) < _LONGEST_INTEGER else float(text)
 
 

@@ -1,1 +1,1 @@
-"""State on disk between builds, and writes that lose nothing in a crash, on a full disk, or beside other programs."""
+"""State on disk between builds, and writes that survive crashes, a full disk, and other programs' writes."""

@@ -1,8 +1,7 @@
 """The record of a robot: the files that urdfsync wrote last, to tell edits from exports.
 
-The record is committed, so a stranger may have changed it: it never decides which text a build generates, restores or
-leaves out. A build that ends with a conflict keeps the recorded model, but renews the bases of the files that it
-writes.
+The record is committed, so a stranger may have changed it: it never decides which text a build generates or restores. A
+build that ends with a conflict keeps the recorded model, but renews the bases of files that it writes.
 """
 
 from __future__ import annotations
@@ -100,8 +99,8 @@ class Record(msgspec.Struct, frozen=True, kw_only=True):
     options: Mapping[str, Any] = {}
     """The domain's options as JSON data, without options that are None."""
     snapshot: Mapping[str, Any] | None = None
-    """The model of the last complete build (see `as_recorded`); None if there was none, or if git has united an element
-    twice."""
+    """The model of the last complete build (see `as_recorded`); None without a model, or if git has doubled an
+    element."""
     renamed: Mapping[str, str] = {}
     """The declared renames that the last complete build has applied: they are not applied again."""
     confirmed: frozenset[str] = frozenset()

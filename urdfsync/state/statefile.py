@@ -211,7 +211,7 @@ def damage(file: str, line: int, message: str) -> Diagnostic:
 
 
 def _belongs(path: str, *, is_import: bool) -> bool:
-    """Return whether a build may write a file at this path below the package: a stranger may have written the path."""
+    """Return whether a build may write to this path below the package: a stranger may have written the path."""
     return is_inside(path) and (path.startswith(RESOURCES) or (path.endswith(".mo") and not is_import))
 
 

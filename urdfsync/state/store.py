@@ -145,7 +145,7 @@ class Store:
         return [self.base_file(robot, digit) for digit in bases.DIGITS]
 
     def aside_file(self, robot: str, path: str = "index.json") -> Path:
-        """Return the file of a saved former text, by its path below the robot's folder; or the file of the list."""
+        """Return the file of a saved former text, by path below the robot's folder; or the file of the list."""
         return self.folder / "aside" / robot / path
 
     def drawing(self, robot: str) -> Path:
