@@ -80,7 +80,7 @@ class Diagnostic(msgspec.Struct, frozen=True):
 
 def internal_error(error: Exception, what: str = "") -> Diagnostic:
     """Return the finding for a bug in urdfsync: the place of the exception, and a file with the traceback."""
-    import traceback  # 4 ms, rarely needed
+    import traceback  # takes 4 ms, and is rarely needed
 
     frame = traceback.extract_tb(error.__traceback__)[-1]
     place = f"{os.path.basename(frame.filename)}, line {frame.lineno}"  # noqa: PTH119 - no pathlib for this alone

@@ -130,7 +130,7 @@ class Tree:
         self._checked = {str(root): True}
 
     def covers(self, path: str | os.PathLike[str]) -> bool:
-        """Whether a path is below the root; absolute, and without `..` if it is a string."""
+        """Whether a path is below the root; a string must be absolute, without `..`."""
         return os.fspath(path).startswith(self._below)
 
     def read(self, path: str | os.PathLike[str]) -> bytes | None:

@@ -109,7 +109,7 @@ def hash_file(path: str) -> str:
 
 def hash_content(content: bytes) -> str:
     """Return the hash of a content."""
-    from hashlib import sha256  # 3 ms; a saved answer about old files needs no hash
+    from hashlib import sha256  # takes 3 ms; a saved answer about old files needs no hash
 
     return sha256(content).hexdigest()
 

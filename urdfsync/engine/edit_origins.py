@@ -87,7 +87,7 @@ def _doubt(inputs: Inputs, generation: Generation, differences: Differences, act
 
 def _commits(inputs: Inputs) -> Iterator[Revision]:
     """Yield the commits that an edit may come from: merged ones, and recent ones if this machine has built here."""
-    import pygit2  # 55 ms, which most builds save
+    import pygit2  # takes 55 ms, which most builds save
 
     from urdfsync.git.revisions import Revision, open_repository
 

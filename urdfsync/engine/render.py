@@ -201,7 +201,7 @@ def _limited_process() -> Iterator[None]:
 @functools.cache
 def _mark_lines() -> type[Extension]:
     """Return the extension that puts a `_MARK` before each line of a template's text, in macros and blocks, too."""
-    from jinja2.ext import Extension  # 4 of 250 ms of a build: only faults in users' templates need it
+    from jinja2.ext import Extension  # takes 4 of 250 ms: only for faults in users' templates
     from jinja2.lexer import Token
 
     class MarkLines(Extension):

@@ -32,7 +32,7 @@ _EDITED = frozenset({Reason.KEEP, Reason.INCLUDED, Reason.MOVE, Reason.MERGE})
 def settle(inputs: Inputs, generation: Generation, decision: Decision) -> Settled:
     """Apply the choices of the options.
 
-    A choice is ignored if one of the two texts changed since then, or if it does not fit the file. Raises
+    A choice is ignored if one of the two texts has changed, or if the choice does not fit the file. Raises
     OutputError for `--keep` on a file with markers of git.
     """
     choices = _Choices(inputs, generation, decision)

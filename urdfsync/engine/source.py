@@ -132,7 +132,7 @@ def _read_source(config: Config, robot: RobotConfig, store: Store, options: Buil
         content = _read(config, robot)  # reports a file that xacro can't read
         if robot.arguments is None and not is_xacro(robot.source, content):
             return _with_file_beside(registry.domain(robot.domain), robot.source, content, robot.options)
-    from urdfsync.engine import expansion  # 5 ms, and few robots need it
+    from urdfsync.engine import expansion  # takes 5 ms, and few robots need it
 
     inputs = expansion.SourceFiles(config.root, robot.source, (*robot.package_paths, *options.package_paths))
     made = store.load_expansion(name or robot.name)

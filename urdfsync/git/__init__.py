@@ -96,7 +96,7 @@ def run(*arguments: str) -> str:
         raise GitError("git failed: not a git repository")
     variables = {name: value for name, value in os.environ.items() if name not in _PATHSPECS}  # these change `:/`
     variables |= {"LC_ALL": "C", "GIT_OPTIONAL_LOCKS": "0"}  # English messages; git must not refresh the index
-    import subprocess  # 5 ms that most builds save: they look for a repository, and run nothing
+    import subprocess  # takes 5 ms, which most builds save: they run nothing
 
     command = ["git", *_SETTINGS, *arguments]
     try:

@@ -29,7 +29,7 @@ _LFS_POINTER = re.compile(rb"version https://git-lfs.*^oid sha256:([0-9a-f]{64})
 
 def open_repository(folder: Path) -> pygit2.Repository | None:
     """Return the repository around a folder; None if there is none. Raises SourceError for an unreadable repository."""
-    import pygit2  # 55 ms: a comparison with the last build does not need it
+    import pygit2  # takes 55 ms: a comparison with the last build does not need it
 
     from urdfsync import git  # likewise
 
