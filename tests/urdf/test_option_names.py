@@ -107,7 +107,7 @@ def test_start_positions_are_of_joints_with_an_axis_and_inside_of_their_limits()
 def test_passive_joints_are_a_note_unless_the_option_says_what_is_driven() -> None:
     note = (
         "Run and Test do not drive `caster`: no transmission, no ros2_control and no limit; "
-        "if that is wrong, list all joints to drive in `driven` [passive-joints]"
+        "to drive other joints, list all driven joints in `driven` [passive-joints]"
     )
     assert found(WITH_DRIVE) == [("driven", Severity.NOTE, note)]
     assert found(WITH_DRIVE, driven=("wheel",)) == []

@@ -167,7 +167,7 @@ class _Reader:
         """Yield the rows with their values; tell of the first fault in each cell."""
         for line, cells in sheet.rows:
             if len(cells) != len(columns):
-                message = f"the row has {counted(len(cells), 'cell')}, and the header {len(columns)}"
+                message = f"the row has {counted(len(cells), 'cell')}, but the header has {len(columns)}"
                 self._error("ragged-row", message, line, "fill each cell, or quote a text that has the separator")
                 continue
             row = dict[str, Value]()
