@@ -98,7 +98,7 @@ def test_types_and_units_may_stand_in_the_configuration() -> None:
         ("mass [kg],name\n1,a\n", "parts.csv:1: error: column `mass` has the unit kg: it can"),
         (HEADER + "a,1e999\n", "parts.csv:2: error: column `mass`: 1e999 is too large"),
         (HEADER + "a,1,2\n", "parts.csv:2: error: the row has 3 cells, but the header has 2"),
-        ("name,mass\na,1\n", "parts.csv:1: error: column `mass` has numbers, and no unit; write `mass [kg]`"),
+        ("name,mass\na,1\n", "parts.csv:1: error: column `mass` has numbers but no unit; write `mass [kg]`"),
         ("name,mass [stone age]\na,1\n", "parts.csv:1: error: column `mass`: `stone age` is no unit; write a unit"),
         ("name,n [integer]\na,2.5\n", "parts.csv:2: error: column `n`: 2.5 is no integer"),
         ("name,is [boolean]\na,yes\n", "parts.csv:2: error: column `is`: `yes` is neither true nor false"),
@@ -117,7 +117,7 @@ def test_one_finding_for_a_fault_at_its_line(content: str | bytes, finding: str)
 @pytest.mark.parametrize(
     ("cells", "finding"),
     [
-        (["b", "=B2*2"], "a.xlsx:3: error: the formula in B3 was never computed"),
+        (["b", "=B2*2"], "a.xlsx:3: error: the formula in B3 has no result"),
         (["b", datetime.date(2026, 1, 5)], "a.xlsx:3: error: column `mass`: 2026-01-05 00:00:00 is a date"),
         (["b", "1,5"], "a.xlsx:3: error: column `mass`: `1,5` is no number"),
         (["b", 1, "more"], "a.xlsx:3: error: the row has 3 cells, but the header has 2"),
