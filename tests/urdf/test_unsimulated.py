@@ -93,7 +93,7 @@ WARNINGS = [
     (FEATHER, RECORD, "2: warning: no link has a mass, so the joints of the generic robot can be moved by position "
      "only; give the links an <inertial> [moves-no-mass]"),
     (WRIST, RECORD, "7: warning: the motor of joint 'roll' also moves another joint, but in the record the motor's "
-     "rotor does not; generate a package for it [shared-rotor-not-in-record]"),
+     "rotor does not; generate a package for the robot [shared-rotor-not-in-record]"),
 ]  # fmt: skip
 
 

@@ -1,6 +1,6 @@
 """Reads a water network in EPANET's format by wntr: nodes and links are elements, each end of a link is a connection.
 
-Numbers are in SI, at the beginning of the simulated time.
+Numbers are in SI. A number that changes over time has its first value.
 """
 
 from __future__ import annotations

@@ -146,7 +146,7 @@ def _from_entries(entries: object, text: str, file: str, position: int) -> Sheet
     rows = list[tuple[int, Sequence[object]]]()
     for entry in entries:
         cells = {str(column): value for column, value in entry.items()}
-        # entries are in order: the line of an entry has its first value, found after the entry before
+        # entries are in order: the line of an entry is that of its first value after the previous entry
         first = next(iter(cells.values()), "")
         found = _find_word(text, str(first), position) if isinstance(first, str | int | float) else -1
         rows.append((text.count("\n", 0, max(found, position)) + 1, [cells.get(column) for column in header]))

@@ -14,7 +14,7 @@ TYPES = "text", "integer", "boolean"
 File: TypeAlias = Literal["record", "model", "system"]
 
 FROM, TO = "from", "to"
-"""The columns with the elements of a connection."""
+"""The columns of a connection with the keys of its two elements."""
 
 
 class Sheet(NamedTuple):
@@ -23,14 +23,14 @@ class Sheet(NamedTuple):
     header: Sequence[str]
     rows: Sequence[tuple[int, Sequence[object]]]
     notes: Sequence[str] = ()
-    """Parts of the source that the sheet lacks, in words."""
+    """Names of parts of the source that the sheet lacks."""
 
 
 NOTHING = Sheet((), ())
 
 
 def shown_unit(kind: str) -> str:
-    """Return the unit of a column to show; empty for numbers without a unit, texts and booleans."""
+    """Return the unit to show for a column; empty for numbers without a unit, texts and booleans."""
     return "" if kind in ("1", *TYPES) else kind
 
 

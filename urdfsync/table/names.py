@@ -15,7 +15,7 @@ _LONGEST = 100
 def component_name(key: str, noun: str = "element") -> str:
     """Return the identifier of a component: the letters and digits of its key, with a small first letter."""
     if not key.isascii():
-        from anyascii import anyascii  # 30 ms, and few tables need it
+        from anyascii import anyascii  # a late import saves most tables 30 ms
 
         key = anyascii(key)
     stem = re.sub(r"[^A-Za-z0-9]+", "_", key).strip("_")

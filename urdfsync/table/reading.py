@@ -215,11 +215,11 @@ def read_value(cell: object, kind: Unit | str) -> Value | None:
         raise ValueError(f"`{text}` is neither true nor false")
     if kind == "text":
         if not isinstance(text, str | int | float):
-            raise ValueError("a list or a table is no cell")  # the text of a list may be endless
+            raise ValueError("a cell can't be a list or a table")  # the text of a list may be endless
         str(text).encode()  # JSON may have half of a character: UnicodeError is a ValueError
         return str(text)
     if not isinstance(text, str | int | float):
-        raise ValueError("a list or a table is no number")  # noqa: TRY004 - as all faults of cells
+        raise ValueError("a number can't be a list or a table")  # noqa: TRY004 - as all faults of cells
     if not _is_number(text):
         point = str(text).replace(",", ".") if str(text).count(",") == 1 else ""
         more = f": write {point}" if _NUMBER.fullmatch(point) else ""

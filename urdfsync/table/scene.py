@@ -62,7 +62,7 @@ def named_poses(source: Path, table: Table) -> tuple[Mapping[str, Mapping[str, f
 
 
 def triangles(path: str, content: bytes, key: str, most: int) -> Triangles | str:  # noqa: ARG001 - see `Pictures`
-    """Return a reason: a table has no meshes."""
+    """Return the reason why no mesh can be shown."""
     return "a table has no meshes"
 
 

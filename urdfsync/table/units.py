@@ -1,4 +1,4 @@
-"""Units of columns: converts numbers to SI."""
+"""Converts the numbers of columns to SI."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _COHERENT = frozenset("m kg s A K mol cd rad sr Hz N Pa J W C V F Ohm S Wb T H l
 """The SI units without a prefix: most tables have only these, and loading pint takes longer than a whole build."""
 _TERM = rf"(?:{'|'.join(sorted(_COHERENT))})(?:-?[1-9])?"
 _MODELICA = re.compile(rf"(?:1|{_TERM}(?:\.{_TERM})*)(?:/(?:{_TERM}|\({_TERM}(?:\.{_TERM})+\)))?")
-"""Matches a product of SI units in Modelica's spelling, divided by another product or not."""
+"""Matches a product of SI units, or a quotient of two products, in Modelica's spelling."""
 _UNIT = re.compile(r"(?=.)(?!.*[.*/^]{2})(?!.*\d[\deE])(1/)?[^\W\d_%°]*[%°]?[\w.*/()^-]*")
 _KNOWN = frozenset(
     "meter gram second ampere kelvin mole candela radian steradian hertz newton pascal joule watt coulomb volt "
@@ -25,7 +25,7 @@ _KNOWN = frozenset(
     "watt_hour ampere_hour volt_ampere calorie british_thermal_unit knot kilometer_per_hour mile_per_hour percent "
     "ppm".split()
 )
-"""The allowed units, by pint's names. pint knows many more, and reads `mil` as an angle, `G` as gauss."""
+"""The allowed units, by pint's names. Further units of pint would surprise: `mil` is an angle, `G` is gauss."""
 _PREFIXES = frozenset(" pico nano micro milli centi deci hecto kilo mega giga tera".split(" "))
 """The allowed prefixes. With others, typing errors become units: `PS` would be petasiemens."""
 

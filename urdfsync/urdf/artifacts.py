@@ -106,7 +106,7 @@ def _classes(files: Sequence[Artifact]) -> tuple[str, ...]:
 def record(robot: Robot, target: Target, options: Options) -> Artifact:
     """Return the record of the whole robot without a package around it; `target` names the record.
 
-    If a robot without meshes has the same names, a package has the same record.
+    For a robot without meshes, the record in a package with the same names is equal.
     """
     robot_target = Target(target.package, target.name.removesuffix(_PARAMETERS) or target.name)
     tree = _tree(robot, robot_target)

@@ -33,7 +33,7 @@ _UNITS: Mapping[Motion, tuple[str, str, str, str]] = {
 }
 
 _FREEDOMS: Mapping[JointType, int] = {"fixed": 0, "planar": 3, "floating": 6, "ball": 3}
-"""Degrees of freedom of joints that have not exactly one."""
+"""Degrees of freedom of joint types that do not have exactly one."""
 
 
 def bench(robot: Robot, target: Target, options: Options) -> Bench | None:
@@ -113,7 +113,7 @@ def _acceleration(joint: Joint, variable: str, limits: str) -> Signal | None:
 
 def numbers(sample: Sample, *packages: Mapping[str, bytes]) -> Sequence[Numbers]:
     """Return the numbers of packages, compared with the second reading of the source."""
-    from urdfsync.urdf.second.comparison import compare_numbers  # most of a second, for yourdfpy; no build needs it
+    from urdfsync.urdf.second.comparison import compare_numbers  # a late import saves builds most of a second
 
     return compare_numbers(sample, packages)
 
@@ -125,6 +125,6 @@ def models(robot: Robot, target: Target, options: Options) -> Sequence[str]:
 
 def experiment(sample: Sample, step: float | None = None) -> Experiment | str:
     """Return the comparison with Pinocchio, or the reason why no comparison is possible, such as a planar joint."""
-    from urdfsync.urdf.physics.experiment import experiment  # loads numpy; no build needs it
+    from urdfsync.urdf.physics.experiment import experiment  # a late import: no build needs numpy
 
     return experiment(sample, step)

@@ -124,7 +124,7 @@ def connector_names(tree: KinematicTree, options: Options) -> Connectors:
 
 
 def connector_options(tree: KinematicTree, options: Options) -> dict[str, str]:
-    """Return, for each connector and variable of Run that the options leave out, the option that adds it.
+    """Return the connectors and variables of Run that the options leave out, each with the option that adds it.
 
     An option is a line of the configuration.
     """

@@ -118,7 +118,7 @@ class UrdfDomain(Domain):
 
     def convert(self, dependency: Dependency, file: Path, content: bytes, others: Mapping[str, bytes]) -> Conversion:
         """Return a mesh as STL or OBJ, split by colours, with its bounds and its outermost points."""
-        from urdfsync.urdf.meshes.convert import convert  # 10 ms, and only new meshes need it
+        from urdfsync.urdf.meshes.convert import convert  # a late import saves 10 ms if no mesh is new
 
         return convert(dependency, file, content, others)
 

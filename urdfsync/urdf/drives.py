@@ -29,7 +29,7 @@ def assembly(tree: KinematicTree, options: Options) -> Assembly:
     actuated = {joint.name for joint in tree.joints if joint.actuated}
     named = actuated.union(options.commands) if options.driven is None else options.driven
     with machine.single_thread():
-        from urdfsync.urdf.kinematics.assemble import assemble  # 60 ms for numpy, and few robots need it
+        from urdfsync.urdf.kinematics.assemble import assemble  # a late import saves most robots 60 ms
 
     return assemble(tree, wanted, frozenset(named))
 
@@ -37,8 +37,8 @@ def assembly(tree: KinematicTree, options: Options) -> Assembly:
 def wanted_joints(joints: Iterable[Joint], options: Options) -> frozenset[str]:
     """Return the names of the joints to drive: those of the option `driven` if it is set, else all but passive joints.
 
-    A passive joint with a command in the options is also driven. The result does not depend on numbers of joints.
-    `check_options` reports names in the option that no drivable joint has; this function skips them.
+    A passive joint with a command in the options is also driven. `check_options` reports names in the option that no
+    drivable joint has; this function skips them.
     """
     joints = list(joints)
     can = frozenset(joint.name for joint in joints if can_be_driven(joint))

@@ -78,7 +78,7 @@ def spell(name: str, kind: str) -> str:
 
 def _hashed(name: str, kind: str, mark: str = "", digits: int = _DIGITS) -> str:
     if not name.isascii():
-        from anyascii import anyascii  # 30 ms, and few builds need it
+        from anyascii import anyascii  # a late import saves most builds 30 ms
 
         ascii_name = anyascii(name)
     else:

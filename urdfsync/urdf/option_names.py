@@ -66,11 +66,11 @@ def check_options(tree: KinematicTree, closed: Assembly, options: Options) -> It
     for option, given, possible, kind, code in checks:
         for name, count in Counter(given).items():
             if count > 1:
-                message, hint = f"`{option}` names `{name}` more than once", "take one out, or correct its name"
+                message, hint = f"`{option}` names `{name}` more than once", "remove one, or correct the name"
                 yield option, Diagnostic(Severity.WARNING, "name-repeated", message, hint=hint)
             if name not in possible:
                 near = nearest(name, possible)
-                hint = f"did you mean `{near}`?" if near else "correct its name, or take it out"
+                hint = f"did you mean `{near}`?" if near else "correct the name, or remove it from the option"
                 message = f"`{option.partition('.')[0]}` names `{name}`, but the robot has no such {kind}"
                 yield option, Diagnostic(Severity.ERROR, code, message, hint=hint)
     if "package" in options.approach:
@@ -131,7 +131,7 @@ def _check_laws(joints: Sequence[Joint], options: Options) -> Iterator[tuple[str
                 )
             )
         if is_elastic and by_effort and not reflected_inertia(joint):
-            hint = "give the joint an armature or a rotor, or take it out"
+            hint = "give the joint an armature or a rotor, or take the joint out of `elastic`"
             faults.append(("elastic", "is driven by an effort, but has no inertia before the spring", hint))
         if is_driven and is_chosen(joint, options.saturated) and not is_elastic and not by_effort:
             hint = "name the joint in `elastic`, or give it the command `effort`"

@@ -53,7 +53,7 @@ class JointKind(msgspec.Struct, frozen=True):
     has_axis: bool = False
     """Whether the joint has an axis: only then damping and friction have an effect.
 
-    On a ball joint, damping alone has one.
+    On a ball joint, only damping has an effect.
     """
     has_limits: bool = False
     """Whether the position of the joint has limits."""
@@ -223,7 +223,7 @@ class Limit(msgspec.Struct, frozen=True, gc=False):
     velocity: Annotated[float | None, Unit("rad/s", "m/s")] = None
     acceleration: Annotated[float | None, _ACCELERATION] = None
     deceleration: Annotated[float | None, _ACCELERATION] = None
-    """None if it equals `acceleration`."""
+    """None stands for the value of `acceleration`."""
     jerk: Annotated[float | None, Unit("rad/s³", "m/s³")] = None
 
 

@@ -1,6 +1,7 @@
 """The diagnostics about a URDF by their codes, and the checks of a robot.
 
-A finding is an error if urdfsync can't make a right model, otherwise a warning. docs/findings.md explains the codes.
+A finding is an error if urdfsync can't make a right model, otherwise a warning. The page docs/findings.md explains the
+codes.
 """
 
 from __future__ import annotations
@@ -45,7 +46,7 @@ _MAGNITUDES = (
     ("negative-inertia", "dynamics", ("armature",)),
     ("negative-inertia", "transmission", ("rotor_inertia",)),
 )
-"""Numbers of a joint that must not be negative: the code of the finding, the field of the joint, the fields in it."""
+"""Numbers of a joint that must not be negative: code of the finding, field of the joint, names of its numbers."""
 
 _Element = TypeVar("_Element", Link, Joint)
 
@@ -66,19 +67,19 @@ _ERRORS = {
     "missing-attribute": "add it",
     "empty-attribute": "fill it in",
     "bad-number": "write decimal numbers such as -0.5 or 1e-3",
-    "bad-version": 'write version="1.2", or leave it out for 1.0',
-    "two-orientations": "remove one of them",
+    "bad-version": 'write version="1.2", or no version for 1.0',
+    "two-orientations": "remove one orientation",
     "unknown-joint-type": "use one of fixed, continuous, revolute, prismatic, planar, floating, ball",
     # loops
     "duplicate-loop": "rename or remove one loop",
     "loop-of-no-link": "correct the name of the link",
     "loop-one-link": "name two links",
     "loop-axis": "give each axis a direction; the axes of a universal joint are at right angles",
-    "loop-twice": "remove one of them",
+    "loop-twice": "remove one of the two loops",
     "loop-free-joint": "use joints with one axis in a loop",
     "loop-rigid": "remove the loop, or give it joints that move",
     "loop-open": "correct the frames of the loop, or the start and limits of its joints",
-    "loop-redundant": "remove one of them",
+    "loop-redundant": "remove one of the loops",
     "loop-limit": "remove loops, and close them by hand: a robot may have up to 200 loops with 1,000 joints",
     "loop-singular": "let the loop's joints start elsewhere, by `start` in the configuration",
     # the tree
@@ -112,8 +113,8 @@ _WARNINGS = {
     "missing-value": "add a value, or remove the element: ROS's parser refuses the empty element",
     "newer-version": "remove all elements that are newer than URDF 1.2: urdfsync ignores them",
     "newer-attribute": "name the version of URDF that has the attribute",
-    "unknown-attribute": "correct its name, or remove it",
-    "unknown-element": "correct its name, or remove it",
+    "unknown-attribute": "correct the name, or remove the attribute",
+    "unknown-element": "correct the name, or remove the element",
     "missing-limit": "add <limit>, or make a revolute joint continuous",
     "missing-limit-value": "add the missing limits; if the joint turns freely, make it continuous",
     "missing-mass": "add the mass",
@@ -133,13 +134,13 @@ _WARNINGS = {
     "limit-without-effect": "remove the <limit>; a contact or a spring in a model of your own can hold the joint",
     "mimic-without-effect": "remove the mimic, or change the type",
     "mimic-of-fixed": "make the joint fixed, or let it mimic a joint that moves",
-    "unknown-actuated-joint": "correct its name, or take it out",
+    "unknown-actuated-joint": "correct the name of the joint, or remove the element",
     "unknown-sensor-place": "correct the name of the link or joint",
     "unknown-reference": "correct the name, or remove the element, which has no effect",
     "bad-sensor": "correct the value",
     "bad-transmission": "write another number; until then a reduction is taken as 1, an offset as 0",
-    "drive-contradiction": "correct one of them",
-    "unknown-interface": "correct its name, or take it out",
+    "drive-contradiction": "correct one of the two elements",
+    "unknown-interface": "correct the name, or remove the interface",
     "bad-mimic": "write a decimal number; until then a multiplier is taken as 1, an offset as 0",
     "ball-not-driven": "drive the ball in a model of your own, or write three continuous joints in one point",
     "bad-start": "correct the position, or set another one by `start` in the configuration",
@@ -149,7 +150,7 @@ _WARNINGS = {
     "inertia-not-positive": "export the inertia again; until then, a simulation may not be physical",
     "inertia-triangle": "export the inertia again; until then, a simulation may not be physical",
     "shape-size": "correct the size, or remove the shape",
-    "loop-contradiction": "correct one of them",
+    "loop-contradiction": "correct one of the two loops",
     "loop-one-end": "correct the name of the other link, or state the loop as `loops` in the configuration",
     "loop-excess": "take joints out of `driven`, or model their drives as efforts by hand",
     # valid, but probably a mistake
@@ -163,8 +164,8 @@ _WARNINGS = {
     # robots that no simulation can move
     "passive-moves-no-mass": "give a link behind the joint an <inertial>, drive the joint (`driven`), or make it fixed",
     "moves-no-mass": "give the child link of the joint an <inertial>, or make the joint fixed",
-    "loops-not-in-record": "generate a package for it",
-    "shared-rotor-not-in-record": "generate a package for it",
+    "loops-not-in-record": "generate a package for the robot",
+    "shared-rotor-not-in-record": "generate a package for the robot",
     "planar-not-generic": "write two prismatic joints and a continuous one, or use the package approach",
     "ball-not-generic": "write three continuous joints, or use the package approach",
     "floating-not-generic": "write three prismatic joints and three continuous ones, or use the package "
@@ -177,8 +178,8 @@ _NOTES = {
     "loop-closed": "nothing to do: the models begin in a pose that closes the loop",
     "loop-ball": "nothing to do, unless the second of the three joints comes near a right angle",
     "loop-weaker": "nothing to do: the motion is the same",
-    "not-in-record": 'to get them, add "package" to `approach`',
-    "not-modelled": "--verbose lists all with their lines",
+    "not-in-record": 'to get these parts, add "package" to `approach`',
+    "not-modelled": "--verbose lists all of these with their lines",
 }
 
 ADVICE: Mapping[str, tuple[Severity, str]] = {
@@ -283,7 +284,10 @@ def _with_paths(kind: str, elements: Sequence[_Element]) -> list[tuple[str, _Ele
 
 
 def unit_vector(axis: Vector) -> Vector:
-    """Return the unit vector along `axis`. An axis of length 1 (up to 1e-12) stays; a zero vector gives x."""
+    """Return the unit vector along `axis`.
+
+    An axis of length 1 (up to 1e-12) is returned unchanged; a zero vector gives x.
+    """
     largest = max(map(abs, axis))
     if largest == 0:
         return (1.0, 0.0, 0.0)

@@ -355,11 +355,12 @@ def test_couplings_of_ros2_control_and_of_plugins(element: str, mimic: Mimic) ->
 
 @pytest.mark.parametrize(("element", "words"), [
     (plugin("drive wheel"), "warning: joint 'elbow' has two couplings that differ: that of joint elbow / mimic "
-     "counts, that of gazebo number 1 / joint elbow does not; correct one of them"),
+     "counts, that of gazebo number 1 / joint elbow does not; correct one of the two elements"),
     (followed(numbers='<param name="multiplier">2</param>'), "warning: joint 'elbow' has two couplings that "
-     "differ: that of joint elbow / mimic counts, that of ros2_control c / joint elbow does not; correct one of them"),
+     "differ: that of joint elbow / mimic counts, that of ros2_control c / joint elbow does not; correct one of the "
+     "two elements"),
     (control('<joint name="elbow" mimic="false"/>'), "warning: ros2_control c / joint elbow has mimic='false', but "
-     "joint 'elbow' follows another joint all the same; correct one of them"),
+     "joint 'elbow' follows another joint all the same; correct one of the two elements"),
 ])  # fmt: skip
 def test_a_coupling_that_contradicts_the_mimic_of_the_joint_is_told(element: str, words: str) -> None:
     mimicking = urdfs.joint("elbow", "continuous", "base", "arm", inside=[urdfs.mimic("roll")])
@@ -403,7 +404,7 @@ FOLLOWING = urdfs.joint("elbow", "continuous", "base", "arm", inside=[urdfs.mimi
      "is ignored"),
     (LIMITED, [begins("half")], "10: warning: ros2_control c / joint elbow: <param> 'half' is not a decimal number"),
     (LIMITED, [begins("2", "velocity")], "10: warning: ros2_control c / joint elbow begins with velocity 2; in Run and "
-     "Test it begins at rest"),
+     "Test the joint begins at rest"),
     (LIMITED, [begins("1"), begins("2")], "11: warning: joint 'elbow' has two start positions that differ: that of "
      "ros2_control c / joint elbow counts, that of ros2_control c #2 / joint elbow does not"),
     (FOLLOWING, [begins("1", joint="roll"), begins("2")], "11: warning: joint 'elbow' can't begin at 2: the joint that "
@@ -437,7 +438,7 @@ def test_a_drive_of_a_joint_that_does_not_exist_is_told_with_its_line() -> None:
         "own.urdf:11: warning: transmission left drives joint 'drive weel', which does not exist; "
         "perhaps 'drive wheel' is meant [unknown-actuated-joint]",
         "own.urdf:13: warning: ros2_control all drives joint 'zzz', which does not exist; "
-        "correct its name, or take it out [unknown-actuated-joint]",
+        "correct the name of the joint, or remove the element [unknown-actuated-joint]",
     ]
     assert actuated(reading) == []
 

@@ -108,7 +108,7 @@ def test_a_ball_turns_as_prescribed_and_freely_and_its_whole_torque_is_compared(
     assert [len(each.values) for each in torques] == [3, 3]
     spins = [each for each in free.compared if each.element == "joint elbow"]
     assert [(each.quantity, len(each.values)) for each in spins] == [(Quantity.ACCELERATION, 3)]
-    assert "the record: it has no tables for robots with ball joints" in one.unchecked
+    assert "the record, which has no tables for robots with ball joints" in one.unchecked
     load = '<gazebo reference="elbow"><sensor name="load" type="force_torque"/></gazebo></robot>'
     sensed = experiment(ball.replace("</robot>", load))
     assert "sensor load, in a ball: the drive of the ball bypasses the sensor" in sensed.unchecked

@@ -24,11 +24,11 @@ _Entry: TypeAlias = tuple[Kind, str, float, int, float]
 # Pixels of one unit of the diagram: at 100 %, the smallest text is 10 pixels high. So the picture grows with the robot.
 _PIXELS = 4
 _MARGIN = 10
-_HEADER = 24  # room for the title and the names of the connectors at the top
-_FOOTER, _LEGEND = 8, 10  # space above the legend, and height of each row of the legend
+_HEADER = 24  # Room for the title and the names of the connectors at the top.
+_FOOTER, _LEGEND = 8, 10  # Space above the legend, and height of each row of the legend.
 _FONT, _SMALLEST = 3.6, 2.5
-_ADVANCE = 0.56  # mean width of a character, by font size
-_BEND = 2.0  # radius of the bends of flange lines: they show that a line joins another line and does not cross it
+_ADVANCE = 0.56  # Mean width of a character, by font size.
+_BEND = 2.0  # Radius of the bends of flange lines: they show that a line joins another line and does not cross it.
 
 _LEGENDS: Mapping[Kind, str] = {
     "link": "link, mass",

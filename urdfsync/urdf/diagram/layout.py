@@ -1,9 +1,9 @@
 """Layout of the robot model's diagram: places of links, joints and couplings, and paths of lines.
 
 A chain runs from left to right and ends at the connector of its last link. One child joint of a link continues the
-link's chain. It is the first joint whose branch has more than two links, and more than half as many as the largest
-branch; without such a joint, the first joint. Each other child joint starts a new chain in a row below, from the link's
-column on:
+link's chain. It is the first joint with a branch of more than two links, and more than half the links of the largest
+branch. Without such a branch, it is the first joint. Each other child joint starts a new chain in a row below, from the
+link's column on:
 
     frame_a ──┬── joint ──┬── joint ──┬── joint ──┬── handFrame
               ├ link      ├ link      ├ link      └ link
@@ -21,8 +21,8 @@ cross the lines that lead from a link to another chain.
 A link hangs on a short trunk at the left of its column. Lines to chains and sensors below the link run down in the gap
 between two columns, each on its own track. The connectors of axis and support stand above a joint that can be driven. A
 mimic coupling stands above its follower; the line from the leader runs on a track. If a motor moves two joints, its
-gear stands above the first joint; the line to the second joint runs on a track. A joint that closes a loop stands below
-all rows, in the column of its parent; the lines from its links run down on tracks.
+gear stands above the first joint. The line to the second joint runs on a track. A joint that closes a loop stands below
+all rows, in the column of its parent. The lines from its links run down on tracks.
 
 Lines consist of axis-parallel segments. All coordinates are even, y points upwards.
 """
@@ -45,15 +45,9 @@ Path: TypeAlias = tuple[Point, ...]
 LineKind: TypeAlias = Literal["frame", "rotational", "translational"]
 _Cell: TypeAlias = tuple[int, int]
 _End: TypeAlias = tuple[str, str]
-"""A loop and one of its frames, or a link and `below`.
-
-A link's `below` stands for its joints and sensors in other rows.
-"""
+"""One end of lines: a loop with one of its frames, or a link with `below` for its joints and sensors in other rows."""
 _Spans: TypeAlias = dict[str | _End, list[int]]
-"""Rows or columns by leader or end.
-
-The lines of a leader or end run from the first to the last of its rows or columns.
-"""
+"""Rows or columns of a leading joint or an `_End`. Its lines run from the first row or column to the last."""
 
 PORTS: Mapping[str, Point] = {
     "frame_a": (-100, 0),
@@ -72,21 +66,21 @@ PORTS: Mapping[str, Point] = {
 FRAME_A: Point = (-100, 0)
 """Middle of the connector `frame_a` in every robot's diagram."""
 
-_SIZE = 20  # width and height of components, and of frame connectors at the ends of rows
-_CONNECTOR = 12  # width and height of a connector that stands beside a component
-_FRAME = 32  # size of the connector of the root frame, as in the Modelica Standard Library
-_COLUMN = 40  # from a column's trunk to the gap before the next column
-_GAP = 4  # tracks in a gap; a gap with more tracks is a multiple as wide
-_TRACK = 4  # distance of neighbouring lines
-_NAME = 8  # room for a name above a component
-_LINK_X = 14  # from a column's trunk to the middle of its links and couplings
-_JOINT_X = 30  # from a column's trunk to the middle of its joints
-_LINK_Y = 26  # from a row's spine down to the middle of its links
-_BELOW = 44  # from a row's spine down to the row's end: link, name, gap; a sensor is nearer
-_ABOVE = 20  # from a row's spine up to the connectors of the joints
-_TRUNK = 8  # from the connector of the root frame to the first trunk
-_MARGIN = 64  # from the last trunk to the right edge: a connector and its name
-_ASIDE = 8  # from an axis to the support's connector, and to a line around the axis's connector
+_SIZE = 20  # Width and height of components, and of frame connectors at the ends of rows.
+_CONNECTOR = 12  # Width and height of a connector that stands beside a component.
+_FRAME = 32  # Size of the connector of the root frame, as in the Modelica Standard Library.
+_COLUMN = 40  # From a column's trunk to the gap before the next column.
+_GAP = 4  # Tracks in a gap; a gap with more tracks is a multiple as wide.
+_TRACK = 4  # Distance of neighbouring lines.
+_NAME = 8  # Room for a name above a component.
+_LINK_X = 14  # From a column's trunk to the middle of its links and couplings.
+_JOINT_X = 30  # From a column's trunk to the middle of its joints.
+_LINK_Y = 26  # From a row's spine down to the middle of its links.
+_BELOW = 44  # From a row's spine down to the row's end: link, name, gap; a sensor is nearer.
+_ABOVE = 20  # From a row's spine up to the connectors of the joints.
+_TRUNK = 8  # From the connector of the root frame to the first trunk.
+_MARGIN = 64  # From the last trunk to the right edge: a connector and its name.
+_ASIDE = 8  # From an axis to the support's connector, and to a line around the axis's connector.
 
 
 class Placement(NamedTuple):
@@ -277,7 +271,7 @@ def _cells(tree: KinematicTree) -> _Cells:
         columns[joint.child] = columns[joint.parent] + 1
     for joint in reversed(tree.joints):
         sizes[joint.parent] += sizes[joint.child]
-    # A new leaf changes the largeness of few chains.
+    # A new leaf makes few chains large.
     is_large = {joint.name: sizes[joint.child] > 2 for joint in tree.joints}
     following = dict[str, Joint]()
     for link, starting in children.items():
@@ -451,7 +445,7 @@ def _has_starts(tree: KinematicTree) -> bool:
 def _tracks(spans: _Spans) -> dict[str | _End, int]:
     """Number the tracks of a channel, from 0: each span gets the first track on which it touches no earlier span."""
     assigned: dict[str | _End, int] = {}
-    tracks: list[list[tuple[int, int]]] = []  # the spans on each, in order
+    tracks: list[list[tuple[int, int]]] = []  # the spans of each track, in order
     for key, places in spans.items():
         span = min(places), max(places)
         for number in itertools.count():

@@ -168,7 +168,7 @@ def _reach(
 
 
 def _exchanged(value: Any, other: Any, fields: _Fields) -> Any:
-    """Return `value` with one part from `other`: the smallest part around the place `fields` that both have."""
+    """Return `value` with one part from `other`: the smallest part at the path `fields` that both values have."""
     if not fields or type(value) is not type(other):
         return other
     field, *inside = fields

@@ -37,7 +37,7 @@ from urdfsync.urdf.validate import Finding
 _PARALLEL = 1e-4
 """In rad: the greatest angle between axes that count as parallel. Exporters write 1.5708 for π/2."""
 _INDEPENDENT = 1e-3
-"""A row without units is independent of other rows if the part at right angles to them is longer than this.
+"""A vector without units is independent of others if its part at right angles to the others is longer.
 
 Axes that count as parallel leave a shorter part.
 """
@@ -48,12 +48,12 @@ _AMPLITUDES = (0.4, 0.2, 0.1, 0.05)
 """In rad: sizes of the motions to generic poses, in the order of trial."""
 _POSES = 3
 _STEPS = 16
-"""Steps in which the motion of Test is checked."""
+"""Number of steps that check the motion of Test."""
 _PASSIVE = re.compile("passive|unactuated|undriven", re.IGNORECASE)
 _MOTOR = re.compile("motor|actuat|servo|drive(?!n)", re.IGNORECASE)
 _MOST_LOOPS, _MOST_JOINTS = 200, 1000
 _MOST_WORK = 6 * 10**10
-"""The most multiplications to close all loops, which take ten seconds. 110 four-bars take 10¹⁰."""
+"""The most multiplications to close all loops, which take ten seconds. For comparison: 110 four-bars take 10¹⁰."""
 
 
 class _Problem(Mechanism):
@@ -166,7 +166,7 @@ def assemble(tree: KinematicTree, wanted: frozenset[str], named: frozenset[str])
     """Close all loops of a robot near its start, or report the reason why they stay open.
 
     The options ask for drives of the `wanted` joints. Source or options name drives of the `named` joints. If no named
-    joint is in a loop, independent wanted joints are driven: first joints with names of motors, then joints with a
+    joint is in a loop, independent wanted joints are driven. Joints with names of motors come first, then joints with a
     limit of effort.
     """
     try:
@@ -314,7 +314,7 @@ def _normal(mechanism: Mechanism, loop: int) -> Vector | None:
 
 
 def _equations(loop: Loop, normal: Vector | None) -> list[Equation]:
-    """Return the equations of a loop's kind, with those in its plane first."""
+    """Return the equations of a loop's kind; equations in its plane come first."""
     x, y, z = (*across(normal), normal) if normal else AXES
     pairs: Sequence[tuple[Vector, Vector]] = ()
     if loop.kind == "revolute":
@@ -361,7 +361,7 @@ def _reason(ranks: Mapping[int, int], k: int) -> str:
 def _find_regular_start(tree: KinematicTree, wanted: frozenset[str], named: frozenset[str]) -> dict[str, float]:
     """Return positions of joints near the start, such that no loop is singular.
 
-    Only joints of singular loops move. Empty if none of the few tried poses will do.
+    Only joints of singular loops move. The result is empty if none of the few tried poses will do.
     """
     problem, start = _Problem(tree), dict[str, float]()
     names = [joint.name for joint in problem.independent]
@@ -476,7 +476,7 @@ def _reach(problem: _Problem, q: Array, rows: Rows, driven: Sequence[int], free:
     """Return the distance that Test can move each driven joint if all move at once."""
     joints = problem.independent
     reach = {k: SWEEP[MOTION_KINDS[joints[k].type]] for k in driven}
-    while True:  # ends, since each joint changes its side at most once
+    while True:  # this loop ends: each joint changes its side at most once
         ways = {k: _way(joints[k], float(q[k]), reach[k]) for k in driven}
         done = _follow(problem, q, rows, ways, free)
         if done < _STEPS:
@@ -548,7 +548,7 @@ def _find_open(problem: _Problem, q: Array) -> Iterator[Finding]:
         )
         names = [repr(problem.independent[j].name) for j in np.flatnonzero(is_outside & problem.moves[k])]
         hint = (
-            "the loop closes only without the other loops of its joints: correct the frames of either"
+            "the loop closes only without the other loops of its joints: correct the frames of one loop"
             if singles
             else ""
         )

@@ -24,7 +24,7 @@ _Moment = tuple[float, Array]
 
 GRAVITY = 9.80665  # of the Modelica Standard Library's World
 _MOST = 2000
-"""The most poses of a grid, which take 10 ms with seven joints."""
+"""The most poses of a grid. So many poses take 10 ms with seven joints."""
 _QUARTER = math.pi / 2
 
 
@@ -140,6 +140,6 @@ def _sum(moments: Sequence[_Moment]) -> _Moment:
 
 
 def _placed(at: Pose, moment: _Moment) -> _Moment:
-    """Move a moment from the frame at a pose to the reference frame of the pose."""
+    """Return `moment`, which is in the frame at the pose `at`, in the reference frame of this pose."""
     rotation, place = map(np.array, at)
     return moment[0], rotation @ moment[1] + moment[0] * place

@@ -44,7 +44,7 @@ class Rows(NamedTuple):
         return cls(*map(np.array, zip(*rows, strict=True)))
 
     def take(self, chosen: Sequence[int], dtype: type = float) -> Rows:
-        """Return some of the equations."""
+        """Return the chosen equations."""
         loops, *numbers = (array[list(chosen)] for array in self)
         return Rows(loops, *(array_of(array, dtype) for array in numbers))
 
@@ -108,7 +108,7 @@ class Mechanism:
         return a, b
 
     def twists(self, poses: Array) -> tuple[Array, Array]:
-        """Return the angular velocity of each joint, and its velocity of a point at the root's origin."""
+        """Return for each joint the angular velocity, and the velocity of the point at the root's origin."""
         axes = (poses[1:, :3, :3] @ self._axes[:, :, None])[:, :, 0]
         turns = axes * self.turns
         return turns, axes * self.slides + _cross(poses[1:, :3, 3], turns)

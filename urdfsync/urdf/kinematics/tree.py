@@ -40,7 +40,6 @@ class KinematicTree(msgspec.Struct, frozen=True):
     sensors: tuple[Sensor, ...] = ()
     """In natural order of their names."""
     loops: tuple[Loop, ...] = ()
-    """In natural order of their names."""
 
     def __hash__(self) -> int:
         """Return a hash of the elements without `names`: mappings have no hash."""

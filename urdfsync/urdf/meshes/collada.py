@@ -32,7 +32,7 @@ _NO_SHAPE = (
     "instance_light",
     "linestrips",
 )
-"""Elements without influence on the shape. Their removal removes their faults."""
+"""Elements without influence on the shape, which are removed together with their faults."""
 _MATERIALS = ("library_effects", "library_materials", "bind_material")
 _NOT_READ = {"skew": "skewed nodes", "ph": "polygons with holes"}
 _NONE = (0, 0, 0, 0)
@@ -73,7 +73,7 @@ def collada_parts(
 def _leave_plain_colors(root: etree._Element, textures: Mapping[str, bytes]) -> None:
     """Reduce each effect to its colour, and remove references to missing effects and materials.
 
-    This removes all other faults of effects. An effect without a colour becomes transparent.
+    The reduction removes all other faults of effects. An effect without a colour becomes transparent.
     """
     space = str(root.tag).removesuffix("COLLADA")
     images = {image.get("id", ""): image for image in root.iterfind("{*}library_images/{*}image")}

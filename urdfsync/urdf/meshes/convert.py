@@ -19,12 +19,13 @@ _process = MeshProcess()
 def convert(dependency: Dependency, file: Path, content: bytes, others: Mapping[str, bytes]) -> Conversion:
     """Return the imported form of the mesh in `file`, and its facts.
 
-    Both depend only on contents, URI and scale. `others` has the mesh's libraries of materials and textures.
+    Form and facts depend only on contents, URI and scale. `others` has the mesh's libraries of materials and textures.
 
-    STL and OBJ files without a scale stay unchanged; all other files become binary STL with the scale applied. One fact
-    is `bounds` (`[[x, y, z], [x, y, z]]`, least and greatest). If the dependency needs it, `hull` is another (see
-    `geometry.support_points`). Both are in metres, in the mesh's frame. If shapes need the mesh's colours (see
-    `lookup.PARTS`), a mesh of several colours becomes one file per colour: OBJ for an OBJ without a scale, else STL.
+    STL and OBJ files without a scale stay unchanged; all other files become binary STL with the scale applied. The fact
+    `bounds` is `[[x, y, z], [x, y, z]]`, least and greatest. If the dependency needs outermost points, the fact `hull`
+    has them (see `geometry.support_points`). Both facts are in metres, in the mesh's frame. If shapes need the mesh's
+    colours (see `lookup.PARTS`), a mesh of several colours becomes one file per colour: OBJ for an OBJ without a scale,
+    else STL.
 
     Raises SourceError with the diagnostic `unreadable-mesh`.
     """

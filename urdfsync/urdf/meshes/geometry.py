@@ -23,10 +23,10 @@ MAX_TRIANGLES = 1_000_000
 _FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 _HEADER = b"binary STL, written by urdfsync".ljust(80)
 _LARGEST = np.finfo(np.float32).max  # STL has single precision
-_STEPS = 36  # directions on each great circle
-_TIE = 1e-9  # relative to the mesh's size: equal lengths may differ by rounding
-_NEAR = 1e-8  # relative to the mesh's size, for a possible tie: far above the error of a matrix product
-_CHUNK = 1 << 14  # so many points, times all directions, fit into the processor's cache
+_STEPS = 36  # Directions on each great circle.
+_TIE = 1e-9  # Relative to the mesh's size: equal lengths may differ by rounding.
+_NEAR = 1e-8  # Relative to the mesh's size, for a possible tie: far above the error of a matrix product.
+_CHUNK = 1 << 14  # So many points, times all directions, fit into the processor's cache.
 _DIGITS = 6
 
 
@@ -64,9 +64,9 @@ def joined(parts: Sequence[Triangles], most: float = MAX_TRIANGLES) -> Triangles
     for part in parts:
         if len(part.faces) and (part.faces.min() < 0 or part.faces.max() >= len(part.points)):
             raise MeshError("a face has an index that no vertex has")
-    if len(parts) == 1:  # no copy of a large mesh, which takes a quarter of the memory
+    if len(parts) == 1:  # a copy of a large mesh would take a quarter of the memory
         return parts[0]
-    from trimesh.util import append_faces  # takes 0.7 s; a page with meshes does not need it
+    from trimesh.util import append_faces  # a late import saves pages 0.7 s
 
     return Triangles(*append_faces([part.points for part in parts], [part.faces for part in parts]))
 
@@ -147,7 +147,7 @@ def support_points(points: Array) -> list[list[float]]:
 
 
 def _directions() -> Array:
-    """Return unit vectors (122 × 3). Rounding makes them equal on all machines."""
+    """Return unit vectors (122 × 3), which rounding makes equal on all machines."""
     angles = [2 * math.pi * step / _STEPS for step in range(_STEPS)]
     circle = [(math.cos(angle), math.sin(angle), 0.0) for angle in angles]
     circles = [(*vector[3 - axis :], *vector[: 3 - axis]) for axis in range(3) for vector in circle]
@@ -158,12 +158,12 @@ def _directions() -> Array:
 
 
 _DIRECTIONS = _directions()
-_NORMALS = np.cross(_DIRECTIONS[:, np.newaxis], _DIRECTIONS)  # for each pair of directions
-_CROSSING = np.linalg.norm(_NORMALS, axis=2) > 1e-6  # pairs of directions that are not parallel
+_NORMALS = np.cross(_DIRECTIONS[:, np.newaxis], _DIRECTIONS)  # For each pair of directions.
+_CROSSING = np.linalg.norm(_NORMALS, axis=2) > 1e-6  # Pairs of directions that are not parallel.
 
 
 def _nearly_extreme(points: Array, directions: Array, size: float) -> Array:
-    """Return the points that may be extreme along one of the directions: mostly some hundreds of a million."""
+    """Return the points that may be extreme along a direction: mostly a few hundred of a million points."""
     highest = np.full(len(directions), -np.inf)
     candidates = []
     for start in range(0, len(points), _CHUNK):

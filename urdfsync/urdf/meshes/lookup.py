@@ -34,8 +34,8 @@ PARTS, COLORS, TEXTURED, COLORLESS = "parts", "colors", "textured", "colorless"
 """Names of facts of meshes with their own colours.
 
 `parts` lists the colours of a mesh that becomes one file per colour. If another shape needs the whole mesh, `colors`
-lists them instead: then the files per colour stand beside the whole mesh. `textured` tells whether textures were found,
-`colorless` which colours are missing, in words.
+lists them instead: then the files per colour stand beside the whole mesh. `textured` tells whether textures were found.
+`colorless` names the missing colours.
 """
 COLORED = (".dae", ".obj")
 """Formats with colours."""
@@ -191,7 +191,7 @@ def dependencies(
 def _facts(shapes: Sequence[tuple[str, int, bool]], touches: bool) -> tuple[str, ...]:
     """Return the names of the facts that a mesh needs.
 
-    Each shape has its kind, its line, and whether it has the mesh's colours.
+    `shapes` has for each shape its kind, its line, and whether it has the mesh's colours.
     """
     hull = (HULL,) if touches and any(kind == "collision" for kind, _, _ in shapes) else ()
     colored = [is_colored for _, _, is_colored in shapes]

@@ -75,7 +75,7 @@ def _text(element: etree._Element | None, path: str) -> str:
 
 def _mean(image: bytes) -> Color | None:
     """Return the mean colour of a picture; None if the picture can't be read."""
-    from PIL import Image  # only textures need it
+    from PIL import Image  # only textures need PIL
 
     with contextlib.suppress(OSError, ValueError, SyntaxError, Image.DecompressionBombError):
         with Image.open(io.BytesIO(image)) as picture:

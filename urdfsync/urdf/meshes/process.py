@@ -53,7 +53,7 @@ class Request(msgspec.Struct, frozen=True):
     as_obj: bool = False
     """Whether the parts of a mesh are written as OBJ instead of STL."""
     most: int = 0
-    """For a picture: the most triangles of the simplified mesh. 0 for a file of the package."""
+    """For a picture: the most triangles of the simplified mesh. Zero stands for a file of the package."""
     size: int = 0
     """Size of the mesh in bytes; `MeshProcess` fills in this field and the fields below."""
     others: Mapping[str, int] = {}

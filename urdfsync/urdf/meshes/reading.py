@@ -173,8 +173,8 @@ def _plain_obj(content: bytes, *, with_materials: bool) -> bytes:
 
     All indices count from 1. With materials, faces keep their materials, in a library `m`.
 
-    trimesh reads index 0 as 1, and counts negative indices from the end of the file. trimesh skips indented lines, and
-    faces with less than three corners. trimesh fails if only some corners have references.
+    The reader of trimesh takes index 0 for 1, and counts negative indices from the end of the file. It skips indented
+    lines, and faces with less than three corners. It fails if only some corners have references.
     """
     text = content.replace(b"\r\n", b"\n").replace(b"\\\n", b" ").replace(b"\t", b" ")
     statements = rb"^ *((?:[vf]|usemtl) .*)" if with_materials else rb"^ *([vf] .*)"

@@ -116,7 +116,7 @@ class Tables(msgspec.Struct, frozen=True):
     axes: Mapping[Motion, list[int]]
     """For each kind, the moving joint of each driven axis."""
     followers: list[tuple[int, int]]
-    """For each follower, after its leader: the numbers of follower and leader; 0 for a fixed leader."""
+    """The numbers of each follower and its leader, leaders first; 0 stands for a fixed leader."""
 
 
 def obstacles(joints: Iterable[Joint]) -> list[Joint]:

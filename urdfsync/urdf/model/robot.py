@@ -23,9 +23,9 @@ from urdfsync.urdf.model.sensors import sensor_models, sensor_outputs
 from urdfsync.urdf.options import Options
 from urdfsync.urdf.robot import MOTION_KINDS
 
-_ROW = 20  # height of a row of connectors on the icon: an axis, and the support 10 below
-_PICTURE = 100  # the upper end of the picture on the icon; the rows begin there
-_FRAME_Y = -50  # y of the frame in the library's benches that connects to the robot
+_ROW = 20  # Height of a row of connectors on the icon: an axis, and the support 10 below.
+_PICTURE = 100  # The upper end of the picture on the icon; the rows begin there.
+_FRAME_Y = -50  # Y of the frame in the library's benches that connects to the robot.
 
 
 @lru_cache(maxsize=1)

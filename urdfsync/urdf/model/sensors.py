@@ -10,8 +10,8 @@ from urdfsync.urdf.connectors import Connectors
 from urdfsync.urdf.kinematics.tree import KinematicTree
 from urdfsync.urdf.robot import SENSOR_KINDS
 
-_ROW = 20  # height of an output in the diagram of Run
-_TOP = 80  # y of the first output, below the outputs of the drives
+_ROW = 20  # Height of an output in the diagram of Run.
+_TOP = 80  # Y of the first output, below the outputs of the drives.
 _ICON_ROW, _ICON_TOP = 10, 90
 
 

@@ -65,7 +65,7 @@ def join(content: bytes, other: bytes, file: str, options: Options) -> tuple[byt
 
 def _elements(content: bytes, file: str, options: Options) -> Iterator[tuple[str, int]]:
     """Yield the element of each joint, and its line in the catalogue."""
-    from xml.sax.saxutils import quoteattr  # 9 ms, and few robots need it
+    from xml.sax.saxutils import quoteattr  # a late import saves most robots 9 ms
 
     from urdfsync.table.formats import read_sheets  # likewise
     from urdfsync.table.reading import name_and_unit
@@ -127,14 +127,14 @@ def _read_row(reader: Reader, element: Element, joint: Element, line: int) -> Ro
     gear, name, own = dict[str, float](), element.get("motor", ""), joint.get("name", "")
     numbers = [number for number in _PLACES if number in element.attrib]
     if not numbers:
-        hint = "fill its cells, or name its columns in `motor_columns`"
+        hint = "fill cells of the row, or name columns in `motor_columns`"
         raise SourceError.of("bad-row", f"the row `{name}` has no number of a drive", hint=hint)
     for number in numbers:
         field, *units = _PLACES[number]
         part = next((part for part in map(joint.find, (field, f"axis/{field}")) if part is not None), None)
         if part is None and field == "limit" and joint.get("type") != "continuous":
             message = f"joint `{own}` has no <limit>: the row `{name}` gives no limits of position"
-            raise SourceError.of("bad-row", message, hint="write its <limit> in the URDF")
+            raise SourceError.of("bad-row", message, hint="write the joint's <limit> in the URDF")
         try:
             size = _in_si(number, element.get(number, ""), units[MOTION_KINDS[joint.get("type")] == "translational"])  # type: ignore[index] # see `joints`
         except ValueError as error:
@@ -152,7 +152,7 @@ def _read_row(reader: Reader, element: Element, joint: Element, line: int) -> Ro
 
 def _in_si(number: MotorNumber, text: str, expected: str) -> float:
     """Return a number with a unit, such as `410 [N.cm]`, in the `expected` unit. Raises ValueError or SourceError."""
-    from urdfsync.table.reading import name_and_unit, read_value  # 15 ms, and few robots need it
+    from urdfsync.table.reading import name_and_unit, read_value  # a late import saves most robots 15 ms
     from urdfsync.table.units import find_unit, is_same_kind
 
     cell, unit = name_and_unit(text)
@@ -177,6 +177,6 @@ def with_row(reader: Reader, joint: Joint, row: Row | None) -> Joint:
     gear = msgspec.structs.replace(joint.transmission or Transmission(), **row.gear)
     if gear.joint is not None and "reduction" in row.gear:
         message = f"the motor of joint `{joint.name}` also moves `{gear.joint}`: a row can't give its reduction"
-        fault = SourceError.of("bad-row", message, "", row.line, hint="leave its cell empty")
+        fault = SourceError.of("bad-row", message, "", row.line, hint="leave the cell of the reduction empty")
         reader.diagnostics += fault.diagnostics
     return msgspec.structs.replace(joint, motor=row.motor, transmission=None if gear == Transmission() else gear)

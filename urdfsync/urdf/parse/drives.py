@@ -45,8 +45,8 @@ _COUPLINGS: Mapping[str, _Law] = {
 }
 """Laws of coupled joints: the reductions of two joints give a row for each motor.
 
-The row has the motor's turns per turn of each joint, without the motor's own gear. ros_control's
-`transmission_interface` and `pr2_mechanism_model` document these laws.
+The row has the motor's turns per turn of each joint, without the motor's own gear. The packages
+`transmission_interface` (of ros_control) and `pr2_mechanism_model` document these laws.
 """
 _COMMANDS: tuple[Command, ...] = get_args(Command)
 """Command interfaces of a joint in order: the first existing interface counts."""
@@ -60,7 +60,7 @@ _INTERFACES: Mapping[str, Command | None] = {
 }
 """The command of each interface of ROS 1; None for the interface that only measures."""
 _STATES = ("position", "velocity", "acceleration", "effort")
-"""State interfaces of a joint that a model has."""
+"""State interfaces that the model of a joint has."""
 _KINDS = {"transmission": "gears", "command": "commands", "mimic": "couplings", "start": "start positions"}
 """Words for the fields of `Drive` that may contradict each other."""
 _SAME = 1e-6
@@ -201,7 +201,7 @@ def _read_start(reader: Reader, states: Iterable[Element], path: str, name: str)
             if kind == "position":
                 reader.place(param, f"joint {name} / start")
             elif starts.get(kind):
-                message = f"{path} begins with velocity {starts[kind]:g}; in Run and Test it begins at rest"
+                message = f"{path} begins with velocity {starts[kind]:g}; in Run and Test the joint begins at rest"
                 reader.add(param, "bad-start", message, "take it out")
     return starts.get("position")
 
@@ -219,7 +219,7 @@ def _read_mimic_plugins(reader: Reader, element: Element, path: str) -> Iterator
 
 
 def _read_mimic(reader: Reader, parts: Mapping[str, Element], leader: str, path: str) -> Mimic | None:
-    """Return the coupling in some elements, given by name; None without the element `leader`."""
+    """Return the coupling that the elements `parts` state; None without the element named `leader`."""
     name = (parts[leader].text or "").strip() if leader in parts else ""
     if not name:
         return None
@@ -338,7 +338,9 @@ def _with_drives(reader: Reader, joint: Joint, drives: list[Drive]) -> Joint:
             if getattr(other, field) != getattr(stated[0], field):
                 message = f"joint {joint.name!r} has two {_KINDS[field]} that differ: "
                 message += f"that of {stated[0].path} counts, that of {other.path} does not"
-                hint = "correct one of them, or choose by `commands` in the configuration" if field == "command" else ""
+                hint = (
+                    "correct one of the two, or choose by `commands` in the configuration" if field == "command" else ""
+                )
                 reader.extend([Finding("drive-contradiction", other.path, message, hint)])
         return stated[0] if stated else None
 

@@ -1,8 +1,8 @@
 """Reads elements into the structs of `urdf.robot`.
 
 A field of numbers or text comes from the attribute with its name. A struct comes from the child element with its name.
-A field without a default is required. Unknown parts are kept as text and reported: with a warning where the part may
-change the motion, otherwise in one note that counts all such parts.
+A field without a default is required. Unknown parts are kept as text and reported. A part that may change the motion
+gets a warning. One note counts all other parts.
 
 SDFormat writes values as text: `<axis><xyz>0 1 0</xyz></axis>`, `<lower>-1</lower>`, `<pose>0 0 1 0 0 0</pose>`
 (sdformat.org/spec, version 1.11). Such texts are read with a warning.
@@ -356,7 +356,9 @@ def _moving_tags() -> frozenset[str]:
     return frozenset({*_schema(Joint)[1], *_schema(Inertial)[1], "pose"} - {"safety_controller", "calibration"})
 
 
-_alike = functools.lru_cache(maxsize=1024)(perhaps)  # 0.1 ms, and a robot may have 10,000 unknown attributes
+_alike = functools.lru_cache(maxsize=1024)(
+    perhaps
+)  # one call takes 0.1 ms, and a robot may have 10,000 unknown attributes
 
 
 def _meant(count: int, absent: Sequence[str], attributes: Sequence[str]) -> str:

@@ -284,7 +284,10 @@ def _read_joint(
         part = reader.find(element, tag)
         frame = child if part is None else part.get(attribute) or child
         if kind and child and frame != child:
-            message, hint = f"{path} has its <{tag}> in the frame {frame!r}", f"write it in the frame of link {child!r}"
+            message, hint = (
+                f"{path} has its <{tag}> in the frame {frame!r}",
+                f"write the <{tag}> in the frame of link {child!r}",
+            )
             reader.add(element, "loop-joint", message, hint)
             kind = None
     numbers = reader.numbers(element, ["pose"], path, "bad-number", 6) or (0.0,) * 6

@@ -159,7 +159,7 @@ def _read_origin(reader: Reader, source: _SensorElement, path: str) -> Origin:
         return Origin()
     if (other := pose.get("relative_to")) and other != source.at:
         message = f"{path}: its pose is read in the frame of {source.at!r}, not of {other!r}"
-        reader.add(pose, "bad-sensor", message, f"give its pose in the frame of {source.at!r}")
+        reader.add(pose, "bad-sensor", message, f"give the pose in the frame of {source.at!r}")
     turn = math.radians(1) if pose.get("degrees", "").strip().lower() in ("true", "1") else 1.0
     x, y, z, roll, pitch, yaw = numbers
     return Origin((x, y, z), (roll * turn, pitch * turn, yaw * turn))

@@ -186,7 +186,7 @@ def _read(reader: Reader, document: xml.Document, options: Options, rows: Mappin
         elif child.tag in _XACRO or (child.tag != "link" and any(map(len, child.iter("link")))):
             reader.extensions.append(("", child))
             message = f"<{child.tag}> has no effect in URDF: the elements that it stands for are missing"
-            reader.add(child, "xacro-leftover", message, f"write <xacro:{child.tag} …>, or take its links out of it")
+            reader.add(child, "xacro-leftover", message, f"write <xacro:{child.tag} …>, or move its links out")
         elif child.tag not in (*_MODELLED, *TAGS):
             reader.keep(child, "robot", (*_MODELLED, *TAGS), "")
         if child.tag in ("gazebo", "ros2_control"):

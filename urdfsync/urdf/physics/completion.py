@@ -32,7 +32,7 @@ _PER_MASS = (0.013, 0.002, -0.003, 0.016, 0.001, 0.012)
 
 
 class CompletedSource(NamedTuple):
-    """A copy of a URDF, and notes on its changes, without full stops. The bytes of a complete URDF stay."""
+    """A copy of a URDF, and notes on its changes, without full stops. A complete URDF is copied unchanged."""
 
     content: bytes
     notes: tuple[str, ...] = ()

@@ -172,7 +172,7 @@ def _not_compared(subject: Subject) -> Iterator[str]:
     if "record" in options.approach and subject.tree.loops:
         yield "the record, which has no loops"
     elif "record" in options.approach and obstacles(subject.tree.joints):
-        yield "the record: it has no tables for robots with ball joints"
+        yield "the record, which has no tables for robots with ball joints"
     elif "record" in options.approach:
         yield "warnings, sensors, contacts and `frame_b` of the generic robot"
 

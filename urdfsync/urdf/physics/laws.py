@@ -1,10 +1,10 @@
 """Checks the laws of joints that Pinocchio lacks: a joint must not give away more energy than it got.
 
 One joint of each kind in the package stands alone in the world and carries a body. Its axis moves to and fro from a
-relaxed start. Up to any time, the energy into the axis must be at least zero: friction loses energy, springs and bodies
-only hand it back (passivity). A law with the wrong sign violates this. The efforts must also follow from the numbers of
-the law. For this, the documented equations and the library's default numbers are written here a second time. The second
-reading says which joint has which law.
+relaxed start. Up to any time, the energy into the axis must be at least zero (passivity). Friction loses energy;
+springs and bodies only hand it back. A law with the wrong sign hands out more energy. The efforts must also follow from
+the numbers of the law. For this, the documented equations and the library's default numbers are written here a second
+time. The second reading says which joint has which law.
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ from urdfsync.urdf.physics import probe
 from urdfsync.urdf.second.reading import MOVES, TURNS, Element, Reading
 
 _STEP, _STOP = 0.02, 1.0  # s
-_STROKE = 0.2  # rad or m
-_SHAKE = 6.0  # times the effort at which the joint breaks loose
+_STROKE = 0.2  # Motion of an axis, in rad or m.
+_SHAKE = 6.0  # Greatest push, as a multiple of the effort at which the joint breaks loose.
 _DEFAULTS = {
     True: {"stribeckSpeed": 0.05, "bristleDeflection": 1e-4, "stiffness": 1e4, "damper": 100.0},
     False: {"stribeckSpeed": 0.005, "bristleDeflection": 1e-5, "stiffness": 1e6, "damper": 1e4},

@@ -76,14 +76,14 @@ class Instant(enum.IntEnum):
     LOADED = 10
     """The effort is just below its limit, in the positive direction."""
     STANDING = 11
-    """The robot stands on the ground, if one of its shapes can."""
+    """The robot stands on the ground, if one of its shapes can touch the ground."""
     SLIDING = 12
     SINKING = 13
     RISING = 14
 
 
 COMPARED = tuple(map(float, list(Instant)[: Instant.TURNED + 1]))
-"""The instants that compare all quantities."""
+"""At these instants, all quantities are compared."""
 JUST = 1e-3
 """Distance of a value from its limit, as a fraction of the limit."""
 LOADS = {Instant.STRAINED: -1 - JUST, Instant.LOADED: 1 - JUST}

@@ -23,7 +23,7 @@ from urdfsync.urdf.physics.motion import Course
 from urdfsync.urdf.physics.subject import Subject
 from urdfsync.urdf.robot import MOTION_KINDS, MOTIONS, Joint, Origin
 
-_FAR_GROUND = -1e9  # m: nothing touches the ground
+_FAR_GROUND = -1e9  # in m: so deep that nothing touches the ground
 _PARTS = (Path(__file__).parent / "parts.mo").read_text("utf-8")
 
 FORCE = tuple(f"base.frame_b.f[{i}]" for i in (1, 2, 3))

@@ -285,7 +285,7 @@ class RobotModel:
             self._show("Axis", f"{c}.axis", c)
             self._show("Support", f"{c}.support", c)
             fixed = self.given.get(f"{c}.fixedStart")
-            # in a loop, one joint begins fixed for each degree of freedom
+            # in a loop, `fixedStart` is true for one joint per degree of freedom
             is_guess = joint.in_loop and fixed and fixed.text == "false"
             self._state(models.AXIS, fixed="false" if is_guess else "fixedStart", **words)
             if c in own.begun:

@@ -24,7 +24,7 @@ _NAMES = "xyz lower upper effort velocity damping friction multiplier offset ixx
 
 
 def plain_urdf(content: bytes, joints: Collection[str] | None = None) -> bytes:
-    """Return a source as plain URDF. The bytes of a plain URDF stay. See `plain_root`."""
+    """Return a source as plain URDF. A plain URDF is returned unchanged. See `plain_root`."""
     plain = etree.tostring(plain_root(content, joints))
     return content if plain == etree.tostring(_parse(content)) else bytes(plain)
 
