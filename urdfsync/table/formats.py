@@ -202,7 +202,7 @@ def _unpacked_size(content: bytes) -> int:
 
 def _from_worksheet(values: Any, formulas: Any, file: str) -> Sheet:
     if merged := next(iter(values.merged_cells.ranges), None):
-        message, hint = f"sheet `{values.title}` has merged cells: {merged}", "unmerge them, and fill each cell"
+        message, hint = f"sheet `{values.title}` has merged cells: {merged}", "unmerge these cells, and fill each cell"
         raise SourceError.of("table-file", message, file, merged.min_row, hint=hint)
     rows = list[tuple[int, Sequence[object]]]()
     for number, (cells, originals) in enumerate(zip(values.iter_rows(), formulas.iter_rows(), strict=True), 1):

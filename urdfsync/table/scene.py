@@ -67,11 +67,7 @@ def triangles(path: str, content: bytes, key: str, most: int) -> Triangles | str
 
 
 def _places(table: Table) -> dict[str, tuple[float, float]]:
-    """Return x and y of each element.
-
-    Connected groups stand one above the other. Columns show the distance from the element with the most connections.
-    Unconnected elements stand in rows at the end.
-    """
+    """Return x and y of each element: connected groups one below the other, then rows of other elements."""
     beside = defaultdict[str, dict[str, None]](dict)
     for row in table.connections.values():
         ends = str(row[FROM]), str(row[TO])

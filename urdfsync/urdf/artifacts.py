@@ -186,10 +186,7 @@ def _element(
     data: tuple[Mapping[str, Any], Mapping[str, Any]],
     note: str,
 ) -> Iterator[Artifact]:
-    """Yield model and record of an element, by their templates and data.
-
-    The documentation of the model has the note.
-    """
+    """Yield model and record of an element; the note becomes the documentation of the model."""
     identifier, folder = tree.names[kind, name], "Links" if kind == "link" else "Joints"
     named = {"within": f"{package}.{folder}", "type": identifier.type, "record": identifier.record, "title": title}
     (model, record), of_model = templates, {**data[0], "note": f"{note} {_EDIT}"}

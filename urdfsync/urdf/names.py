@@ -91,10 +91,7 @@ def _hashed(name: str, kind: str, mark: str = "", digits: int = _DIGITS) -> str:
 
 
 def natural_key(name: str) -> tuple[tuple[int, int, str, str], ...]:
-    """Return a sort key in which `link10` follows `link9`; distinct names have distinct keys.
-
-    Numbers go before words. Numbers are sorted by value, then by leading zeros.
-    """
+    """Return a sort key in which `link10` follows `link9`; distinct names have distinct keys."""
     return tuple(
         (0, len(part.lstrip("0")), part.lstrip("0"), part) if "0" <= part[0] <= "9" else (1, 0, part, part)
         for part in _PARTS.findall(name)

@@ -77,10 +77,7 @@ class Options(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     motors: Mapping[str, str] = {}
     """Rows of the catalogue by URDF names of joints. The numbers of the row replace those of the source."""
     motor_columns: Annotated[Mapping[MotorNumber, str | tuple[str, ...]], _MOTOR_NUMBERS] = {}
-    """Columns of the catalogue for each number: the first filled column counts.
-
-    By default the column has the number's name.
-    """
+    """Columns of the catalogue for each number (default: its name); the first filled column counts."""
     frames: Literal["leaves", "all"] | tuple[str, ...] = "leaves"
     """URDF names of links with a frame in the robot model; leaf links always have a frame."""
     inputs: Literal["names", "vector"] = "names"
@@ -93,9 +90,6 @@ class Options(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
     @property
     def uses(self) -> tuple[tuple[str, str], ...]:
-        """The libraries of a package with these options, with versions.
-
-        Only the package approach needs a library of shapes.
-        """
+        """The libraries and their versions that a package with these options needs."""
         library = _VISUALIZER_USES.get(self.visualizer) if "package" in self.approach else None
         return (*USES, library) if library else USES

@@ -38,10 +38,7 @@ A real body has at most 1, but its shapes may be simplified.
 _MARKER = 0.002
 """In m: a smaller shape only marks a place, and the size of its body is unknown."""
 _UNKNOWN_GYRATION, _UNKNOWN_SIZE = 10, 0.5
-"""Greatest radius of gyration of a body of unknown size, in lengths of the robot.
-
-A robot counts as 0.5 m long at least.
-"""
+"""Greatest radius of gyration of a body of unknown size, in lengths of the robot, and the least length in m."""
 _FAR, _FAR_AWAY = 10, 2
 """A shape is too far from its link if its distance exceeds ten lengths of the robot and two metres."""
 _LONG_SLIDE, _LONGEST_SLIDE, _LONG_JOINT = 20, 5000, 50
@@ -133,10 +130,7 @@ def _check_shapes(link: Link, length: float) -> Iterator[Finding]:
 
 
 def _check_angles(path: str, origin: Origin) -> Iterator[Finding]:
-    """Check that an orientation is not in degrees.
-
-    Angles in degrees are whole numbers, and one is larger than a turn in rad.
-    """
+    """Check that an orientation is not in degrees, as whole numbers of more than a turn in rad would show."""
     widest = max(map(abs, origin.rpy))
     if math.tau < widest <= _TWO_TURNS_IN_DEGREES and all(angle.is_integer() for angle in origin.rpy):
         shown = " ".join(f"{angle:g}" for angle in origin.rpy)

@@ -44,17 +44,11 @@ class JointKind(msgspec.Struct, frozen=True):
     """The properties of a type of joint; `kinematics.poses.motion` has the motion itself."""
 
     does: str
-    """Its motion in words, for the documentation of generated models."""
+    """The motion in words, for the documentation of generated models."""
     motion: Motion | None = None
-    """Kind of motion of a joint with one degree of freedom.
-
-    Only such a joint has flanges, follows or leads another joint.
-    """
+    """Kind of motion of a joint with one degree of freedom; other joints have no flanges and no `mimic`."""
     has_axis: bool = False
-    """Whether the joint has an axis: only then damping and friction have an effect.
-
-    On a ball joint, only damping has an effect.
-    """
+    """Whether the joint has an axis: then damping and friction act. On a ball joint, only damping acts."""
     has_limits: bool = False
     """Whether the position of the joint has limits."""
 

@@ -37,7 +37,7 @@ def find_unsimulated(tree: KinematicTree, closed: Assembly, options: Options) ->
     for joint in tree.joints:
         if joint.type == "ball" and _has_massless_axis(tree, joint):
             message = f"joint '{joint.name}' is a ball and turns no inertia about an axis, so nothing determines its "
-            hint = "give a link behind it an <inertial> with an inertia about each axis"
+            hint = "give a link behind the ball an <inertial> with an inertia about each axis"
             yield Finding("passive-moves-no-mass", f"joint {joint.name}", f"{message}motion in Run and Test", hint)
 
 

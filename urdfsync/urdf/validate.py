@@ -237,10 +237,7 @@ def _check_names(kind: str, elements: Iterable[tuple[str, Link | Joint]]) -> Ite
 
 
 def check_loops(loops: Sequence[Loop], links: Collection[str]) -> Iterator[Finding]:
-    """Check that each loop has a unique name, frames on two existing links, and axes with directions.
-
-    A loop gets one finding at most.
-    """
+    """Check names, links and axes of loops. A loop gets one finding at most."""
     seen: dict[Loop, str] = {}
     for path, loop in zip(element_paths("loop", (loop.name for loop in loops)), loops, strict=True):
         same = msgspec.structs.replace(loop, name="")
@@ -284,10 +281,7 @@ def _with_paths(kind: str, elements: Sequence[_Element]) -> list[tuple[str, _Ele
 
 
 def unit_vector(axis: Vector) -> Vector:
-    """Return the unit vector along `axis`.
-
-    An axis of length 1 (up to 1e-12) is returned unchanged; a zero vector gives x.
-    """
+    """Return the unit vector along `axis`: x for a zero vector, `axis` itself if its length is 1 (up to 1e-12)."""
     largest = max(map(abs, axis))
     if largest == 0:
         return (1.0, 0.0, 0.0)
@@ -399,10 +393,7 @@ def principal_moments(inertia: Inertia) -> Vector:
 
 
 def _is_empty(geometry: Geometry) -> bool:
-    """Return whether a shape has no volume.
-
-    A sphere of radius 0 may be a contact point, and a negative scale mirrors a mesh.
-    """
+    """Return whether a shape is empty. A sphere may be a contact point; a negative scale mirrors a mesh."""
     match geometry:
         case Box(size=size):
             return min(size) <= 0

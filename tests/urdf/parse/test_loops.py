@@ -182,8 +182,8 @@ def test_two_configured_loops_of_one_name_are_one_error() -> None:
     (DRAKE.replace("body_B", "body_C"), "missing-element", "add it"),
     (GAZEBO.replace("<parent>rod</parent>", ""), "missing-element", "add it"),
     (GAZEBO.replace("<child>rocker</child>", "<child>rockr</child>"), "loop-of-no-link", "perhaps 'rocker' is meant"),
-    (GAZEBO.replace("<pose>", "<pose relative_to='rod'>"), "loop-joint", "the <pose> in the frame of link 'rocker'"),
-    (GAZEBO.replace("<xyz>", "<xyz expressed_in='__model__'>"), "loop-joint", "in the frame of link 'rocker'"),
+    (GAZEBO.replace("<pose>", "<pose relative_to='rod'>"), "loop-joint", "use the frame of link 'rocker'"),
+    (GAZEBO.replace("<xyz>", "<xyz expressed_in='__model__'>"), "loop-joint", "use the frame of link 'rocker'"),
     (LOOP_JOINT + LOOP_JOINT, "duplicate-loop", "rename or remove one loop"),
     (LOOP_JOINT + LOOP_JOINT.replace("closing", "again"), "loop-twice", "remove one of the two loops"),
 ])  # fmt: skip

@@ -116,10 +116,7 @@ def _rounded(value: float) -> str:
 
 
 def _lines(diagram: Diagram) -> Mapping[str, list[str]]:
-    """Return the paths of all lines by style.
-
-    Lines of one style are one path, so that a shared trunk is painted once.
-    """
+    """Return one path for all lines of a style, so that a shared trunk is painted once."""
     styles = defaultdict[str, list[str]](list)
     for (start, _), (kind, points) in diagram.lines.items():
         style = kind + (" support" if start.endswith(".support") else "")

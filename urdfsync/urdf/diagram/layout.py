@@ -24,7 +24,7 @@ mimic coupling stands above its follower; the line from the leader runs on a tra
 gear stands above the first joint. The line to the second joint runs on a track. A joint that closes a loop stands below
 all rows, in the column of its parent. The lines from its links run down on tracks.
 
-Lines consist of axis-parallel segments. All coordinates are even, y points upwards.
+Lines consist of axis-parallel segments. All coordinates are even; y points upwards.
 """
 
 from __future__ import annotations

@@ -216,7 +216,7 @@ def _assemble(tree: KinematicTree, wanted: frozenset[str], named: frozenset[str]
         if k not in driven:
             raise _singular(tree.loops[np.argmax(problem.moves[:, k])], f"joint {names[k]!r} is at a dead point")
     states = _with_others(freedom, driven)
-    kept += driven  # driven joints also keep starts of few digits
+    kept += driven  # driven joints also keep their starts, which have few digits
     exact = _with_others(freedom, [kept[k] for k in _independent([freedom[kept]])])
     free = np.array([k not in exact for k in range(len(names))])
     q = np.where(np.abs(closed - problem.start) > 1e-9, np.round(closed, 9), problem.start)
@@ -547,11 +547,7 @@ def _find_open(problem: _Problem, q: Array) -> Iterator[Finding]:
             f"{gap} apart ({starts[k]} at the start)"
         )
         names = [repr(problem.independent[j].name) for j in np.flatnonzero(is_outside & problem.moves[k])]
-        hint = (
-            "the loop closes only without the other loops of its joints: correct the frames of one loop"
-            if singles
-            else ""
-        )
+        hint = "the loop closes alone, but not with other loops: correct the frames of one loop" if singles else ""
         if names:
             hint = f"the loop closes beyond the limits of {', '.join(names)}: correct the limits, or its frames"
         yield Finding("loop-open", f"loop {loop.name}", message, hint)

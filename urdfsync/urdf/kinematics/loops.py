@@ -61,10 +61,7 @@ class Assembly(msgspec.Struct, frozen=True, kw_only=True):
     excess: tuple[str, ...] = ()
     """Joints that are named as drives but not driven, since other drives already move the loops."""
     reach: Mapping[str, float] = {}
-    """For each driven joint of a loop, the distance that Test moves it at most.
-
-    The loops stay closed if all move at once.
-    """
+    """The greatest motion of each driven joint in Test: the loops stay closed if all move at once."""
     closures: Mapping[str, Closure] = {}
     gaps: Mapping[str, Gap] = {}
     """The gap of each loop at the start of the source."""
@@ -73,10 +70,7 @@ class Assembly(msgspec.Struct, frozen=True, kw_only=True):
     choices: Mapping[str, str] = {}
     """Driven joints of loops with the reason for each choice, if neither source nor options name such joints."""
     faults: tuple[Finding, ...] = ()
-    """The reasons why the loops stay open.
-
-    With faults, the tree is unchanged, and only `driven` and `proposed` are set.
-    """
+    """The reasons why loops stay open: then only `tree` (unchanged), `driven` and `proposed` are set."""
     proposed: Mapping[str, float] = {}
     """If loops are singular at the start: nearby positions of joints without singular loops. May be empty."""
 
@@ -89,9 +83,7 @@ class Assembly(msgspec.Struct, frozen=True, kw_only=True):
 def find_loop_findings(closed: Assembly) -> Iterator[Finding]:
     """Yield the faults of loops, or the differences between their models and the source."""
     start = ", ".join(f"{json.dumps(name)} = {value:g}" for name, value in closed.proposed.items())
-    hint = (
-        f"let the loop's joints start elsewhere, as in `start = {{ {start} }}`" if 0 < len(closed.proposed) < 10 else ""
-    )
+    hint = f"let joints start elsewhere, as in `start = {{ {start} }}`" if 0 < len(closed.proposed) < 10 else ""
     yield from (fault._replace(hint=fault.hint or hint) for fault in closed.faults)
     for name, gap in closed.gaps.items():
         if max(gap.distance, gap.angle) > NOTABLE:

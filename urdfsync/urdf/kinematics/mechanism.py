@@ -162,10 +162,7 @@ def array_of(values: Any, dtype: type) -> Array:
 
 
 def _cross(a: Array, b: Array) -> Array:
-    """Return the vector products of rows.
-
-    `numpy.cross` takes five times as long, and took most of an assembly's time.
-    """
+    """Return the vector products of rows; `numpy.cross` took most of an assembly's time."""
     crossed: Array = a[:, [1, 2, 0]] * b[:, [2, 0, 1]] - a[:, [2, 0, 1]] * b[:, [1, 2, 0]]
     return crossed
 

@@ -34,10 +34,7 @@ def pose(origin: Origin) -> Pose:
 
 
 def roll_pitch_yaw(quaternion: Sequence[float]) -> Vector:
-    """Return the angles of a quaternion x, y, z, w of any length but zero.
-
-    The angles are precise even if pitch is ±π/2.
-    """
+    """Return the angles of a quaternion x, y, z, w of any length but zero, precise even at a pitch of ±π/2."""
     largest = max(map(abs, quaternion))  # without this, the squares of large numbers overflow
     length = math.hypot(*(value / largest for value in quaternion))
     x, y, z, w = (value / largest / length for value in quaternion)

@@ -58,9 +58,7 @@ class KinematicTree(msgspec.Struct, frozen=True):
         for joint in robot.joints:
             children[joint.parent].append(joint)
         for siblings in children.values():
-            siblings.sort(
-                key=lambda joint: natural_key(joint.name), reverse=True
-            )  # the pop below takes the last one first
+            siblings.sort(key=lambda joint: natural_key(joint.name), reverse=True)  # the pop takes the last first
         (root,) = links.keys() - {joint.child for joint in robot.joints}
         joints: list[Joint] = []
         waiting = list(children[root])

@@ -60,7 +60,7 @@ def collada_parts(
     etree.strip_elements(root, *(f"{{*}}{tag}" for tag in without), with_tail=False)
     _move_once_per_node(root)
     shapes = io.BytesIO(etree.tostring(root))
-    del root  # frees memory: pycollada builds another tree
+    del root  # frees memory: pycollada builds another tree.
     # `load_scene` would merge vertices and drop infinite triangles
     loaded = load_collada(shapes, ignore_broken=False)
     for node in loaded["graph"]:
@@ -99,7 +99,10 @@ def _leave_plain_colors(root: etree._Element, textures: Mapping[str, bytes]) -> 
 
 
 def _parse(content: bytes) -> etree._Element:
-    """Parse a document without comments. A document type is refused: its entities could grow without limit."""
+    """Parse a document, and leave out its comments.
+
+    A document type is refused: its entities could grow without limit.
+    """
     if b"<!DOCTYPE" in content:
         raise MeshError("the file has a document type declaration, which COLLADA does not allow")
     parser = etree.XMLParser(

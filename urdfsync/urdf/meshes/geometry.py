@@ -52,10 +52,7 @@ def placed(mesh: Triangles, pose: Array) -> Triangles:
 
 
 def joined(parts: Sequence[Triangles], most: float = MAX_TRIANGLES) -> Triangles:
-    """Return all triangles as one mesh.
-
-    Raises MeshError for no or too many triangles, and for a corner without a point.
-    """
+    """Return all triangles as one mesh. Raises MeshError for a wrong number of triangles, or a wrong index."""
     triangles = sum(len(part.faces) for part in parts)
     if not triangles:
         raise MeshError("the file has no triangles")
@@ -105,10 +102,7 @@ def binary_stl(mesh: Triangles) -> bytes:
 
 
 def stl_triangles(content: bytes) -> Triangles:
-    """Return the triangles of a binary STL file that have only finite numbers.
-
-    Raises MeshError without such triangles.
-    """
+    """Return the finite triangles of a binary STL file. Raises MeshError if no triangle is finite."""
     corners = np.frombuffer(content, dtype=_FACET, offset=len(_HEADER) + 4)["corners"].astype(np.float64)
     points = corners[np.isfinite(corners).all(axis=(1, 2))].reshape(-1, 3)
     return joined([Triangles(points, np.arange(len(points)).reshape(-1, 3))], math.inf)
@@ -175,10 +169,7 @@ def _nearly_extreme(points: Array, directions: Array, size: float) -> Array:
 
 
 def _corners(tied: Array, number: int, size: float) -> Array:
-    """Return those of the points tied along direction `number` that are extreme along another direction.
-
-    Of a further tie, return the two ends.
-    """
+    """Return the tied points that are extreme along another direction, too; of a further tie, both ends."""
     others, along = _DIRECTIONS[_CROSSING[number]], _NORMALS[number][_CROSSING[number]]
     tied = np.unique(_nearly_extreme(tied, others, size), axis=0)
     heights, positions = _products(tied, others), _products(tied, along)

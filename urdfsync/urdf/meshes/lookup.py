@@ -189,10 +189,7 @@ def dependencies(
 
 
 def _facts(shapes: Sequence[tuple[str, int, bool]], touches: bool) -> tuple[str, ...]:
-    """Return the names of the facts that a mesh needs.
-
-    `shapes` has for each shape its kind, its line, and whether it has the mesh's colours.
-    """
+    """Return the names of the facts of a mesh; each shape has its kind, its line, and whether it shows colours."""
     hull = (HULL,) if touches and any(kind == "collision" for kind, _, _ in shapes) else ()
     colored = [is_colored for _, _, is_colored in shapes]
     colors = (PARTS if all(colored) else COLORS, TEXTURED, COLORLESS) if any(colored) else ()

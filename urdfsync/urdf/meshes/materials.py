@@ -58,10 +58,7 @@ def effect_color(
 
 
 def _image(texture: etree._Element, effect: etree._Element, images: Mapping[str, etree._Element]) -> str:
-    """Return the path of a texture.
-
-    A texture names an image, or a sampler; a sampler names a surface, a surface an image.
-    """
+    """Return the path of a texture, which names an image directly or through a sampler and a surface."""
     parameters = {part.get("sid", ""): part for part in effect.iter("{*}newparam")}
     name = texture.get("texture", "")
     for path in ("{*}sampler2D/{*}source", "{*}surface/{*}init_from"):

@@ -30,10 +30,7 @@ _MOST_COLORS = 20
 _LONGEST, _NAMES = 60, 3
 """The most characters of a missing file's name in a warning, and the most names."""
 _FROM_Y_UP = np.array([[1, 0, 0, 0], [0, 0, -1, 0], [0, 1, 0, 0], [0, 0, 0, 1]], dtype=np.float64)
-"""In glTF, y points upwards.
-
-Drake, Blender and RViz (since 2025: ros2/rviz#1229) turn the mesh so that z points upwards.
-"""
+"""Turns glTF's upward y axis into z, as Drake, Blender and RViz (since 2025: ros2/rviz#1229) do."""
 _SOLID_LINE = re.compile(rb"^[ \t]*(?:end)?solid\b.*$", re.MULTILINE | re.IGNORECASE)
 
 

@@ -120,10 +120,7 @@ class Tables(msgspec.Struct, frozen=True):
 
 
 def obstacles(joints: Iterable[Joint]) -> list[Joint]:
-    """Return the planar, floating and ball joints.
-
-    The generic robot has no such joints: with them, a record has no tables.
-    """
+    """Return the planar, floating and ball joints: a record with such joints has no tables."""
     return [joint for joint in joints if joint.type not in MOTION_KINDS and joint.type != "fixed"]
 
 

@@ -86,10 +86,7 @@ def hull(geometry: Geometry, imports: Mapping[str, Import]) -> Sequence[Sequence
 
 
 def touching(link: Link, imports: Mapping[str, Import]) -> Iterator[tuple[Origin, _Body]]:
-    """Yield the collisions of a link that can touch the ground, with their poses.
-
-    A mesh is given by its outermost points.
-    """
+    """Yield the poses and shapes of collisions that can touch the ground; a mesh as its outermost points."""
     for shape in link.collisions:
         if not isinstance(shape.geometry, Mesh):
             yield shape.origin, shape.geometry

@@ -1,8 +1,10 @@
 """Adds the loops in a YAML beside a URDF to this URDF, as elements. `example-parallel-robots` has such files.
 
-    closed_loop: [[FRAME, FRAME], …] pairs of links type: [3d | 6d, …] a ball or a fixed joint for each pair name_mot:
-    [JOINT, …] the joints that have a motor joint_name: [JOINT, …] joints whose type URDF lacks, each with joint_type:
-    [SPHERICAL | UJOINT_XY | FIXED, …]
+    closed_loop: [[FRAME, FRAME], …]          pairs of links
+    type: [3d | 6d, …]                        a ball or a fixed joint for each pair
+    name_mot: [JOINT, …]                      the joints that have a motor
+    joint_name: [JOINT, …]                    joints whose type URDF lacks, each with
+    joint_type: [SPHERICAL | UJOINT_XY | FIXED, …]
 
 The elements go to the end of the URDF, so that all readers of the URDF see the elements and their lines. A joint of
 several axes becomes a chain of joints.
@@ -53,12 +55,7 @@ def join(content: bytes, other: bytes, file: str) -> tuple[bytes, Sequence[tuple
         document = _compose(other)
         elements = _bounded(_elements(document)) if document else []
         lines = "".join(f"\n{element}" for element, _ in elements).encode()
-    except (
-        yaml.YAMLError,
-        _LoopsError,
-        ValueError,
-        OverflowError,
-    ) as error:  # `\UFFFFFFFF` and `\uD800` raise the last two
+    except (yaml.YAMLError, _LoopsError, ValueError, OverflowError) as error:  # the last two for `\UFFFFFFFF`, `\uD800`
         mark = getattr(error, "problem_mark", None)
         line = mark.line + 1 if mark else other.count(b"\n", 0, other.find(_MARK)) + 1
         message = f"this is no list of loops: {getattr(error, 'problem', None) or error}"

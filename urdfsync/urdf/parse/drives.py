@@ -338,9 +338,7 @@ def _with_drives(reader: Reader, joint: Joint, drives: list[Drive]) -> Joint:
             if getattr(other, field) != getattr(stated[0], field):
                 message = f"joint {joint.name!r} has two {_KINDS[field]} that differ: "
                 message += f"that of {stated[0].path} counts, that of {other.path} does not"
-                hint = (
-                    "correct one of the two, or choose by `commands` in the configuration" if field == "command" else ""
-                )
+                hint = "correct one, or choose by `commands` in the configuration" if field == "command" else ""
                 reader.extend([Finding("drive-contradiction", other.path, message, hint)])
         return stated[0] if stated else None
 

@@ -49,7 +49,7 @@ _ONE_VALUE = {"parent": "link", "child": "link", "axis": "xyz", "mass": "value"}
 """Fields of numbers or text that URDF writes as child elements, each with the only attribute of its element."""
 _REPEATED = ("visual", "collision")
 _LENGTHS = {"xyz": 3, "rpy": 3, "quat_xyzw": 4}
-"""Vectors with their counts of numbers: an unknown attribute with this count may mean the vector."""
+"""Vectors that an unknown attribute with so many numbers may mean."""
 _POSE = 6
 _ELSEWHERE = ("transmission", "start", "motor")
 """Fields that other modules read."""
@@ -149,10 +149,7 @@ class Reader:
         return by_tag
 
     def keep(self, child: Element, path: str, tags: Collection[str], owner: str, *, moves: bool = False) -> None:
-        """Keep an element whose tag is none of `tags`.
-
-        Warn if the element would change the motion or looks misspelt.
-        """
+        """Keep an element whose tag is none of `tags`. Warn if it would change the motion or looks misspelt."""
         self.extensions.append((owner, child))
         mass = next((part for part in child.iter() if part.tag in _MASSES), None)
         if mass is not None:
@@ -356,9 +353,7 @@ def _moving_tags() -> frozenset[str]:
     return frozenset({*_schema(Joint)[1], *_schema(Inertial)[1], "pose"} - {"safety_controller", "calibration"})
 
 
-_alike = functools.lru_cache(maxsize=1024)(
-    perhaps
-)  # one call takes 0.1 ms, and a robot may have 10,000 unknown attributes
+_alike = functools.lru_cache(maxsize=1024)(perhaps)  # takes 0.1 ms; a robot may have 10,000 unknown attributes
 
 
 def _meant(count: int, absent: Sequence[str], attributes: Sequence[str]) -> str:

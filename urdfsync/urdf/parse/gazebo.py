@@ -60,7 +60,7 @@ def read_contacts(reader: Reader, root: Element) -> Mapping[str, Contact]:
                 reader.add(element, "bad-contact", message)
             elif numbers.setdefault(field, number) != number:
                 message = (
-                    f"link {name}: {field} {number:g} contradicts the first value, {numbers[field]:g}, which counts"
+                    f"link {name}: {field} {number:g} contradicts {numbers[field]:g}, the first value, which counts"
                 )
                 reader.add(element, "duplicate-element", message)
     return {name: Contact(**numbers) for name, numbers in contacts.items() if numbers}

@@ -96,9 +96,7 @@ def tell_foreign_loops(reader: Reader, root: Element, options: Options) -> None:
                 message = (
                     f"{words} joins links {' and '.join(map(repr, sorted(pair)))} in a form that urdfsync does not read"
                 )
-                hint = (
-                    'state the loop in `loops` of the configuration, or leave the loop out by `allow = ["loop-joint"]`'
-                )
+                hint = 'state the loop in `loops` of the configuration, or leave it out by `allow = ["loop-joint"]`'
                 reader.add(part, "loop-joint", message, hint)
 
 
@@ -284,10 +282,7 @@ def _read_joint(
         part = reader.find(element, tag)
         frame = child if part is None else part.get(attribute) or child
         if kind and child and frame != child:
-            message, hint = (
-                f"{path} has its <{tag}> in the frame {frame!r}",
-                f"write the <{tag}> in the frame of link {child!r}",
-            )
+            message, hint = f"{path} has its <{tag}> in the frame {frame!r}", f"use the frame of link {child!r}"
             reader.add(element, "loop-joint", message, hint)
             kind = None
     numbers = reader.numbers(element, ["pose"], path, "bad-number", 6) or (0.0,) * 6

@@ -76,9 +76,7 @@ def read_robot(content: bytes, file: str, options: Options = _DEFAULTS, balls: S
     if robot is None or reader.failed:
         return RobotReading(None, diagnostics, reader.lines)
     if held := [] if balls else _balls_in_loops(robot):
-        reading = read_robot(
-            content, file, options, held
-        )  # only the loops of the first reading tell which balls to split
+        reading = read_robot(content, file, options, held)  # the first reading finds the balls to split
         told = [entry for entry in diagnostics if entry.code in ("limit-without-effect", "dynamics-without-effect")]
         for name in held:
             message = f"joint {name!r} is a ball in a loop: three continuous joints stand for it"

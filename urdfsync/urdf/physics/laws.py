@@ -29,10 +29,7 @@ _DEFAULTS = {
 _BRISTLE_TIME = 1e-3  # s
 _ENDLESS = 1e15
 _BREAKAWAY = 1.5
-"""Ratio of the effort that breaks a joint loose to the dry friction.
-
-The default of packages is 1, which would hide faults.
-"""
+"""The dry friction, times this, breaks a joint loose. The default of packages, 1, would hide faults."""
 _RUN = "saturated drive in Run"
 
 

@@ -39,10 +39,7 @@ class Course(NamedTuple):
         return Course(position, self.speed + self.acceleration * time, self.acceleration)
 
     def way_to(self, goal: Course) -> tuple[float, ...]:
-        """Return the coefficients of a polynomial in the time since the instant.
-
-        The polynomial reaches the goal after 1 s.
-        """
+        """Return the coefficients of a polynomial in the time since the instant; it reaches `goal` after 1 s."""
         d, v, a = (there - left for there, left in zip(goal, self.ahead(1.0), strict=True))
         parabola = self.position, self.speed, self.acceleration / 2
         return *parabola, 10 * d - 4 * v + a / 2, 7 * v - 15 * d - a, 6 * d - 3 * v + a / 2

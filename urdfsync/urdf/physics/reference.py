@@ -103,10 +103,7 @@ def read(content: bytes, file: str, loose: Collection[str] = ()) -> PinocchioRob
 
 
 def _with_balls(pin: Any, model: Any, balls: Collection[str]) -> Any:
-    """Return a model with ball joints instead of the hinges `balls`.
-
-    Each ball joint has the hinge's damping about every axis.
-    """
+    """Return a model with ball joints instead of the hinges `balls`, with the same damping about each axis."""
     changed = pin.Model()
     for k in range(1, model.njoints):
         name, old = model.names[k], model.joints[k]

@@ -265,10 +265,7 @@ class _Comparison:
         return {name: position(name) for name in joints}
 
     def _starts(self, file: str) -> None:
-        """Compare the start positions of joints.
-
-        Joints in loops must close the loops; other joints start as the source says.
-        """
+        """Compare the start positions of joints. Joints in loops must close the loops."""
         values, gap = {value.path: value for value in self.values.get(file, ())}, 0.0
         model = self.classes.statements(f"{self.name}.mo") if f"{self.name}.mo" in self.read else {}
         placed = poses(self.reading, self._positions()) if self.reading.loops else {}

@@ -14,7 +14,7 @@ OUTPUTS = {"imu": "aw", "accelerometer": "a", "gyroscope": "w", "force_torque": 
 UNITS = {"a": '"m/s2"', "w": '"rad/s"', "f": '"N"', "t": '"N.m"'}
 """Units of the outputs of sensors."""
 SURFACE = {"kp": "stiffness", "kd": "viscosity", "mu": "friction", "minDepth": "minDepth"}
-"""Parameters of contacts by the names of the links' numbers."""
+"""Names of a contact's parameters, by the names of numbers in the link's record."""
 
 ROBOT = "extends = UrdfSync.Robots.Partial{Base}Robot; m = {masses}; type of m = finalparameterModelica.Units.SI.Mass"
 LINK = "type of {c} = replaceableLinks.{C}; {c}.animation = animation; {c}.showCollisions = showCollisions"

@@ -99,10 +99,7 @@ class Element(msgspec.Struct):
     shares: str = ""
     """Another joint that the joint's motor turns."""
     axes: tuple[Any, ...] = ()
-    """The axes of a loop.
-
-    For a force-torque sensor two flags: axes of the parent, and measuring from parent to child.
-    """
+    """The axes of a loop, or two flags of a force-torque sensor: axes of the parent, measures parent to child."""
 
     def put(self, path: str, value: Any, at: Any) -> None:
         """Store a value with the line of an XML element. A single number becomes a tuple."""
