@@ -182,7 +182,7 @@ def _read_xlsx(content: bytes, file: str) -> tuple[Sheet, Sheet]:
                 books.append(openpyxl.load_workbook(io.BytesIO(content), data_only=computed))
             except Exception as error:  # noqa: BLE001 - openpyxl may raise any error for a damaged file
                 message = f"this is no workbook: {error}"
-                raise SourceError.of("table-file", message, file, hint="save it as .xlsx again") from None
+                raise SourceError.of("table-file", message, file, hint="save the workbook as .xlsx again") from None
     values, formulas = books
     names = values.sheetnames
     named = {name.lower(): name for name in names}
@@ -242,7 +242,7 @@ def _decode(content: bytes, file: str, first: int = 0) -> str:
         return content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         line = first + error.object.count(b"\n", 0, error.start) + 1
-        message, hint = "the file is not UTF-8", "save it as UTF-8, then try again"
+        message, hint = "the file is not UTF-8", "save the file as UTF-8, then try again"
         raise SourceError.of("table-file", message, file, line, hint=hint) from None
 
 

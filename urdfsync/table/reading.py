@@ -92,7 +92,7 @@ class _Reader:
         for number, cell in enumerate(sheet.header):
             name, unit = name_and_unit(cell)
             if not name or not name.isprintable():
-                self._error("no-column", f"column {number + 1} has no name", 1, "name it in the header")
+                self._error("no-column", f"column {number + 1} has no name", 1, "name the column in the header")
             elif name in (column.name for column in columns):
                 self._error("no-column", f"there are two columns `{name}`", 1, "rename one")
             if name in texts and unit not in ("", "text"):

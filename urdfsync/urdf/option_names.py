@@ -124,7 +124,7 @@ def _check_laws(joints: Sequence[Joint], options: Options) -> Iterator[tuple[str
             faults.append(("friction", "has no dry friction", hint))
         elif law == "stiction" and is_driven and not is_elastic:
             faults.append(
-                ("friction", "sticks while Test prescribes its motion", 'add it to `elastic`, or choose "lugre"')
+                ("friction", "sticks while Test prescribes its motion", 'add the joint to `elastic`, or take "lugre"')
             )
         if is_elastic and by_effort and not reflected_inertia(joint):
             hint = "give the joint an armature or a rotor, or take the joint out of `elastic`"

@@ -105,7 +105,7 @@ _ERRORS = {
 _WARNINGS = {
     # the file
     "xml-declaration": 'begin the file with <?xml version="1.0" encoding="UTF-8"?>',
-    "xacro-leftover": "expand this file with xacro, if no xacro made it",
+    "xacro-leftover": "expand this file with xacro, unless xacro wrote it",
     # elements and attributes
     "missing-name": 'write <robot name="…">',
     "duplicate-element": "remove the others",

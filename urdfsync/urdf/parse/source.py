@@ -79,7 +79,7 @@ def read_robot(content: bytes, file: str, options: Options = _DEFAULTS, balls: S
         reading = read_robot(content, file, options, held)  # the first reading finds the balls to split
         told = [entry for entry in diagnostics if entry.code in ("limit-without-effect", "dynamics-without-effect")]
         for name in held:
-            message = f"joint {name!r} is a ball in a loop: three continuous joints stand for it"
+            message = f"joint {name!r} is a ball in a loop: three continuous joints replace the ball"
             told.append(validate.diagnostic("loop-ball", message, reader.lines[f"joint {name}"]))
         return reading._replace(diagnostics=summary([*told, *reading.diagnostics], file))
     return RobotReading(robot, diagnostics, reader.lines, summary(_note_unmodelled(reader), file))

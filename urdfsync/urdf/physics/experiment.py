@@ -59,7 +59,7 @@ def experiment(sample: Sample, step: float | None = None) -> Experiment | str:
         try:
             subject = Subject(msgspec.structs.replace(sample, content=completed, options=simplified), tree)
         except OpenLoopError:
-            return "Pinocchio can't close its loops at the start or near it"
+            return "Pinocchio can't close the loops of the robot at or near the start"
         for approach in options.approach:
             if approach == "package" or has_record:
                 trials += _trials(subject, approach, step)

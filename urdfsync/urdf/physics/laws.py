@@ -29,7 +29,7 @@ _DEFAULTS = {
 _BRISTLE_TIME = 1e-3  # s
 _ENDLESS = 1e15
 _BREAKAWAY = 1.5
-"""The dry friction, times this, breaks a joint loose. The default of packages, 1, would hide faults."""
+"""This multiple of the dry friction breaks a joint loose. The default of packages, 1, would hide faults."""
 _RUN = "saturated drive in Run"
 
 
