@@ -103,7 +103,7 @@ def test_types_and_units_may_stand_in_the_configuration() -> None:
         ("name,n [integer]\na,2.5\n", "parts.csv:2: error: column `n`: 2.5 is no integer"),
         ("name,is [boolean]\na,yes\n", "parts.csv:2: error: column `is`: `yes` is neither true nor false"),
         ("name,mass [kg],mass [g]\na,1,2\n", "parts.csv:1: error: there are two columns `mass`; rename one"),
-        ("name,\na,1\n", "parts.csv:1: error: column 2 has no name; name it in the header"),
+        ("name,\na,1\n", "parts.csv:1: error: column 2 has no name; name the column in the header"),
         (HEADER + '"a,1\n', "parts.csv:2: error: this is no CSV"),
         (HEADER.encode() + b"\xe4,1\n", "parts.csv:2: error: the file is not UTF-8"),
         ("", "parts.csv: error: the table has no rows"),
