@@ -393,8 +393,8 @@ def _motions(count: int, number: int = 4) -> list[Array]:
 def _closed_near(problem: _Problem, drives: Sequence[int]) -> tuple[Array, list[int]]:
     """Return a closed pose near the start, and the joints that stay exactly at their starts.
 
-    Of the joints with a given start, as many as possible stay. Other driven joints stay if the loops can be closed
-    nearby. Raises an error for loops that cannot be closed.
+    As many joints as possible keep their given starts. Other driven joints stay if the loops can be closed nearby.
+    Raises an error for loops that cannot be closed.
     """
     q, kept, faults = problem.start.copy(), list[int](), list[Finding]()
     for part, columns in problem.parts(np.zeros(len(q), bool)):

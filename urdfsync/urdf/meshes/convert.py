@@ -50,8 +50,8 @@ def convert(dependency: Dependency, file: Path, content: bytes, others: Mapping[
 def triangles(path: str, content: bytes, key: str, most: int) -> Triangles | str:
     """Return about `most` triangles of a mesh without its scale, or the reason why the mesh can't be read.
 
-    The mesh is the imported file at `path`, to which the scale in `key` is applied. Without a path, the mesh is the
-    file of the source.
+    The mesh is the imported file at `path`, to which the scale in `key` is applied. Without a path, `content` is the
+    file that the URDF names.
     """
     mesh = lookup.mesh(key)
     scale = [1 / factor if path and factor else 1.0 for factor in mesh.scale]

@@ -18,7 +18,7 @@ if sys.platform != "win32":
     import resource
 
 _UNUSED = ("PIL", "httpx", "networkx", "rtree", "scipy", "shapely")
-"""Optional imports of trimesh that no mesh needs: half a second, and 60 MB."""
+"""Optional imports of trimesh that no mesh needs: they would take half a second and 60 MB."""
 _GROWN = 200_000_000
 """A process with more allocated bytes reads no further mesh; its libraries take 70 MB."""
 
@@ -39,7 +39,7 @@ def main() -> None:
 
 
 def _answer(request: Request, content: bytes, others: Mapping[str, bytes]) -> tuple[Answer, list[bytes]]:
-    # imports of numpy and trimesh: after `main` has blocked unused packages, before the limits are set
+    # these imports come after `main` has blocked unused packages, and before limits are set
     from urdfsync.urdf.meshes import geometry, simplify
 
     is_plain = bool(request.most) and request.suffix == ".stl" and is_binary_stl(content)
