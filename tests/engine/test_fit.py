@@ -73,7 +73,7 @@ BROKEN: dict[str, tuple[Callable[[Execute], object], str]] = {
     ),
     "another kind of class": (lambda _: edit(ELBOW, "model Elbow", "function Elbow"), "but used as `model`"),
     "a class with two files": (make_folder, "`Elbow` has two files, this one and Joints/Elbow/package.mo"),
-    "package.order": (lambda _: edit(ARM / "package.order", "Arm\n", "Arm\nNosuch\n"), "`Nosuch` is named, but is no"),
+    "package.order": (lambda _: edit(ARM / "package.order", "Arm\n", "Arm\nNosuch\n"), "`Nosuch` is named, but the"),
 }
 
 
