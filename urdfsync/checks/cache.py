@@ -1,7 +1,4 @@
-"""The user's cache folder: copies of libraries, the compiler's own cache, results.
-
-Everything in it can be made again. Entries that were used longest ago are deleted first.
-"""
+"""The user's cache folder: copies of libraries, the compiler's own cache, results; all can be made again."""
 
 from __future__ import annotations
 
@@ -26,9 +23,9 @@ T = TypeVar("T")
 
 LIMIT = 2**30
 """The most bytes on disk that the cache takes: 1 GiB."""
-_FULL, _AFTER = 0.75, 0.5  # parts of the limit: a cache fuller than the first is emptied to the second
+_FULL, _AFTER = 0.75, 0.5  # of the limit: a cache above 75 % of it is emptied to 50 %
 _IN_USE = 3600.0
-"""A check may still use a copy of a library that was used within so many seconds."""
+"""Seconds for which a used copy of a library is kept: a check may still read it."""
 
 _ACCESS = ".rumoca-access"  # suffix of the file in which the compiler notes the last use of another file
 
@@ -43,7 +40,7 @@ def digest(*facts: object) -> str:
 
 
 class UserCache:
-    """The cache in a folder, which need not exist; `UserCache.default` is this user's."""
+    """The cache in a folder, which need not exist; `UserCache.default` returns the user's own."""
 
     def __init__(self, folder: Path) -> None:
         self.folder, self.libraries = folder, folder / "libraries"
@@ -78,9 +75,9 @@ class UserCache:
             put(self.results / key, msgspec.msgpack.encode(value))  # JSON has no infinite numbers
 
     def trim(self, limit: int = LIMIT) -> int:
-        """Delete entries that were used longest ago, if the cache comes near the limit. Returns the freed bytes.
+        """Delete the least recently used entries, if the cache comes near the limit. Returns the freed bytes.
 
-        Copies of libraries that a check may use stay. So do entries that can't be deleted now.
+        Keeps copies of libraries that a check may use, and entries that can't be deleted now.
         """
         entries = sorted(self._entries())
         total, freed, now = sum(size for _, _, size in entries), 0, time.time()
@@ -93,7 +90,7 @@ class UserCache:
                 if path.is_symlink() or not path.is_dir():
                     path.unlink()
                 else:
-                    aside = path.with_name(f"old-{uuid.uuid4().hex}")  # no process may find half of it
+                    aside = path.with_name(f"old-{uuid.uuid4().hex}")  # no process may find half of the entry
                     path.rename(aside)
                     shutil.rmtree(aside, ignore_errors=True)
                 freed += size
@@ -102,7 +99,7 @@ class UserCache:
     def _entries(self) -> Iterator[tuple[float, str, int]]:
         """Yield each entry that is deleted as a whole: the time of its last use, its path, its bytes on disk.
 
-        Entries are the files and folders in our folders, and each file of the compiler except its locks.
+        Entries are the files and folders in urdfsync's folders, and each file of the compiler except its locks.
         """
         for folder in (self.libraries, self.results, self.compiler):
             if folder.is_symlink():
@@ -112,7 +109,7 @@ class UserCache:
                     names = [name for name in files if not name.startswith(".")]
                 else:
                     names, folders[:] = [*files, *folders], []
-                found = dict[str, os.stat_result]()  # one stat for each: the compiler leaves tens of thousands
+                found = dict[str, os.stat_result]()  # one stat a file: the compiler leaves tens of thousands
                 for name in names:
                     with contextlib.suppress(OSError):  # it was deleted
                         found[name] = os.lstat(f"{current}/{name}")

@@ -85,7 +85,7 @@ class Compilation:
         self.diagnostics: list[Diagnostic] = []
         self.gaps: list[str] = []
         self.generated: Mapping[str, Series] = {}
-        """The simulations of the generated package by the names of trials, completed for the comparison."""
+        """The simulations of the generated package with completed data, by the names of trials."""
         self.edited: Mapping[str, Series] = {}
         """The simulations of the package on disk, if it is edited."""
 
@@ -96,7 +96,7 @@ class Compilation:
         done = self._run_all({**models, **(self._versions(experiment) if experiment else {})})
         failing = {task.title for label, job in models.items() for task in _failing(job, done[label])}
         alone = [part for part, whole in self._parts.items() if whole in failing]
-        if alone:  # the fault may lie in the part
+        if alone:  # the fault may lie in the component
             models["parts"] = self._package.files.texts, self._tasks(alone)
             done |= self._run_all({"parts": models["parts"]})
         self._note_models(models, done)
@@ -104,7 +104,7 @@ class Compilation:
             self._compare(experiment, done)
 
     def _versions(self, experiment: Experiment) -> dict[str, _Job]:
-        """Return jobs that move the generated package and the edited one, and each edit of the user by itself."""
+        """Return jobs that simulate the generated package, the edited one, and packages with one edit each."""
         package = self._package
         move = [_task(trial) for trial in experiment.trials]
         amended = experiment.content, experiment.options
@@ -156,7 +156,7 @@ class Compilation:
         )
 
     def _laws(self, experiment: Experiment, done: Mapping[str, Sequence[CompileResult]]) -> Sequence[Deviation]:
-        """Return the differences of laws that no other trial moves. A failed simulation is a gap."""
+        """Return the deviations from laws that the other trials do not exercise. A failed simulation is a gap."""
         if not experiment.laws:
             return ()
         motions, faults = self._motions(done["laws"], [experiment.laws])
@@ -181,7 +181,7 @@ class Compilation:
 
     @cached_property
     def _parts(self) -> Mapping[str, str]:
-        """For each model that compiles as a component of another one: the other model, which is unedited. Both by name.
+        """For the name of each model that an unedited model has as a component: the name of the unedited model.
 
         A six-axis arm alone takes as long to compile as Test, which contains it.
         """
@@ -221,7 +221,7 @@ class Compilation:
         self.result.compiled = tuple(sorted(compiled, key=lambda model: order.index(model.model)))
         parts = {part for model in compiled if model.is_users for part in users.uses.get(users.files[model.model], ())}
         for model, faults in failing.items():
-            if users.files[model] not in parts:  # else it has compiled as a part of another model
+            if users.files[model] not in parts:  # else it has compiled as a component of another model
                 self.diagnostics += map(_as_part, faults)
                 self.result.failing += (model,)
 
@@ -291,8 +291,8 @@ def _task(trial: Trial) -> CompileTask:
 
 
 def _as_part(finding: Diagnostic) -> Diagnostic:
-    """Turn an error of a user's model into a warning: the model may be a part of others."""
-    hint = "; ".join(filter(None, (finding.hint, "a part of other models need not compile by itself")))
+    """Turn an error of a user's model into a warning: the model may be a component of other models."""
+    hint = "; ".join(filter(None, (finding.hint, "a component of other models need not compile by itself")))
     return msgspec.structs.replace(finding, severity=Severity.WARNING, hint=hint)
 
 
@@ -358,7 +358,7 @@ def edit_effects(
 ) -> Iterator[EditEffect]:
     """Yield the effect of each edited file by itself, if possible; the other files share the remaining effect.
 
-    Deviations are from the generated package: `whole` of the package on disk, `single` of packages with one edit each.
+    `whole` has the deviations of the package on disk from the generated one, `single` those of packages with one edit.
     """
 
     def effect(files: Sequence[str], deviations: Sequence[Deviation]) -> EditEffect:
@@ -377,7 +377,7 @@ def edit_effects(
 
 
 def explain(problem: str, compiler: Compiler, package: PackageTexts, file: Path | None = None) -> list[Diagnostic]:
-    """Return findings for a compiler's text about a model, with the user's files in place of the copies.
+    """Return the findings in a compiler's text about a model; they name the user's files, not the copies.
 
     `file` is the file of a user's model.
     """
@@ -385,7 +385,7 @@ def explain(problem: str, compiler: Compiler, package: PackageTexts, file: Path 
     if (balance := _BALANCE.search(problem)) and balance[1] != balance[2]:
         equations, unknowns = (int(number.replace(",", "")) for number in balance.groups())
         lacking = abs(equations - unknowns)
-        # without the model's name: the models around it lack as many equations, and the message is shown once
+        # without the model's name: the models that contain it lack as many equations, and the message is shown once
         message = f"there {'is' if lacking == 1 else 'are'} {counted(lacking, 'equation')} too "
         message += "many" if equations > unknowns else "few"
         return [_diagnostic(Complaint(message, users_file), package, "unbalanced")]
@@ -398,7 +398,7 @@ def explain(problem: str, compiler: Compiler, package: PackageTexts, file: Path 
 
 
 def explain_warnings(text: str, compiler: Compiler, package: PackageTexts) -> list[Diagnostic]:
-    """Return warnings for a compiler's text about a model that compiles; only those about files of the package."""
+    """Return the warnings in a compiler's text about a model that compiles; only those about files of the package."""
     complaints = dict.fromkeys(compiler.complaints(text))
     own = [complaint for complaint in complaints if Path(complaint.file).is_relative_to(package.folder)]
     findings = [_diagnostic(complaint, package, complaint.code) for complaint in own]
@@ -406,7 +406,7 @@ def explain_warnings(text: str, compiler: Compiler, package: PackageTexts) -> li
 
 
 def _diagnostic(complaint: Complaint, package: PackageTexts, code: str) -> Diagnostic:
-    """Return the finding of a complaint. If the compiler gives no place, the edited file is the likely one."""
+    """Return a compiler's complaint as a finding. If the compiler gives no place, the edited file is the likely one."""
     file, message = Path(complaint.file), complaint.message.removesuffix(".")
     message = message if len(message) <= _LONGEST_MESSAGE else f"{message[: _LONGEST_MESSAGE - 1]}…"
     edited = [shown(package.folder / path) for path in sorted(package.edited)]

@@ -1,6 +1,6 @@
 """The contents of packages, libraries and programs: read, copied for compilers, hashed for the keys of results.
 
-A library may be a stranger's. So links out of it or to folders are refused, and a copy has a limit.
+A library may be a stranger's. So links to folders or out of the library are refused, and a copy has a limit.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ _BLOCK = 4096
 def content_hash(root: Path, without: Collection[str] = ()) -> str:
     """Return the SHA-256 (hex) over a file, or over the names and contents of all files below a folder.
 
-    Left out are hidden files, Python's caches, and files and folders with one of the names `without`. An unreadable
+    Ignores hidden files, Python's caches, and files and folders with one of the names `without`. An unreadable
     file counts as empty: a compiler can't read it either. Raises UrdfsyncError for a symbolic link to a folder,
     or to a file outside of `root`.
     """
@@ -95,7 +95,7 @@ def _refusal(path: Path, message: str, hint: str) -> UrdfsyncError:
 
 
 def package_texts(folder: Path, top: Path | None = None, without: Collection[Path] = ()) -> dict[str, bytes]:
-    """Read the Modelica files of a package and its subpackages, by their path below `top`, or below `folder` for None.
+    """Read the Modelica files of a package and its subpackages, by their path below `top`, by default `folder`.
 
     Folders in `without` are left out. Only regular files and links to them count: a pipe must not be opened, and links
     to folders may go in circles. Raises OutputError for a file or a folder that can't be read.
@@ -107,7 +107,7 @@ def package_texts(folder: Path, top: Path | None = None, without: Collection[Pat
             folders[:] = [name for name in visible if Path(place, name) not in without]
             for path in [Path(place, name) for name in sorted(names) if not name.startswith(".")]:  # left by editors
                 if (path.suffix == ".mo" or path.name == "package.order") and path.is_file():
-                    with contextlib.suppress(FileNotFoundError):  # it was deleted meanwhile
+                    with contextlib.suppress(FileNotFoundError):  # the file was deleted meanwhile
                         texts[path.relative_to(top or folder).as_posix()] = read_unrecorded(path)
     except OSError as error:
         message = f"the package can't be read: {error.strerror or error}"

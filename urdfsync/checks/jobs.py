@@ -31,7 +31,7 @@ class Jobs(msgspec.Struct, frozen=True):
     """See `package.files_around`."""
     limits: Limits
     folder: Path
-    """Copies of the package go below it."""
+    """The folder for copies of the package."""
     progress: Callable[[], None] | None = None
     """See `process.run`."""
 
@@ -54,7 +54,7 @@ class Jobs(msgspec.Struct, frozen=True):
         needed = {**({LIBRARY: own} if own else {}), **self.needed.others}
         top, copied = write_package(folder, self.robot, texts, around), dict[str, Path]()
         originals = dict[str, Path]()
-        """The user's folders and files, by their copies."""
+        """For each copied folder or file, the user's original."""
         roots = list[str]()
         if not compilers.COMPILERS[self.tool.name].HAS_STANDARD_LIBRARY:
             copied = dict(self.needed.standard)
@@ -79,7 +79,7 @@ class Jobs(msgspec.Struct, frozen=True):
 
 
 def _with_imports(task: CompileTask, names: Iterable[str]) -> CompileTask:
-    """Import libraries below the first line of a task's text: rumoca loads only imported ones."""
+    """Import libraries below the first line of a task's text: rumoca loads no others."""
     first, _, rest = task.source.partition("\n")
     imports = "".join(f"  import {name};\n" for name in names if f"import {name};" not in rest)
     return msgspec.structs.replace(task, source=f"{first}\n{imports}{rest}")
@@ -110,7 +110,7 @@ def _in_original(library: str, original: Path, place: re.Match[str]) -> str:
 
 
 def _readable(path: Path, folder: Path, changed: Mapping[Path, bytes]) -> str:
-    """Return a library's path for the compiler: a copy's if the path is not UTF-8, or if a file has changed."""
+    """Return a library's path for the compiler: that of a copy if the path is not UTF-8, or if a file has changed."""
     inside = {file: content for file, content in changed.items() if file == path or path in file.parents}
     try:
         str(path).encode()

@@ -1,4 +1,4 @@
-"""Finds the Modelica libraries that a package needs, and copies those of their classes that it names."""
+"""Finds the Modelica libraries that a package needs, and copies the classes that the package names."""
 
 from __future__ import annotations
 
@@ -22,10 +22,10 @@ from urdfsync.modelica.names import LIBRARY, STANDARD_LIBRARIES
 
 Version: TypeAlias = tuple[int, ...]
 
-OLDEST: Version = (4, 1)  # the oldest that the embedded compiler accepts
+OLDEST: Version = (4, 1)  # the embedded compiler accepts no older ones
 NEXT: Version = (5,)  # newer versions are untested, and used only if there is no other
 
-_COPY_REVISION = 7  # to be raised when libraries are taken apart in another way
+_COPY_REVISION = 7  # raise it when libraries are taken apart in another way
 
 _ANNOTATED_VERSION = re.compile(r'(?:^|,|\bannotation\s*\()\s*version\s*=\s*"(\d+(?:\.\d+)*)', re.MULTILINE)
 _NOISE = re.compile(rb'"(?:\\.|[^"\\])*"|//[^\n]*|/\*.*?\*/', re.DOTALL)
@@ -37,7 +37,7 @@ _HINT = (
 
 
 def find_standard_library(configured: Path | None = None) -> Mapping[str, Path]:
-    """Find the Modelica Standard Library: in the configured folder, else in the first folder with one that suits.
+    """Find the Modelica Standard Library: in the configured folder, else in the first folder with a suitable version.
 
     Returns its three libraries by their names: each a folder with a `package.mo`, or a file. Raises UrdfsyncError.
     """
@@ -45,7 +45,7 @@ def find_standard_library(configured: Path | None = None) -> Mapping[str, Path]:
     for place in [configured] if configured else library_folders():
         for version, path in _versions(place, "Modelica"):
             parts = {"Modelica": path}
-            for name in STANDARD_LIBRARIES[1:]:  # of the same version, else the newest
+            for name in STANDARD_LIBRARIES[1:]:  # take the part of the same version, else the newest
                 others = _versions(place, name)
                 if others:
                     parts[name] = dict(others).get(version, others[0][1])
@@ -92,7 +92,7 @@ def find_library(name: str, places: Iterable[Path]) -> Path | None:
 def class_finder(package: str, standard: Mapping[str, Path], places: Sequence[Path]) -> Callable[[str], Path | None]:
     """Return a function that finds the folder or file of a top-level class outside of a robot's package.
 
-    Of the Modelica Standard Library it finds only the parts in `standard`.
+    Of the Modelica Standard Library, the function finds only the parts in `standard`.
     """
 
     def find(name: str) -> Path | None:
@@ -133,7 +133,7 @@ def needed_libraries(
 ) -> dict[str, Path]:
     """Find the libraries in `places` that texts of the top-level package `top` need.
 
-    These are the libraries that the texts name, the `wanted` ones, and those that these libraries name in turn.
+    These are the `wanted` libraries, those that the texts name, and those that such a library names.
 
     A text names a library in an import, or by a name that begins with the library's name and a dot. The Modelica
     Standard Library and UrdfSync are left out. Raises OutputError for an unreadable library.
@@ -158,7 +158,7 @@ def library_texts(path: Path) -> Mapping[str, bytes]:
 
 
 def copy_named(parts: Mapping[str, Path], texts: Iterable[bytes], cache: UserCache) -> Path:
-    """Return a folder with a file for each library: the classes that `texts` name, and those that these need.
+    """Return a folder with a file for each library: the classes that `texts` name, and the classes that these need.
 
     Small copies save time, since the compiler goes through all libraries for each model. An unchanged library is taken
     apart only once.
@@ -181,7 +181,7 @@ def copy_named(parts: Mapping[str, Path], texts: Iterable[bytes], cache: UserCac
                 except OSError:
                     if not target.is_dir():  # else another process was faster
                         raise
-        os.utime(target)  # so the cache keeps it
+        os.utime(target)  # the cache deletes the least recently used folders
     return target
 
 
@@ -195,7 +195,7 @@ def _pieces(name: str, path: Path, cache: UserCache) -> Library:
 
 
 def _versions(place: Path, name: str) -> list[tuple[Version, Path]]:
-    """Return all versions of a library in a folder, the newest first, one without a known version last."""
+    """Return all versions of a library in a folder, the newest first, an unknown version last."""
     versions = []
     for path in _entries(place):
         stem = path.name.removesuffix(".mo")

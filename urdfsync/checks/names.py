@@ -32,7 +32,7 @@ class NameCheck(NamedTuple):
     users_files: Mapping[Path, bytes]
     """The user's files that use the package: they name a class of the package, or of another such file."""
     uses: Mapping[Path, Set[Path]]
-    """For each file of the user, the files whose classes it names."""
+    """For each of the user's files, the files whose classes it names."""
 
 
 def check_names(package: RobotPackage, standard: Mapping[str, Path]) -> NameCheck:
@@ -52,8 +52,8 @@ def check_names(package: RobotPackage, standard: Mapping[str, Path]) -> NameChec
     for name, definition in sources.users.items():
         if (path := Path(definition.file)) in package.users_files:
             sources.seen.clear()
-            scopes = Scopes(sources)  # new scopes: old ones remember resolved names
-            if (node := scopes.node(name)) is None:  # there is no such package
+            scopes = Scopes(sources)  # new scopes: used scopes remember resolved names
+            if (node := scopes.node(name)) is None:  # no package has that name
                 unplaced.add(path)
                 continue
             places += _unresolved([node], scopes)

@@ -31,7 +31,7 @@ _GRACE = 10.0
 _MOST_IDLE = 60.0
 """Seconds by the clock after which an idle process is ended."""
 _WORK = 0.01
-"""Seconds of processor time; less counts as idle, since a waiting process also takes a little."""
+"""A process that takes at most so many seconds of processor time is idle: waiting takes a little, too."""
 
 
 class Limits(msgspec.Struct):
@@ -80,10 +80,10 @@ def run(
 ) -> list[T]:
     """Return all that a function yields in a process of its own, and end the process.
 
-    `progress` is called again and again until then.
+    Calls `progress` repeatedly until the function ends.
     Raises LimitError, BrokenProcessError, and the function's own UrdfsyncError or ImportError.
     """
-    started = set[psutil.Process]()  # the system forgets the children of an ended process
+    started = set[psutil.Process]()  # the children of an ended process can't be found any more
     with tempfile.TemporaryFile() as answers, tempfile.TemporaryFile() as errors:
         with subprocess.Popen(  # noqa: S603 - a command of ours
             processes.python_module("urdfsync.checks.process"),
@@ -97,7 +97,7 @@ def run(
         ) as process:
             try:
                 if process.stdin is not None:
-                    with contextlib.suppress(OSError):  # it has ended; its exit code says why
+                    with contextlib.suppress(OSError):  # the process has ended; its exit code says why
                         process.stdin.write(pickle.dumps((limits.seconds - limits.used, function, arguments)))
                         process.stdin.flush()
                 _wait(process, limits, started, progress)
@@ -122,7 +122,7 @@ def _wait(
     started: set[psutil.Process],
     progress: Callable[[], None] | None,
 ) -> None:
-    """Wait for the end of a process; `started` gets the processes that it starts. Raises LimitError."""
+    """Wait for the end of a process; add the processes that it starts to `started`. Raises LimitError."""
     begin = worked = time.monotonic()
     while True:
         if progress:
@@ -131,8 +131,8 @@ def _wait(
             process.wait(_INTERVAL)
             return
         used, seconds = 0, 0.0
-        for child in psutil.Process().children(recursive=True):  # also those of other threads
-            with contextlib.suppress(psutil.Error):  # it has just ended
+        for child in psutil.Process().children(recursive=True):  # other threads have processes, too
+            with contextlib.suppress(psutil.Error):  # the child has just ended
                 used += child.memory_info().rss
                 is_started = process.pid in [parent.pid for parent in child.parents()]
                 if is_started:

@@ -39,7 +39,7 @@ class RunOptions(msgspec.Struct, frozen=True, kw_only=True):
     wait: float = 60.0
     """Seconds to wait for a build that is writing."""
     package_paths: tuple[Path, ...] = msgspec.field(default_factory=ros_package_path)
-    """Folders to search for packages after the configured ones: those that ROS searches."""
+    """Folders that ROS searches for packages; the configured folders come first."""
 
 
 class CheckOptions(RunOptions, frozen=True):
@@ -48,7 +48,7 @@ class CheckOptions(RunOptions, frozen=True):
     physics: bool = False
     """Compare poses, efforts and masses with the domain's reference."""
     strict: bool = False
-    """Count the effects of edits as differences."""
+    """Treat the effects of edits as differences."""
     tools: tuple[Tool, ...] = (Tool(),)
     """The compilers, one or both."""
     jobs: int | None = None
@@ -83,7 +83,7 @@ class CompiledModel(msgspec.Struct, frozen=True):
     unknowns: int
     """Number of scalar unknowns, and of equations; 0 for a part of another model, or if the compiler tells none."""
     is_users: bool = False
-    """Whether the model is the user's; then `model` is its full name."""
+    """Whether the model is the user's; then `model` has its full name."""
 
 
 class EditEffect(msgspec.Struct, frozen=True):
@@ -155,7 +155,7 @@ class CheckResult(msgspec.Struct):
     in_step: bool = True
     """Whether the package on disk is in step."""
     conflicting: bool = False
-    """Whether it is out of step because edits and new texts contradict each other."""
+    """Whether the package is out of step because edits and new texts contradict each other."""
     freedoms: int | None = None
     """Degrees of freedom; None if the domain has none."""
     numbers: Numbers | None = None
@@ -167,11 +167,11 @@ class CheckResult(msgspec.Struct):
     between: tuple[Deviation, ...] | None = None
     """Deviations of the second compiler from the first, for the generated package; None if one could not move it."""
     between_edited: tuple[Deviation, ...] = ()
-    """The same for the package with the user's edits; none without edits."""
+    """Deviations of the second compiler from the first, for the package with the user's edits; none without edits."""
     notes: tuple[str, ...] = ()
     """Assumptions of the comparison, with reasons: one sentence each, without a full stop."""
     unchecked: tuple[str, ...] = ()
-    """Parts that this kind of check does not cover, with reasons: one sentence each, without a full stop."""
+    """Parts that a check with these options does not cover, with reasons: one sentence each, without a full stop."""
     gaps: tuple[str, ...] = ()
     """Parts that could not be checked, with reasons: one sentence each, without a full stop."""
     diagnostics: tuple[Diagnostic, ...] = ()

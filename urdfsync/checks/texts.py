@@ -64,7 +64,7 @@ def check_layout(package: PackageTexts) -> list[Diagnostic]:
 
 
 def _check_folder(package: PackageTexts, folder: PurePosixPath, stored: Collection[str]) -> Iterator[Diagnostic]:
-    """Check that a folder is a package, and that its classes differ by more than case; `stored` are their names."""
+    """Check that a folder is a package, and that its classes `stored` differ by more than case."""
     if str(folder / PACKAGE_FILE) not in package.texts:
         message, where = f"the folder holds classes, but no {PACKAGE_FILE}", str(folder) if folder.parts else ""
         advice = "add one, or move the files elsewhere"
@@ -80,7 +80,7 @@ def _check_folder(package: PackageTexts, folder: PurePosixPath, stored: Collecti
 def check_around(output: Path, files: Mapping[str, bytes]) -> list[Diagnostic]:
     """Return the faults that keep compilers from reading the files around a package: syntax, `within`, package names.
 
-    `files` are by their path below the output folder. Other faults in these files are not reported.
+    `files` has their contents by the path below the output folder. Other faults in these files are not reported.
     """
     findings, package = list[Diagnostic](), PackageTexts("", output, files)
     for path in sorted(PurePosixPath(name) for name in files if name.endswith(".mo")):
@@ -92,7 +92,7 @@ def check_around(output: Path, files: Mapping[str, bytes]) -> list[Diagnostic]:
 
 
 def _check_file(package: PackageTexts, path: str, name: str) -> tuple[StoredText | None, list[Diagnostic]]:
-    """Check one file; returns its declarations, None if it can't be read. `name` is the full name of its class."""
+    """Check one file; return its declarations, or None if it can't be read. `name` is the full name of its class."""
     text = _decoded(package, path)
     if isinstance(text, Diagnostic):
         return None, [text]

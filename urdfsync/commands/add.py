@@ -60,7 +60,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
     plain = new.removeprefix("\ufeff").replace("\r\n", "\n")
     config.parse(plain, loaded.file, shown(loaded.file))  # refuses contradictory settings
     with write_errors(loaded.file):
-        write_schema(loaded.root)  # first: if it fails, the configuration stays as it is
+        write_schema(loaded.root)  # first: if writing fails, the configuration stays as it is
         write_templates(loaded.root, guesses)
         save(loaded.file, content, new.encode())
     return show_guesses(console, loaded.file, "extended", guesses, warnings)

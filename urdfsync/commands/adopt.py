@@ -61,7 +61,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
 def _lines(
     configuration: Config, robot: RobotConfig, result: Result, looking: BuildOptions, *, verbose: bool
 ) -> Iterator[StyledLine]:
-    """Yield the edited files with what is edited, then those that nothing generates."""
+    """Yield the edited files with their edits, then the files that no build generates."""
     inputs = inspect(configuration, robot, looking)
     files = tuple(find_edited(inputs, generate_robot(inputs)))
     edits = to_section(RobotEdits(robot.name, result.root, files), verbose=verbose, most=_EDITS)

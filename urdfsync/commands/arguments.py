@@ -139,7 +139,7 @@ def add_dry_run(container: argparse._ActionsContainer) -> None:
 
 
 def add_tool(parser: Parser, titles: Mapping[str, str]) -> None:
-    """Add the option that chooses a compiler; `titles` are the names of its option and argument."""
+    """Add the option `--tool`; `titles` has the compiler's name for each of its values."""
     *names, last = (name if name == title else f"{name} for {title}" for name, title in titles.items())
     which = f"the compiler: {', '.join(names)}, or {last}"
     parser.add_argument("--tool", choices=tuple(titles), help=f"{which} (default: as configured, else {names[0]})")
@@ -186,7 +186,7 @@ def chosen(kind: type[msgspec.Struct], args: argparse.Namespace) -> dict[str, An
 
 
 def split_sources(texts: Sequence[str], parser: argparse.ArgumentParser) -> list[tuple[Path, dict[str, str]]]:
-    """Return each source with its arguments of xacro, `NAME:=VALUE`: they follow it, or stand before the first one."""
+    """Return each source with the arguments of xacro, `NAME:=VALUE`, after it; the first also has those before it."""
     sources, values = list[tuple[Path, dict[str, str]]](), dict[str, str]()
     for text in texts:
         name, is_argument, value = text.partition(":=")
@@ -204,7 +204,7 @@ def split_sources(texts: Sequence[str], parser: argparse.ArgumentParser) -> list
 
 
 def _may_be_xacro(source: Path) -> bool:
-    """Return whether a source looks like xacro; its reader reports an unreadable one."""
+    """Return whether a source looks like xacro; its reader reports an unreadable source."""
     from urdfsync.engine.source import is_xacro
 
     try:

@@ -40,7 +40,7 @@ def edit(conflicts: Sequence[Conflict]) -> tuple[Path, dict[str, str]]:
     folder, texts = Path(tempfile.mkdtemp(prefix="urdfsync-edit-")), dict[str, str]()
     hint = f"your text is in {folder}; --edit begins anew"
     for number, conflict in enumerate(conflicts):
-        file = folder / str(number) / PurePosixPath(conflict.path).name  # several may have the same name
+        file = folder / str(number) / PurePosixPath(conflict.path).name  # several conflicts may have the same name
         file.parent.mkdir()
         proposal = conflict.merge.proposal if conflict.merge else _both(conflict.mine, conflict.generated)
         proposal = proposal if conflict.edited is None else conflict.edited

@@ -65,7 +65,7 @@ def add(commands: arguments.Commands) -> None:
 
 
 def run(args: argparse.Namespace, console: Console) -> int:
-    """Check the configuration of --config, or all that git tracks."""
+    """Check the configuration of --config, or all configurations that git tracks."""
     faults, errors = list[Fault](), list[Diagnostic]()
     try:
         commit = Commit()
@@ -105,7 +105,7 @@ class Commit:
         self._real_folders: dict[str, str] = {}
 
     def path(self, file: str | Path) -> str | None:
-        """Return the path of a file from the top; None outside. For a file in a submodule, return the submodule's path.
+        """Return the path of a file from the top of the repository, or that of its submodule; None outside.
 
         Links to folders are followed, since git tracks no files behind them.
         """
@@ -151,7 +151,7 @@ class RobotFiles:
         self.known |= self.outputs | self._commit.paths(path for _, path in entries)
 
     def _is_for_git(self, path: str) -> bool:
-        """Return whether a file belongs into a commit: some of the state does not."""
+        """Return whether a file belongs into a commit: parts of the recorded state do not."""
         return not path.startswith(self._state) or path.removeprefix(self._state).startswith(_COMMITTED)
 
     def select(self, paths: Iterable[str]) -> set[str]:
@@ -199,9 +199,9 @@ class RobotFiles:
         ignored = names - index.tracked - index.untracked
         for folder in self.folders if len(names) > _FEW and not ignored else ():
             inside = {path for path in index.unstaged | index.untracked if path.startswith(folder)}
-            if len(inside) > 1 and inside <= names:  # the whole folder can be named
+            if len(inside) > 1 and inside <= names:  # then name the whole folder
                 names = names - inside | {folder.removesuffix("/")}
-        # hooks run at the top, the user's shell elsewhere: `:/` counts from the top; a second colon ends git's signs
+        # hooks run at the top, the user's shell may not: `:/` is the top for git; a second colon ends its special signs
         from_top = [f":/{'' if name[0].isalnum() or name[0] == '.' else ':'}{name}" for name in sorted(names)]
         return f"`{shlex.join(['git', 'add', *(['-f'] if ignored else []), *from_top])}`"
 

@@ -41,7 +41,7 @@ NamedSource: TypeAlias = tuple[Path, Mapping[str, str]]
 
 
 class Guess(msgspec.Struct, frozen=True):
-    """The table of one robot, proposed or there."""
+    """The table of one robot: a new one, or one of the configuration."""
 
     KEYS = ("robot", "source", "arguments", "package", "options")
 
@@ -92,7 +92,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
         merge_driver.install(file.parent, console)
     _refuse_existing(file)
     with write_errors(file):
-        write_schema(file.parent)  # first: if it fails, there is no configuration yet, and `init` can be repeated
+        write_schema(file.parent)  # first: if writing fails, there is no configuration yet, and `init` can be repeated
         write_templates(file.parent, guesses)
         put(file, configuration_text(domain, guesses, merges=args.merge).encode())
     if is_clone and not (is_asked or installs):
@@ -110,8 +110,8 @@ def guess_robots(
     """Guess a robot for each of the `named` sources, else for each source below `root`; also return warnings.
 
     `known` are the existing robots. A source that is named twice with the same arguments counts once. Raises
-    ConfigError if there is no source or a given name is taken, SourceError if a named source, or every found one, is
-    unreadable.
+    ConfigError without a source, and if a given name is taken. Raises SourceError if a named source is unreadable, or
+    if all found ones are.
     """
     unique: dict[tuple[str, str], NamedSource] = {}
     for source, given in named or ((source, {}) for source in _search(root, f".{domain.name}")):
@@ -135,14 +135,14 @@ def guess_robots(
             warnings.append(msgspec.structs.replace(first, severity=Severity.WARNING, message=message, hint=hint))
         else:
             guesses.append(guess)
-            warnings += (each for each in noted if each.severity is not Severity.NOTE)  # the first build has the notes
+            warnings += (each for each in noted if each.severity is not Severity.NOTE)  # the first build shows notes
     if not guesses:
         raise SourceError(*errors)
     return guesses, warnings
 
 
 def _search(folder: Path, suffix: str) -> Iterator[Path]:
-    """Files with this suffix below `folder`, hidden files and folders left out, sorted."""
+    """Yield the files with this suffix below `folder`, without hidden files and folders."""
     for parent, folders, files in os.walk(folder):
         folders[:] = sorted(name for name in folders if not name.startswith("."))
         sources = [name for name in sorted(files) if name.lower().endswith(suffix) and not name.startswith(".")]
@@ -159,7 +159,7 @@ def _guess(
         raise SourceError.of("source-name", message, shown(source), hint=hint)
     text = source_files.read_file_source(domain, source, given, config.ros_package_path())
     advice: Advice | None = domain.advice
-    if text.expansion and "name" in text.expansion.unused:  # then it names only the robot of the configuration
+    if text.expansion and "name" in text.expansion.unused:  # then `name` is only the robot's name in the configuration
         others = {key: value for key, value in given.items() if key != "name"}
         text = source_files.read_file_source(domain, source, others, config.ros_package_path())
     snapshot, reading = source_files.read_permissively(domain, text)
@@ -181,8 +181,9 @@ def _free_names(
 ) -> tuple[str, str]:
     """Return names for a robot and its package that no `known` robot has.
 
-    The argument `name` decides. Otherwise these are tried: the robot's own name; this name with the arguments that
-    differ within the `fleet` of its source; the file's name. Raises ConfigError if the argument `name` is taken.
+    The argument `name` decides. Otherwise the robot's own name is tried first. Next comes this name with the arguments
+    that differ within the `fleet` of its source, then the file's name. Raises ConfigError if the argument `name` is
+    taken.
     """
     taken = {name.casefold() for one in known for name in (one.robot, one.package)}
     differing = "_".join(value for key, value in given.items() if any(other.get(key) != value for other in fleet))
@@ -239,7 +240,7 @@ def robot_table(guess: Guess, domain: Domain) -> str:
 
 
 def write_templates(root: Path, guesses: Sequence[Guess]) -> None:
-    """Write the templates of new robots. Raises ConfigError for files that are there already, and OSError."""
+    """Write the templates of new robots. Raises ConfigError for templates that exist already, and OSError."""
     texts = {root / one.templates_folder / path: text for one in guesses for path, text in one.templates.items()}
     for file in texts:
         if file.exists():

@@ -84,11 +84,11 @@ def _is_named(folder: Path) -> bool:
 
 
 def install(folder: Path, console: Console) -> None:
-    """Write the command to the clone's settings, and its line to `.gitattributes` of the folder if it is not there.
+    """Write the command to the clone's settings, and the attribute to the folder's `.gitattributes` if it is missing.
 
-    Raises UrdfsyncError if that fails.
+    Raises UrdfsyncError if writing fails.
     """
-    # git starts it in the top folder of the clone: without -P, Python would import a folder `urdfsync` from there
+    # git starts the command at the top of the clone: without -P, Python would import a folder `urdfsync` from there
     command = f"{shlex.quote(sys.executable)} -P -m urdfsync merge-driver".replace("%", "%%")
     inside, file = ("-C", str(folder)), folder / ".gitattributes"
     try:
@@ -131,5 +131,5 @@ def _merge(args: argparse.Namespace) -> list[Diagnostic]:
 
 
 def _label(given: str, default: str) -> str:
-    """Return a label of git's as one line; git before 2.44 leaves the placeholder."""
+    """Return the label that git gives a version as one line; git before 2.44 gives the placeholder itself."""
     return default if given in ("", "%X", "%Y") else " ".join(given.split())

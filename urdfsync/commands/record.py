@@ -67,8 +67,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
 def _write(text: str, source: Path, file: Path, *, force: bool) -> bool:
     """Write the record, as a whole or not at all; return whether it changed.
 
-    Another file's content is replaced only with `force`, the source never. Raises OutputError for both, and if writing
-    fails.
+    Raises OutputError if writing fails, if the file is the source, or without `force` if it holds something else.
     """
     check_file(file, {"the source": source})
     content = text.encode()

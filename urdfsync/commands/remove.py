@@ -82,14 +82,14 @@ def _reason(action: Action) -> str:
 
 
 def _take_out(configuration: Config, robot: str) -> None:
-    """Write the configuration without the robot. Raises UrdfsyncError, also if it was saved meanwhile."""
+    """Write the configuration without the robot. Raises UrdfsyncError, also if the user saved it meanwhile."""
     with write_errors(configuration.file):
         content = configuration.file.read_bytes()
         save(configuration.file, content, _without_robot(configuration, robot, content))
 
 
 def _without_robot(configuration: Config, robot: str, content: bytes) -> bytes:
-    """Return the configuration's content without the robot. Raises ConfigError if it has no table."""
+    """Return the configuration's content without the robot. Raises ConfigError if the robot has no table."""
     text = content.decode()
     mark = "\ufeff" if text.startswith("\ufeff") else ""
     plain, name = text.removeprefix(mark), shown(configuration.file)

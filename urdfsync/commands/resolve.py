@@ -117,7 +117,7 @@ def _choice(args: argparse.Namespace) -> Choice:
 
 
 def _find_named(planned: Sequence[Result], text: str, choice: Choice) -> Iterator[tuple[Result, Action]]:
-    """Yield the file at a path if the choice is possible for it, else all conflicts below the path.
+    """Yield the file at a path if the choice is possible for that file, else all conflicts below the path.
 
     A renamed file is found by its old and by its new path.
     """
@@ -136,7 +136,7 @@ def _find_named(planned: Sequence[Result], text: str, choice: Choice) -> Iterato
                 is_found = True
                 yield result, action
         if choice is Choice.UNDO and not is_found and not os.path.lexists(path) and path.is_relative_to(result.folder):
-            yield result, Action(key_of(path, root), Reason.FORGET, Role.MODEL)  # a build may have deleted it
+            yield result, Action(key_of(path, root), Reason.FORGET, Role.MODEL)  # a build may have deleted the file
 
 
 def _refuse(console: Console, planned: Sequence[Result], unknown: Sequence[str]) -> int:
@@ -155,7 +155,7 @@ def _refuse(console: Console, planned: Sequence[Result], unknown: Sequence[str])
 def _compare(
     targets: Mapping[str, tuple[Result, Action]], results: Sequence[Result], choice: Choice
 ) -> tuple[set[str], list[Diagnostic]]:
-    """Return the paths at which the choice was applied, and the reasons why it was not applied at others.
+    """Return the paths where the choice was applied, and for other paths the reasons why it was not.
 
     A conflict that the choice does not settle is shown with its reason.
     """

@@ -66,7 +66,7 @@ def document_schema(name: str) -> dict[str, Any]:
     """Return the schema of a command's document; for `watch`, that of a line of output."""
     kinds: list[Any] = [Document[document_type(kind)] for kind in _RESULTS[name]]  # type: ignore[misc]
     if name == "watch":
-        from urdfsync.watch.events import Event, RobotEvent  # the other commands do without
+        from urdfsync.watch.events import Event, RobotEvent  # other commands need no events
 
         for kind in (*Event.__subclasses__(), *RobotEvent.__subclasses__()):
             head = {"version": Literal[3], "event": Literal[kind.__struct_config__.tag], "time": datetime.datetime}

@@ -99,7 +99,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
 
 
 def _open(address: str) -> bool:
-    """Open a page in a browser, but not in one for terminals: the daemon writes there."""
+    """Open a page in a browser with windows: a browser in the terminal would disturb the daemon's output."""
     import webbrowser
 
     has_screen = sys.platform != "linux" or any(map(os.environ.get, ("BROWSER", "DISPLAY", "WAYLAND_DISPLAY")))
@@ -116,7 +116,7 @@ def _signals(daemon: Daemon) -> Iterator[list[str]]:
 
     def handle(number: int, frame: FrameType | None) -> None:  # noqa: ARG001 - as signal calls it
         received.append(signal.Signals(number).name)
-        if hasattr(signal, "setitimer"):  # else only a second signal helps
+        if hasattr(signal, "setitimer"):  # without a timer, only a second signal ends the work
             signal.setitimer(signal.ITIMER_REAL, _GRACE, _GRACE)
         daemon.stop(received[0])
 

@@ -27,7 +27,7 @@ Compiler: TypeAlias = Literal["rumoca", "omc"]
 
 
 class SharedKeys(msgspec.Struct, frozen=True, kw_only=True):
-    """The keys of a robot's table that are taken as they are; paths are absolute."""
+    """The keys of a robot's table whose values stay as written; only paths become absolute."""
 
     source: Path
     output: Path = msgspec.field(default_factory=lambda: Path(DEFAULT_OUTPUT))
@@ -85,10 +85,9 @@ class RobotConfig(SharedKeys, frozen=True, kw_only=True):
     options: Any
     """An instance of `Domain.options`."""
     arguments: Mapping[str, str] | None = None
-    """Arguments of xacro; None without the key: then the source's name or content shows whether it is xacro."""
+    """Arguments of xacro; without the key None, and the source's name or content shows whether it is xacro."""
     lines: Mapping[str, int] = {}
-    """Line of every key in the configuration; the table's own line for `""`, the line of a table's entry for
-    `KEY.NAME`.
+    """Line of every key in the configuration; `""` has the table's own line, `KEY.NAME` that of an entry in a table.
     """
 
     @property
@@ -151,7 +150,7 @@ class Config(msgspec.Struct, frozen=True):
         return tuple(robot for robot in self.robots if not names or robot.name in chosen)
 
     def select_one(self, robots: Sequence[str], command: str) -> RobotConfig:
-        """Return the named robot, or the only one. Raises ConfigError for several: `command` takes one."""
+        """Return the named robot, or the only one. Raises ConfigError for several robots: `command` takes one."""
         chosen = self.select(robots)
         if len(chosen) > 1:
             names = ", ".join(robot.name for robot in chosen)

@@ -34,7 +34,7 @@ def parse(text: str, file: str, error: type[UrdfsyncError]) -> dict[str, Any]:
         if all(len(path) <= DEEPEST for path, _ in strings(document)):
             return document
     except RecursionError:
-        pass  # the message above is right
+        pass  # too deep, as `message` says
     except tomli.TOMLDecodeError as problem:
         message = str(problem)
         if found := find_markers(text):
@@ -72,7 +72,7 @@ def strings(document: dict[str, Any]) -> Iterator[tuple[tuple[str, ...], str]]:
 def find_lines(text: str) -> tuple[dict[tuple[str, ...], int], dict[tuple[str, ...], list[int]]]:
     """Return the first line of each key or table, and the lines of the items of each array of tables, `[[…]]`.
 
-    Both are by full paths; lines count from 1.
+    The keys of both are full paths; lines count from 1.
     """
     lines: dict[tuple[str, ...], int] = {}
     items: dict[tuple[str, ...], list[int]] = {}

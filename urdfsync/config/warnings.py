@@ -42,7 +42,7 @@ def _find_warnings(config: Config, robot: RobotConfig) -> Iterator[Diagnostic]:
             continue
         near = nearest(replaces, sorted(templates), 0.5)
         hint = f"did you mean `{near}`?" if near else f"rename it to one of {', '.join(sorted(templates))}"
-        message = "the file replaces no template: none of urdfsync has this name"
+        message = "the file replaces no template: urdfsync has none of this name"
         yield Diagnostic(Severity.WARNING, "stray-template", message, shown(own[name]), hint=hint)
 
 

@@ -73,10 +73,7 @@ def show(
     *,
     quiet: bool = False,
 ) -> None:
-    """Show `told`, a result about one robot, as a section; with --quiet, show it only if the user has to act.
-
-    With `quiet`, only its first line and what to do are shown. Without a `result`, all findings are new.
-    """
+    """Show `told`, a result about one robot, as a section; with --quiet, show it only if the user has to act."""
     if console.is_document:
         console.add(told, to_section)
         return

@@ -127,7 +127,7 @@ def _choices(target: DisputedFile) -> dict[str, str]:
 
 def _element_lines(texts: Conflict) -> list[StyledLine]:
     """Return the changes of each side by element, if they merge and both texts are classes."""
-    from urdfsync.merge.edits import find_edits, in_words  # only a conflict needs it
+    from urdfsync.merge.edits import find_edits, in_words  # only conflicts need the merge
 
     if texts.base is None or texts.merge is None or texts.merge.text is None:
         return []
@@ -153,7 +153,7 @@ def _text_lines(texts: Conflict) -> Iterator[StyledLine]:
 
 def difference_lines(old: str, new: str, old_name: str, new_name: str) -> Iterator[StyledLine]:
     """Yield the difference of two texts, in git's form."""
-    import difflib  # 1 ms, as shlex below: few builds have conflicts
+    import difflib  # takes 1 ms, as shlex below, and few builds have conflicts
 
     texts = _split_lines(old), _split_lines(new)
     for text in difflib.unified_diff(*texts, old_name, new_name, lineterm="", n=_CONTEXT):

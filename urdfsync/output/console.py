@@ -180,7 +180,7 @@ class Console:
         self.findings(diagnostics)
 
     def add(self, result: R, to_section: Callable[[R], Any] | None = None) -> None:
-        """Add a result to the document, which has it even if the command fails later."""
+        """Add a result to the document; a later failure of the command does not remove it."""
         self.stop_progress()
         if self.format == "json":
             self._results.append(result)
@@ -198,13 +198,13 @@ class Console:
 
     def _document(self, code: int, diagnostics: Sequence[Diagnostic]) -> str:
         """Return the document; `diagnostics` belong to no robot."""
-        if self.format != "json":  # each other format is a module, which most commands do not need
+        if self.format != "json":  # each other format has a module, which most commands do not need
             document: str = importlib.import_module(f"urdfsync.output.{self.format}").document(
                 self._sections, diagnostics, code
             )
             return document
         values = Document(command=self._command, exit=int(code), results=self._results, diagnostics=diagnostics)
-        indent = None if self._command == "watch" else 2  # its output is one object per line
+        indent = None if self._command == "watch" else 2  # each line of the daemon's output is one object
         return json.dumps(plain(values), indent=indent) + "\n"
 
     def progress(self, what: str, done: int, total: int) -> None:

@@ -27,7 +27,7 @@ class Document(msgspec.Struct, Generic[Item], kw_only=True):
 
     version: Literal[3] = JSON_VERSION
     command: str
-    """Empty if the arguments name none."""
+    """Empty if the arguments name no command."""
     exit: int
     results: Sequence[Item]
     """One result for each finished robot."""

@@ -1,7 +1,7 @@
 """Changes of a model in words: the rows of each element.
 
-The components of a vector share a row; so do all rounding, and all unmodelled parts. Elements with the same rows share
-them.
+The components of a vector share a row; so do all rounding errors, and all unmodelled parts. Elements with the same rows
+share them.
 """
 
 from __future__ import annotations
@@ -22,10 +22,10 @@ from urdfsync.spelling import same_count
 _NAMES = 140
 """The most characters of the names in a title, which has one name at least."""
 _SAME = 1e-9
-"""Up to this value, a relative change of a sum is rounding; a length (m) or an angle (rad) is too small to measure."""
+"""Up to this value, a relative change of a sum is rounding, and a length (m) or an angle (rad) can't be measured."""
 _COMPONENT = r"(.*)\[(\d+)\]"
 _MOVED = 3
-"""The most elements of a kind with exchanged names that are named."""
+"""The most elements of a kind with exchanged names that have a row each."""
 _WIDTH = 40
 """The most characters of a text that are shown."""
 _CONTEXT = 12
@@ -34,13 +34,13 @@ _HASH = "[0-9a-f]{64}"
 
 
 class Row(NamedTuple):
-    """A change in words, in parts that a table can have in columns; empty ones are left out."""
+    """A change in words, in parts for the columns of a table; empty parts are left out."""
 
     label: str
     """The place in the element; empty for the element itself."""
     value: str
     relation: str = ""
-    """The same in other words, such as a percentage."""
+    """The change relative to the old value, such as a percentage."""
 
     def __str__(self) -> str:
         """Return the row as text: `limit / effort 54 → 60 N·m (+11.1 %)`."""

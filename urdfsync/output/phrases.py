@@ -29,7 +29,7 @@ _CHOSEN = {
 
 
 def reason(action: Action, changes: Changes | None) -> str:
-    """Return the reason of an action, as the end of a sentence that begins with the path, and what it waits for.
+    """Return the reason of an action, and the cause if it waits, as the end of a sentence that begins with the path.
 
     The reason names the changed elements of the model, if any: `link forearm and 2 more`. Their changes are listed
     beside it.

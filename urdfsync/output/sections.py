@@ -18,7 +18,7 @@ class Mark(enum.StrEnum):
     WRONG = "❌ "
     OPEN = "⚠️ "
     NONE = ""
-    """No verdict: two versions differ, as they may."""
+    """No verdict: versions may differ."""
     FINE = "✅ "
 
 

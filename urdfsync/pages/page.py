@@ -36,7 +36,7 @@ SCRIPTS = (
     *("robot.js", "meshes.js", "loops.js", "orbit.js", "panels.js", "motion.js"),
     *("poses.js", "drag.js", "stage.js", "marks.js", "page.js"),
 )
-"""Our own scripts, in their order: each may use declarations of those before it."""
+"""The scripts of urdfsync, in their order: each may use declarations of earlier ones."""
 FOLLOWER = "follow.js"
 """The last script of a page that a daemon serves."""
 _FOLDER = Path(__file__).parent
@@ -46,7 +46,7 @@ _MOST_INSTANTS = 1000
 _LEAST = 1e-17
 """The least relative error on the scale of a check."""
 _DATA = "against statuses renamed changes files diagram".split()
-"""The content for the scripts."""
+"""The fields of the content that the scripts read."""
 _SUFFIXES = (".html", ".htm")
 _GENERATOR, _BEGINNING = b'<meta name="generator" content="urdfsync', 2000
 """The mark that each page has in its first bytes, and the number of these bytes."""
@@ -87,7 +87,7 @@ def page(
         version=__version__,
         policy=_policy(scripts, styles, "'none'" if build is None else "'self'"),
         style=markupsafe.Markup(style),  # noqa: S704 - our own
-        scripts=[markupsafe.Markup(script) for script in scripts],  # noqa: S704 - our own, and those of trimesh
+        scripts=[markupsafe.Markup(script) for script in scripts],  # noqa: S704 - scripts of urdfsync and of trimesh
         data=markupsafe.Markup(_json(data)),  # noqa: S704 - escaped for a script element
         meshes={name: _packed(mesh) for name, mesh in picture.meshes.items()},
         content=content,

@@ -65,16 +65,16 @@ class Hinge(msgspec.Struct, frozen=True):
     """`rotational` or `translational` along `axis`, `planar` with it as normal, `floating`, `ball`; empty if fixed."""
     start: float = 0.0
     way: float = 0.0
-    """How far a test moves it from the start and back, along a cosine."""
+    """The distance that a test moves the hinge from the start and back, along a cosine."""
     lower: float | None = None
     upper: float | None = None
     """None for no limit."""
     leader: str = ""
-    """The element that it follows; empty if it moves by itself."""
+    """The element that the hinge follows; empty if it moves by itself."""
     multiplier: float = 1.0
     offset: float = 0.0
     is_dependent: bool = False
-    """Whether loops move it."""
+    """Whether loops move the hinge."""
 
 
 class End(msgspec.Struct, frozen=True):
@@ -101,7 +101,7 @@ class Loop(msgspec.Struct, frozen=True):
 
 
 class Scene(msgspec.Struct, frozen=True):
-    """A whole robot. A hinge that follows another stands after it."""
+    """A whole robot. A hinge that follows another one stands after that one."""
 
     bodies: tuple[Body, ...]
     """The root first, each after its parent."""
@@ -112,7 +112,7 @@ class Scene(msgspec.Struct, frozen=True):
     height: float | None = None
     """The height of the root above the ground when the robot stands there at its start; None if its base is fixed."""
     noun: str = "robot"
-    """The whole in one word."""
+    """The word for the whole scene."""
 
 
 class Triangles(msgspec.Struct, frozen=True):
@@ -127,7 +127,7 @@ class Triangles(msgspec.Struct, frozen=True):
     box: tuple[float, ...]
     """The least and the greatest x, y and z of the points."""
     cells: int
-    """Corners were merged in so many cells along the longest edge; 0 if all were kept."""
+    """Number of cells along the longest edge, in each of which corners were merged; 0 if all corners were kept."""
 
 
 class Pictures(Protocol):

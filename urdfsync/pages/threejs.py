@@ -33,8 +33,8 @@ class Library(NamedTuple):
 
 
 def load() -> Library:
-    """Return three.js. Raises UrdfsyncError if the installed trimesh lacks it."""
-    spec = importlib.util.find_spec("trimesh")  # does not import it, which would take half a second
+    """Return three.js. Raises UrdfsyncError if the installed trimesh lacks three.js."""
+    spec = importlib.util.find_spec("trimesh")  # an import of trimesh would take half a second
     for folder in (spec.submodule_search_locations or ()) if spec else ():
         try:
             with zipfile.ZipFile(Path(folder, _ARCHIVE)) as archive:

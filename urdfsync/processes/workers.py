@@ -51,7 +51,7 @@ class Workers:
 
 @contextlib.contextmanager
 def workers(count: int, address: str = "") -> Iterator[Workers]:
-    """Start `count` processes, or use the Dask scheduler at an address. Raises ConfigError if none answers.
+    """Start `count` processes, or use the Dask scheduler at an address. Raises ConfigError if no scheduler answers.
 
     All processes end with the `with` block; after an exception they end at once, and a cluster drops waiting jobs.
     """
@@ -65,8 +65,8 @@ def workers(count: int, address: str = "") -> Iterator[Workers]:
                 raise
             executor.shutdown()
         return
-    # No fork: the thread of a progress bar may hold a lock at that moment. No server for forks either: it needs a
-    # socket in the folder for temporary files, whose path may be too long for one.
+    # No fork: the thread of a progress bar may hold a lock at that moment. No server for forks: it needs a socket in
+    # the folder for temporary files, whose path may be too long for a socket.
     context = get_context("spawn")
     with _safe_path():
         end, steps = context.Pipe(duplex=False), context.SimpleQueue()
@@ -108,11 +108,11 @@ def _connect(address: str) -> Any:
 
 @contextlib.contextmanager
 def _safe_path() -> Iterator[None]:
-    """Start Python processes that import nothing from the working folder, which may be a stranger's repository.
+    """Start Python processes in a `with` block that import nothing from the working folder: it may be a stranger's.
 
-    They do not import the main module either: it may be a script that calls the API, and would call it again. An
-    executor starts some at once, for its locks, and others when work is submitted. The variable is restored afterwards:
-    a later command of the user's may need its own folder on the path.
+    Nor do they import the main module: it may be a script that calls the API, and would call it again. An executor
+    starts some processes at once, for its locks, and others when work is submitted. The end restores PYTHONSAFEPATH: a
+    later command of the user's may need its own folder on the path.
     """
     before, main = os.environ.get("PYTHONSAFEPATH"), sys.modules["__main__"]
     os.environ["PYTHONSAFEPATH"], sys.modules["__main__"] = "1", ModuleType("__main__")

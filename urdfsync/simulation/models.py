@@ -37,7 +37,7 @@ class Input(msgspec.Struct, frozen=True):
 
 
 class Driven(msgspec.Struct, frozen=True):
-    """The changes to a model by which its inputs can follow a table."""
+    """The changes that let the inputs of a model follow a table."""
 
     changed: Mapping[Path, bytes]
     """Contents of files in which the inputs are outputs, so that equations of the model may set them."""

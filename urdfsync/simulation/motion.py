@@ -95,7 +95,7 @@ def at_rest(inputs: Sequence[Input], stop: float) -> Motion:
 
 
 def sampled(motion: Motion, times: Sequence[float]) -> dict[str, list[float]]:
-    """Return the value of each input at other times, by the functions of `in_modelica`."""
+    """Return the value of each input at other times, as the functions of `in_modelica` compute it."""
     from scipy.interpolate import CubicSpline, make_interp_spline
 
     samples = {}

@@ -35,7 +35,7 @@ class Prepared(msgspec.Struct, frozen=True):
 
     package: RobotPackage
     bench: Bench
-    """Empty if the domain has none."""
+    """Empty if the domain has no models to simulate."""
     model: Model
     needed: libraries.Libraries
     values: Mapping[str, str]
@@ -130,7 +130,7 @@ def run_task(
     with tempfile.TemporaryDirectory(prefix="urdfsync-", ignore_cleanup_errors=True) as folder:
         jobs = Jobs(package.robot, options.tool, prepared.needed, package.around, limits, Path(folder), progress)
         (result,) = jobs.run(kind, package.files.texts, [task], changed)
-        if result.problem and task.parameters:  # perhaps there is no such parameter
+        if result.problem and task.parameters:  # perhaps the model lacks the parameter
             names = msgspec.structs.replace(task, source=plain, runs=(), export=None)
             (answer,) = jobs.run("plain", package.files.texts, [names], changed)
             result = answer if answer.parameters else result

@@ -38,7 +38,7 @@ class SimulateOptions(RunOptions, frozen=True):
     """Patterns of further variables for the series."""
     tool: Tool = Tool()
     as_exported: bool = False
-    """Simulate like the FMU: filters of drives stay, inputs change at each step, or stay at 0."""
+    """Simulate as the FMU does: drives keep their filters, and inputs change at each step or stay at 0."""
 
 
 class Range(msgspec.Struct, frozen=True):
@@ -79,10 +79,10 @@ class JointResult(msgspec.Struct, frozen=True):
     speed: Range | None = None
     effort: Range | None = None
     acceleration: Range | None = None
-    """The size of the acceleration, negative where the joint slows down; None also if it has no limit."""
+    """The magnitude of the acceleration, negative where the joint slows down; None also without a limit."""
     passed: tuple[PassedLimit, ...] = ()
     is_dependent: bool = False
-    """Whether it follows others through loops."""
+    """Whether the joint follows other joints through loops."""
 
 
 class LoopResult(msgspec.Struct, frozen=True):

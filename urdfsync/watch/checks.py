@@ -70,7 +70,7 @@ class CheckQueue:
         self._last.clear()
 
     def check(self, robot: RobotConfig) -> Sequence[events.Event]:
-        """Check the present package of a robot, unless a check of it runs or has found it right."""
+        """Check the present package of a robot, unless a check of these files runs or found no fault."""
         if robot.on_build != "check":
             return ()
         key, job = self._checker.key(robot), self._jobs.get(robot.name)
@@ -81,7 +81,7 @@ class CheckQueue:
         if earlier is None:
             self._jobs[robot.name] = CheckJob(robot, key)
             return self._start_next()
-        # right as before: nothing new to report
+        # still without faults: nothing new to report
         was_right = job is None and self._last.get(robot.name, Checked.RIGHT) is Checked.RIGHT
         event = self._note(robot, earlier)
         return () if was_right and earlier.checked is Checked.RIGHT else (event,)

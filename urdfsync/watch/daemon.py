@@ -38,7 +38,7 @@ from urdfsync.watch.paths import find_watched_folders
 from urdfsync.watch.robot import WatchedRobot, look_at
 
 _REST = 3.0
-"""The pause after a look, as a multiple of the duration of the look."""
+"""The pause after a look, as a multiple of its duration."""
 _PAUSE = 0.25
 """Seconds between two checks for the end of pre-commit."""
 
@@ -88,7 +88,7 @@ class Daemon:
         self._next_look = math.inf
         """When to look at all files, after an event in a folder."""
         self._earliest_look = 0.0
-        """The earliest time of the next look: endless events must not keep the daemon looking."""
+        """The earliest time of the next look: endless events must leave pauses."""
         self._has_new_places = False
 
     def stop(self, signal: str) -> None:
@@ -147,7 +147,7 @@ class Daemon:
                 watched.due = time.monotonic() + _PAUSE
 
     def _acquire(self, lock: Lock) -> None:
-        """Take the daemon's lock; repeat it if its file was deleted, since another daemon would not see it."""
+        """Take the daemon's lock, again if its file was deleted, since another daemon would not see the lock."""
         try:
             lock.acquire()
         except LockedError:
@@ -234,7 +234,7 @@ class Daemon:
     def _touch(self, robots: Sequence[WatchedRobot]) -> None:
         """Let changed robots settle, all from the same moment, so that they are built together.
 
-        Changes of names in folders alone are not reported: they rarely matter.
+        A change that only adds or removes names in a folder is not reported: it rarely matters.
         """
         due = time.monotonic() + self._options.settle
         for watched in robots:
@@ -262,7 +262,7 @@ class Daemon:
         self._look()
 
     def _find_settled(self, *, has_looked: bool) -> list[WatchedRobot]:
-        """Look at the robots whose time has come, unless `has_looked`; return those unchanged since the last look."""
+        """Look at the robots whose time has come, unless `has_looked`; return those that have not changed since."""
         now, settled = time.monotonic(), []
         for watched in self._robots.values():
             if watched.due > now:
@@ -270,7 +270,7 @@ class Daemon:
             if not has_looked:
                 watched.look()
             if not watched.is_told and watched.changed_file:
-                self._touch([watched])  # its event may come later
+                self._touch([watched])  # the event of this change may come later
             elif watched.seen == watched.sample or not self._options.sample:
                 settled.append(watched)
             else:

@@ -34,11 +34,11 @@ class Started(Event, frozen=True):
     config: Path
     robots: tuple[str, ...]
     again: bool = False
-    """Whether it was read before; then it has changed, or is valid again."""
+    """Whether the daemon read the configuration before: it has changed, or is valid again."""
 
 
 class Viewing(Event, frozen=True):
-    """Pages of the robots are at this address, until the daemon ends. This is the first event."""
+    """The daemon serves pages of the robots at this address. This is the first event."""
 
     address: str
 

@@ -77,7 +77,7 @@ class CommandRunner:
                 cwd=self._folder,
                 env={**os.environ, **names},
                 stdin=subprocess.DEVNULL,
-                stdout=_STDERR,  # its output would break the lines of --format json
+                stdout=_STDERR,  # the output of the command would break the lines of --format json
                 check=False,
             ).returncode
             problem = f"ended with exit code {code}" if code > 0 else f"was ended by signal {-code}" if code else ""

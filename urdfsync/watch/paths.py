@@ -30,7 +30,7 @@ class WatchedFolders(msgspec.Struct, frozen=True):
 def find_watched_folders(
     config: Config, entries: Iterable[Entry], package_paths: Sequence[Path] = ()
 ) -> WatchedFolders:
-    """Return the folders to watch for changes of entries, and of each folder and link on the way to one.
+    """Return the folders to watch for changes of entries, and of each folder and link on the way to an entry.
 
     A folder above the configuration's is watched only if it holds one of the files.
     """
@@ -83,7 +83,7 @@ def _way_to(path: str) -> list[str]:
     while parts and len(way) < _MAX_STEPS:
         folder, place = place, os.path.join(place, parts.pop())  # noqa: PTH118
         way.append(place)
-        with contextlib.suppress(OSError):  # no link, or missing
+        with contextlib.suppress(OSError):  # `place` is no link, or missing
             target = os.path.normpath(os.path.join(folder, os.readlink(place)))  # noqa: PTH115, PTH118
             *more, place = reversed(Path(target).parts)
             parts += more

@@ -26,7 +26,7 @@ def find_stash(root: Path) -> tuple[Path, int] | None:
     patches = [path for path in store.glob("patch*") if _PATCH.fullmatch(path.name)]
     if not patches:
         return None
-    import psutil  # 15 ms, rarely needed: git's hooks come here, too
+    import psutil  # takes 15 ms; git's hooks come here, too, and rarely need it
 
     place = Path(os.path.realpath(root))
     for path in sorted(patches, reverse=True):
@@ -34,7 +34,7 @@ def find_stash(root: Path) -> tuple[Path, int] | None:
         try:
             process = psutil.Process(pid)
             if process.create_time() > moment + _SLACK:
-                continue  # another process has the number now
+                continue  # the number now belongs to another process
             folder = process.cwd()
         except psutil.AccessDenied:
             return path, pid

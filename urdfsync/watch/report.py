@@ -77,7 +77,7 @@ _STEPS: dict[type[events.Event], tuple[str, Activity | None]] = {
     events.Resumed: ("building again", None),
     events.Stopping: ("stopped by {0.signal}", None),
 }
-"""Events with one line, and the activity that they begin. Only the last one is shown without `--verbose`."""
+"""Events with one line, and the activity that begins with each; without `--verbose` only `Stopping` is shown."""
 
 
 class RobotStatus(NamedTuple):

@@ -16,10 +16,10 @@ from urdfsync.diagnostics import Diagnostic
 from urdfsync.engine.package_files import note_state, unchanged_state
 
 _TOLD = (STAT, STAT_TYPE, LSTAT)
-"""Kinds of entries whose changes are reported, inputs first. Lists of folders and other robots' states are not."""
+"""Kinds of entries whose changes are reported, inputs first; not lists of folders, not other robots' states."""
 
 Looks: TypeAlias = dict[Entry, "str | tuple[int, ...]"]
-"""The state of each entry: for a file its content's hash, whatever its times; for all else its facts."""
+"""The state of each entry: the hash of a file's content, without its times, or the facts of any other entry."""
 
 
 def look_at(entry: Entry, facts: tuple[int, ...] | None = None) -> str | tuple[int, ...]:
@@ -37,7 +37,7 @@ def look_at(entry: Entry, facts: tuple[int, ...] | None = None) -> str | tuple[i
 
 
 def _recall(reads: Dependencies, entry: Entry, facts: tuple[int, ...]) -> str | tuple[int, ...]:
-    """Return the state of an entry during a build; for a changed file of unknown content, its facts."""
+    """Return the state of an entry as a build read it; the facts of a file that changed before its hash was known."""
     known = unchanged_state(entry[1], facts)
     if sha256 := reads.hashes.get(entry) or (known and known.sha256):
         return sha256
@@ -66,13 +66,13 @@ class WatchedRobot(msgspec.Struct):
     failure: tuple[Diagnostic, ...] | None = None
     """Why the last build failed; None if it did not."""
     left_alone: frozenset[tuple[str, str]] = frozenset()
-    """Files that the last build left alone: misfits, and stale files that it did not write; each with the reason."""
+    """Files that the last build did not write, each with the reason: misfits, and stale files."""
     pending: tuple[Path, ...] = ()
     """Files that were written while the package is broken: the command of `--exec` waits until it is repaired."""
 
     @property
     def name(self) -> str:
-        """Its name in the configuration."""
+        """The robot's name in the configuration."""
         return self.robot.name
 
     def settle(self, due: float, *, is_told: bool) -> None:

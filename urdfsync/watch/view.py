@@ -1,7 +1,7 @@
 """Serves the pages of watched robots to browsers on this machine; server-sent events update them.
 
-The server listens only on the loopback interface. It refuses requests from pages of other sites. Their `Origin`
-differs, or their `Host` does, if the other site's name resolves to this machine.
+The server listens only on the loopback interface. It refuses requests from pages of other sites. Such a request has
+another `Origin`, or another `Host` if the site's name resolves to this machine.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ _HEADERS = {"Cache-Control": "no-store", "X-Content-Type-Options": "nosniff", "X
 
 
 class _Robot(msgspec.Struct):
-    """One robot. `build` counts builds and checks, `page_build` is the number on the page."""
+    """One robot. `build` counts builds and checks; `page_build` is that number in the page."""
 
     build: int = 0
     problem: str = ""
@@ -89,7 +89,7 @@ class View:
             self._news.notify_all()
 
     def page(self, name: str) -> bytes:
-        """Return the present page of a robot, else the last one; empty if there is none."""
+        """Return the present page of a robot, else the last one; empty without a page."""
         robot = self.robots[name]
         with self._making:
             if (build := robot.build) == robot.page_build:

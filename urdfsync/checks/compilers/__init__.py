@@ -32,7 +32,7 @@ def choose(config: Config, name: str | None = None, *, trusted: bool = False) ->
     """Return the one or two compilers that `--tool` chooses; if `name` is None, those that the configuration chooses.
 
     `trusted` says whether the user trusts the configuration: it may choose a compiler that lets models start programs,
-    or name the compiler's program. `--tool omc` is the user's own choice.
+    or name the compiler's program. `--tool omc` needs no trust: the user chose it.
     """
     chosen = name or config.check.tool
     if chosen not in {*COMPILERS, BOTH}:
@@ -82,8 +82,8 @@ def run_job(
 ) -> list[CompileResult]:
     """Do the tasks of a job in a process; returns a result for each, in order. `progress` is as in `process.run`.
 
-    A model that does not compile is a result. Raises CompilerError if the compiler is missing or breaks down, and
-    LimitError.
+    A model that does not compile raises no error: its result has the problem. Raises CompilerError if the compiler is
+    missing or breaks down, and LimitError.
     """
     compiler = COMPILERS[tool.name]
     if missing := find_missing(tool):

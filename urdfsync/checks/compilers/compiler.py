@@ -28,7 +28,8 @@ class Tool(msgspec.Struct, frozen=True):
 class Simulation(msgspec.Struct, frozen=True):
     """One run from 0 to `stop` s with results every `step` s.
 
-    `parameters` get other values than in the text. Only tests set them, to compile a model once for several runs.
+    `parameters` has new values for parameters of the text. Only tests set them, to compile a model once for several
+    runs.
     """
 
     stop: float
@@ -50,7 +51,7 @@ class Export(msgspec.Struct, frozen=True):
 
 
 class CompileTask(msgspec.Struct, frozen=True):
-    """A model to compile, which is in the text `source`; then to simulate, if there are `runs`.
+    """A model in the text `source`, to compile and then to simulate for each of `runs`.
 
     If a compiler can't do a task, the problem of the result, or of each run, says so.
     """
@@ -76,7 +77,7 @@ class SimulationResult(msgspec.Struct, frozen=True):
     values: Mapping[str, tuple[float, ...]] = {}
     problem: str = ""
     termination: str = ""
-    """Why the model ended the simulation itself, in its words."""
+    """The model's message, if the model itself ended the simulation."""
     parameters: Mapping[str, float] = {}
     """The known values of parameters that `CompileTask.pattern` matches."""
 
@@ -107,7 +108,7 @@ class CompileJob(msgspec.Struct, frozen=True):
     """Tasks for one process, one after the other."""
 
     roots: tuple[str, ...]
-    """Files and folders of packages, and folders that hold packages: libraries, and the robot's."""
+    """Files and folders of packages, and folders that hold packages: those of libraries and of the robot."""
     tasks: tuple[CompileTask, ...]
     program: str = ""
     """See `Tool.program`."""
@@ -143,7 +144,7 @@ class Compiler(Protocol):
     HAS_STANDARD_LIBRARY: bool
     """Whether the compiler finds the Modelica Standard Library itself."""
     STARTS_PROGRAMS: bool
-    """Whether it lets models start programs. Then the user has to trust the configuration that chooses it."""
+    """Whether the compiler lets models start programs. If so, the user has to trust a configuration that chooses it."""
 
     def program(self, named: str) -> str | None:
         """Return the path of the program to start, empty if it needs none; None if it is missing.
@@ -155,12 +156,12 @@ class Compiler(Protocol):
     def state(self, named: str) -> tuple[str, list[Path]]:
         """Return the compiler's stated version, its files and folders, and the libraries that it finds itself.
 
-        Keys of results contain them. The compiler is installed. Raises OSError if it does not answer.
+        The keys of results contain all of these. Requires an installed compiler. Raises OSError if it does not answer.
         """
         ...
 
     def environment(self, cache: str, folder: str) -> dict[str, str]:
-        """Return variables for its process: `cache` is a folder of the user's that stays, `folder` a temporary one."""
+        """Return environment variables for the compiler; the folder `cache` stays, `folder` is temporary."""
         ...
 
     def work(self, job: CompileJob) -> Iterator[CompileResult]:

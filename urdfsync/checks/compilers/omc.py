@@ -105,7 +105,7 @@ def state(named: str) -> tuple[str, list[Path]]:
 
 
 def environment(cache: str, folder: str) -> dict[str, str]:  # noqa: ARG001 - see `Compiler`
-    """See `Compiler`: the temporary folder is for scripts and whatever it writes."""
+    """See `Compiler`: the temporary folder is for scripts and all that OpenModelica writes."""
     # omc downloads an index of libraries if there is none on disk: an unreachable proxy prevents that.
     proxies = dict.fromkeys(("http_proxy", "https_proxy"), _NOBODY) | dict.fromkeys(("no_proxy", "NO_PROXY"), "")
     return dict.fromkeys(("TMPDIR", "TEMP", "TMP"), folder) | proxies
@@ -141,12 +141,12 @@ def complaints(problem: str) -> list[Complaint]:
 
 
 def work(job: CompileJob) -> Iterator[CompileResult]:
-    """See `Compiler`: all in one script. A file that can't be loaded is the problem of each task."""
+    """See `Compiler`: one script does all tasks. If a file can't be loaded, each task has that problem."""
     folder = Path(tempfile.mkdtemp())
     version = _ask(job, folder, ["getVersion()"])[0].value
-    is_webassembly = version.endswith("-rust")  # it needs no C compiler, and has no other target
+    is_webassembly = version.endswith("-rust")  # this edition needs no C compiler, and has no other target
     flags = _MATCHING + " --simCodeTarget=wasm-jit" * is_webassembly
-    if any(task.export for task in job.tasks):  # else co-simulation uses Euler's method
+    if any(task.export for task in job.tasks):  # without a solver, co-simulation uses Euler's method
         flags += f" --fmiFlags=s:{'dassl' if is_webassembly else 'cvode'}"
     files = [f"loadFile({quoted(path.as_posix())})" for path in _package_files(job)]
     loads = [f"setCommandLineOptions({quoted(flags)})", "loadModel(Modelica)", *files]
@@ -295,7 +295,7 @@ def _read_results(file: Path, task: CompileTask) -> SimulationResult:
     Two tables have the numbers: `data_1` the constants at the beginning and at the end, `data_2` a column for each
     instant. `dataInfo` has the table and the row of each name, from 1 on; a negative row means negated numbers.
     """
-    import numpy as np  # scipy brings it along
+    import numpy as np  # scipy depends on it
     from scipy.io import loadmat
     from scipy.io.matlab import MatReadError
 
@@ -325,10 +325,7 @@ def _read_results(file: Path, task: CompileTask) -> SimulationResult:
 
 
 def _package_files(job: CompileJob) -> list[Path]:
-    """Return the files that load all roots: packages, or folders of packages.
-
-    The standard library is OpenModelica's own.
-    """
+    """Return the files that load all packages of the roots; OpenModelica loads its own standard library."""
     files: list[Path] = []
     for root in map(Path, job.roots):
         whole = root if root.is_file() else root / "package.mo"

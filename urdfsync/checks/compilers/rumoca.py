@@ -1,4 +1,4 @@
-"""rumoca, the embedded compiler: jobs done with it, and its messages.
+"""rumoca, the embedded compiler: does jobs, and reads the compiler's messages.
 
 rumoca puts all complaints into one text: in lines or after semicolons, with a place in brackets, or with a frame around
 the source.
@@ -44,11 +44,11 @@ _STUCK = (
     "rumoca finds no state of joints with the friction law stiction that slide together, {}: "
     'choose `friction = "lugre"`, or OpenModelica with `--tool`'
 )
-"""Replaces the message of rumoca 0.10.2 about two such joints."""
+"""The message about two such joints; that of rumoca 0.10.2 does not name the cause."""
 _SPAN = re.compile(r" @ Span \{.*?\) \}")
 
 _SHADOW = "variability violation: "
-"""If a model has another error, rumoca 0.10.2 also reports this about sound models of the Modelica Standard Library."""
+"""If a model has another error, rumoca 0.10.2 also reports this one about models of the Modelica Standard Library."""
 _COLOURS = re.compile(r"\x1b\[[0-9;]*m")
 _FRAMED = re.compile(r"×(?P<words>[^╭]*?)\n\s*╭─+\[(?P<file>[^\n]*?):(?P<line>\d+):(?P<column>\d+)\]")
 _PIECES = re.compile(r"\n|; (?=\S)")
@@ -59,19 +59,19 @@ _PLACE = re.compile(r" \[(?P<file>[^\[\]]*):(?P<line>\d+):(?P<column>\d+)\]$")
 
 
 def program(named: str) -> str:  # noqa: ARG001 - see `Compiler`
-    """See `Compiler`: all of it is in the module."""
+    """See `Compiler`: rumoca is a module of Python and has no program."""
     return ""
 
 
 def state(named: str) -> tuple[str, list[Path]]:  # noqa: ARG001 - see `Compiler`
-    """See `Compiler`: the folder of the module; its version is part of that."""
+    """See `Compiler`: the folder of the module, whose contents include the version."""
     spec = importlib.util.find_spec("rumoca")
     return "", [Path(spec.origin).parent] if spec and spec.origin else []
 
 
 def environment(cache: str, folder: str) -> dict[str, str]:  # noqa: ARG001 - see `Compiler`
     """See `Compiler`. rumoca would look for missing classes on MODELICAPATH, so the variable is removed."""
-    return {"XDG_CACHE_HOME": str(Path(cache).parent), "MODELICAPATH": ""}  # it adds its own name to the first
+    return {"XDG_CACHE_HOME": str(Path(cache).parent), "MODELICAPATH": ""}  # rumoca adds its name to XDG_CACHE_HOME
 
 
 def complaints(problem: str) -> list[Complaint]:
@@ -178,7 +178,7 @@ def _without_effect(model: rumoca.Model, names: tuple[str, ...]) -> tuple[str, .
     structural = {parameter.name for parameter in model.parameters if parameter.kind == "structural"}
 
     def is_used(number: int, above: frozenset[int] = frozenset()) -> bool:
-        # structural parameters are evaluated and then missing; sizes are not even marked as structural
+        # rumoca evaluates structural parameters, so no equation names them; it does not mark sizes as structural
         variable = storage.variables[number]
         if variable.name in structural or storage.value_types[variable.value_type].scalar != "real":
             return True
@@ -203,7 +203,7 @@ def _simulate(model: rumoca.Model, run: Simulation, task: CompileTask) -> Simula
         series = {name: tuple(result[name].tolist()) for name in dict.fromkeys((*task.values, *others))}
     except (rumoca.RumocaError, LookupError, ValueError) as error:
         return SimulationResult(problem=_words(error))
-    values = {"time": tuple(result.time.tolist()), **series}  # all finite, else rumoca reports an error
+    values = {"time": tuple(result.time.tolist()), **series}  # rumoca reports an error for numbers that are not finite
     parameters = {
         parameter.name: parameter.value
         for parameter in model.parameters
