@@ -42,7 +42,7 @@ class BuildChecker:
         )
 
     def key(self, robot: RobotConfig) -> str | None:
-        """Return the fingerprint of all inputs of a robot's check; None if one can't be read."""
+        """Return the fingerprint of all inputs of a robot's check; None if an input can't be read."""
         return fingerprint(self._config, robot, self._options)
 
     def find_earlier(self, key: str | None) -> BuildCheck | None:
@@ -100,7 +100,7 @@ def with_checks(config: Config, request: BuildOptions, results: Iterable[Result]
 
 
 def is_general(finding: Diagnostic) -> bool:
-    """Whether a finding is about this machine, and not about one robot."""
+    """Whether a finding concerns this machine, and not a single robot."""
     return not finding.file and finding.severity is not Severity.ERROR
 
 

@@ -23,7 +23,7 @@ T = TypeVar("T")
 
 LIMIT = 2**30
 """The most bytes on disk that the cache takes: 1 GiB."""
-_FULL, _AFTER = 0.75, 0.5  # of the limit: a cache above 75 % of it is emptied to 50 %
+_FULL, _AFTER = 0.75, 0.5  # parts of the limit: a cache above 75 % is emptied to 50 %
 _IN_USE = 3600.0
 """Seconds for which a used copy of a library is kept: a check may still read it."""
 
@@ -52,15 +52,15 @@ class UserCache:
         return cls(platformdirs.user_cache_path("urdfsync", appauthor=False))
 
     def prepare(self) -> None:
-        """Make the folder. Raises CacheError if it can't be made."""
+        """Make the folder. Raises CacheError if the folder can't be made."""
         with cache_errors(self.folder):
             self.folder.mkdir(mode=0o700, parents=True, exist_ok=True)
 
     def load(self, key: str, kind: type[T]) -> T | None:
-        """Return the value that was saved with this key; None if there is none or it can't be read."""
+        """Return the value that was saved with this key; None without a readable one."""
         file = self.results / key
         try:
-            os.utime(file)  # note its last use
+            os.utime(file)  # note the last use of the result
             return msgspec.msgpack.decode(file.read_bytes(), type=kind)
         except (OSError, ValueError):
             return None
@@ -97,19 +97,19 @@ class UserCache:
         return freed
 
     def _entries(self) -> Iterator[tuple[float, str, int]]:
-        """Yield each entry that is deleted as a whole: the time of its last use, its path, its bytes on disk.
+        """Yield the last use, the path and the bytes on disk of each entry, which can only be deleted as a whole.
 
         Entries are the files and folders in urdfsync's folders, and each file of the compiler except its locks.
         """
         for folder in (self.libraries, self.results, self.compiler):
             if folder.is_symlink():
                 continue
-            for current, folders, files in os.walk(folder):  # ignores deleted folders: other processes trim, too
+            for current, folders, files in os.walk(folder):  # `walk` ignores deleted folders: other processes trim, too
                 if folder == self.compiler:
                     names = [name for name in files if not name.startswith(".")]
                 else:
                     names, folders[:] = [*files, *folders], []
-                found = dict[str, os.stat_result]()  # one stat a file: the compiler leaves tens of thousands
+                found = dict[str, os.stat_result]()  # one stat a file: the compiler leaves tens of thousands of files
                 for name in names:
                     with contextlib.suppress(OSError):  # it was deleted
                         found[name] = os.lstat(f"{current}/{name}")
@@ -132,7 +132,7 @@ def cache_errors(folder: Path) -> Iterator[None]:
 
 
 def _bytes_on_disk(path: str, status: os.stat_result) -> int:
-    """Return the bytes on disk of a file, or of a folder with all below it. Raises OSError if it was deleted."""
+    """Return the bytes on disk of a file, or of a folder with all below it. Raises OSError after its deletion."""
     inside = [status]
     if stat.S_ISDIR(status.st_mode):
         inside += [below.lstat() for below in Path(path).rglob("*")]

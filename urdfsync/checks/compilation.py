@@ -1,4 +1,4 @@
-"""Compiles and simulates versions of one robot's package, each a copy in a folder where the compiler finds it."""
+"""Compiles and simulates versions of one robot's package; each version is a copy in a folder of its own."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ _SAME_TIME = 1e-7  # s
 _BALANCE = re.compile(r"([\d,]+) equations?(?:\(s\))?(?:,| and| for) ([\d,]+) (?:unknown|variable)")
 
 _Job: TypeAlias = tuple[Mapping[str, bytes], Sequence[CompileTask]]
-"""The texts of a version of the package, and its tasks."""
+"""The texts of a version of the package, and the tasks for this version."""
 
 
 class Compilation:
@@ -87,11 +87,11 @@ class Compilation:
         self.generated: Mapping[str, Series] = {}
         """The simulations of the generated package with completed data, by the names of trials."""
         self.edited: Mapping[str, Series] = {}
-        """The simulations of the package on disk, if it is edited."""
+        """The simulations of the package on disk, if files in it are edited."""
 
     def run(self, experiment: Experiment | None) -> None:
-        """Compile the package, and compare it in an experiment: 20 s for a six-axis arm, minutes for a humanoid."""
-        # with an experiment, other versions of the package are compiled at the same time: no need to divide its models
+        """Compile the package, and run the experiment: this takes 20 s for a six-axis arm, minutes for a humanoid."""
+        # an experiment compiles several versions of the package at the same time, so the models need no division
         models = self._model_jobs(1 if experiment else max(1, min(self._processes, len(self._package.models))))
         done = self._run_all({**models, **(self._versions(experiment) if experiment else {})})
         failing = {task.title for label, job in models.items() for task in _failing(job, done[label])}
@@ -147,7 +147,7 @@ class Compilation:
         alone = {file: self._motions(done[file], trials)[0] for file in package.edits if file in done}
         single = {file: compare_all(trials[:1], motions, without_edits) for file, motions in alone.items() if motions}
         whole = compare_all(trials[:1], self.edited, without_edits)
-        # changes in the other trials follow from these, unless a file has no effect in the first trial
+        # later trials repeat changes of the first trial; they count for files without an effect in the first
         others = compare_all(trials[1:], self.edited, without_edits)
         changes = tuple(deviation for deviation in others if not deviation.agrees)
         self.result.effects = tuple(
@@ -183,7 +183,7 @@ class Compilation:
     def _parts(self) -> Mapping[str, str]:
         """For the name of each model that an unedited model has as a component: the name of the unedited model.
 
-        A six-axis arm alone takes as long to compile as Test, which contains it.
+        Compiling a six-axis arm alone takes as long as compiling Test, which contains the arm.
         """
         package, parts = self._package, dict[str, str]()
         for model in package.models:
@@ -230,14 +230,14 @@ class Compilation:
             self.result.tool = f"{self._compiler.TITLE} {answer.version}"
 
     def _run_all(self, jobs: Mapping[str, _Job]) -> dict[str, list[CompileResult]]:
-        """Run jobs, some at the same time. A job in which the compiler breaks down has no results."""
+        """Run jobs, some of them at the same time. A job in which the compiler breaks down has no results."""
         done: dict[str, list[CompileResult]] = {}
         with ThreadPoolExecutor(self._processes) as pool:
             futures = {label: pool.submit(self._run, label, *job) for label, job in jobs.items()}
             for label, future in futures.items():
                 try:
                     done[label] = future.result()
-                except Exception as error:  # noqa: BLE001 - of one job
+                except Exception as error:  # noqa: BLE001 - only this job fails
                     done[label], faults = [], findings_of(error)
                     if label == _USERS:  # the package itself may be sound
                         self.gaps.append(f"your models were not compiled: {faults[0].sentence}")
@@ -309,7 +309,7 @@ def compare_all(
 
 
 def compare(compared: Iterable[Compared], series: Series, expected: Series) -> tuple[Deviation, ...]:
-    """Return the differences from the expected values, at the instants; infinite if a number is missing."""
+    """Return the differences from the expected values at each compared instant; infinite if a number is missing."""
     deviations: list[Deviation] = []
     for quantity in compared:
         places = [(name, instant) for name in quantity.values for instant in quantity.instants]
@@ -334,7 +334,7 @@ def compare(compared: Iterable[Compared], series: Series, expected: Series) -> t
 
 
 def curves(trial: Trial, series: Series) -> Iterator[Curve]:
-    """Yield the curves to draw, each beside the expected one."""
+    """Yield the curves to draw, each beside its expected curve."""
     for each in trial.over_time:
         values, expected = (
             tuple(tuple(_number(numbers, name, time) for time in each.instants) for name in each.values)
@@ -406,7 +406,7 @@ def explain_warnings(text: str, compiler: Compiler, package: PackageTexts) -> li
 
 
 def _diagnostic(complaint: Complaint, package: PackageTexts, code: str) -> Diagnostic:
-    """Return a compiler's complaint as a finding. If the compiler gives no place, the edited file is the likely one."""
+    """Return a compiler's complaint as a finding. If the compiler gives no place, the edited file is likely."""
     file, message = Path(complaint.file), complaint.message.removesuffix(".")
     message = message if len(message) <= _LONGEST_MESSAGE else f"{message[: _LONGEST_MESSAGE - 1]}…"
     edited = [shown(package.folder / path) for path in sorted(package.edited)]

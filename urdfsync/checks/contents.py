@@ -27,9 +27,9 @@ _BLOCK = 4096
 def content_hash(root: Path, without: Collection[str] = ()) -> str:
     """Return the SHA-256 (hex) over a file, or over the names and contents of all files below a folder.
 
-    Ignores hidden files, Python's caches, and files and folders with one of the names `without`. An unreadable
-    file counts as empty: a compiler can't read it either. Raises UrdfsyncError for a symbolic link to a folder,
-    or to a file outside of `root`.
+    Ignores hidden files, Python's caches, and files and folders with one of the names `without`. An unreadable file
+    counts as empty: no compiler can read it. Raises UrdfsyncError for a symbolic link to a folder, or to a file outside
+    of `root`.
     """
     # strings take half the time of paths: a library has 3,000 files
     top, files, hashed = os.path.realpath(root), list[str](), hashlib.sha256()
@@ -60,7 +60,7 @@ def _refuse_bad_link(top: str, link: str) -> None:
     elif os.path.isdir(target):  # noqa: PTH112
         problem = "the link leads to a folder"
     if problem:
-        raise _refusal(Path(link), problem, "replace it by the files themselves")
+        raise _refusal(Path(link), problem, "replace the link by the files themselves")
 
 
 def copy_library(root: Path, target: Path) -> None:
@@ -81,7 +81,7 @@ def copy_library(root: Path, target: Path) -> None:
         size += max(_BLOCK, os.stat(source).st_size)  # noqa: PTH116
         if size > MOST_BYTES:
             message = f"the library takes more than {MOST_BYTES // 2**20} MB, and has to be copied for the compiler"
-            raise _refusal(root, message, "take large resources out of it")
+            raise _refusal(root, message, "take large resources out of the library")
         return shutil.copyfile(source, place)
 
     if root.is_dir():

@@ -115,7 +115,7 @@ class Difference(msgspec.Struct, frozen=True):
 
     element: str
     quantity: str
-    """Its path in the record, such as `limits.effort`."""
+    """The path of the number or name in the record, such as `limits.effort`."""
     expected: str
     """The source's value."""
     given: str
@@ -151,7 +151,7 @@ class Probe(msgspec.Struct, frozen=True):
     """A model that puts a package to the test: Modelica text, what to simulate, and which values to hand back."""
 
     source: str
-    """One package; it names the libraries that it needs in imports."""
+    """One package, whose imports name the libraries that it needs."""
     model: str
     """Full name of the model in `source`."""
     stop: float
@@ -192,7 +192,7 @@ class Trial(msgspec.Struct, frozen=True):
     expected: Mapping[str, tuple[float, ...]]
     """Expected numbers of each value at the times in `time`; NaN is possible."""
     over_time: tuple[Compared, ...] = ()
-    """Quantities to draw over time; they are no part of the verdict."""
+    """Quantities to draw over time, which are no part of the verdict."""
     expected_over_time: Mapping[str, tuple[float, ...]] = {}
     """Expected numbers of `over_time`, as in `expected`."""
 
@@ -205,22 +205,22 @@ class Experiment(msgspec.Struct, frozen=True):
     content: bytes
     """The source to generate the package from: the given source, or a copy with the data that the comparison needs."""
     options: Any
-    """The options to generate it with: the given ones, or simpler ones."""
+    """The options for the generated package: the given ones, or simpler ones."""
     trials: tuple[Trial, ...]
     """Simulations of a package that is generated from `content`; they also run on a package from the given source.
 
-    The first one measures the effects of single edits; without its result there is no comparison.
+    The first simulation measures the effects of single edits; without its result there is no comparison.
     """
     laws: Trial | None = None
     """The simulation of parts that `options` leave out, in the package that is generated from the given source."""
     notes: tuple[str, ...] = ()
     """Differences of `content` from the given source, with reasons: one sentence each, without a full stop."""
     unchecked: tuple[str, ...] = ()
-    """Parts that are not compared, with reasons, in the same form."""
+    """Parts that are not compared, with reasons: one sentence each, without a full stop."""
 
 
 class Sample(msgspec.Struct, frozen=True):
-    """A source, and all else that its package is generated from."""
+    """A source, and all other inputs from which its package is generated."""
 
     content: bytes
     file: str

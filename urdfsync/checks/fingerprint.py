@@ -1,4 +1,4 @@
-"""One hash of all inputs of a result: `check`, the check after a build and `simulate` remember results by it."""
+"""One hash of all inputs of a result: `check`, the check after a build and `simulate` remember results by this hash."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ def fingerprint(config: Config, robot: RobotConfig, options: CheckOptions) -> st
         request = BuildOptions(dry=True, package_paths=options.package_paths)
         content = source.read_source(config, robot, Store(config.root), request).content
         templates = source.templates(config, robot, domain).digest
-    except Exception:  # noqa: BLE001 - the check meets the same error and reports it
+    except Exception:  # noqa: BLE001 - the check meets this error, too, and reports it
         return None
     key = result_key(
         robot,

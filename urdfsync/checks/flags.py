@@ -1,7 +1,7 @@
 """Removes shapes from packages, and turns warnings into variables, so that one simulation tells the time of each.
 
-A compiler may print no warnings, or check them only at the beginning. Shapes change no motion, but they are a quarter
-of the equations of an arm with meshes: rumoca takes a sixth less time without them.
+A compiler may print no warnings, or check them only at the beginning. Shapes change no motion, but a quarter of the
+equations of an arm with meshes. Without shapes, rumoca takes a sixth less time.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Runs a compiler on versions of one robot's package, each a copy in a folder of its own."""
+"""Runs a compiler on versions of one robot's package; each version is a copy in a folder of its own."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class Jobs(msgspec.Struct, frozen=True):
     ) -> list[CompileResult]:
         """Run tasks on a version of the package in a process. Problems name the user's files.
 
-        `label` names the copy; `changed` has other contents for some of its files, by absolute path. Raises
+        `label` names the copy; `changed` has new contents for some files of the package, by absolute path. Raises
         CompilerError, LimitError, CacheError, and the errors of `copy_library`.
         """
         cache, folder, changed = UserCache.default(), self.folder / label.replace("/", "-"), changed or {}
@@ -86,7 +86,7 @@ def _with_imports(task: CompileTask, names: Iterable[str]) -> CompileTask:
 
 
 def _with_originals(result: CompileResult, originals: Mapping[str, Path]) -> CompileResult:
-    """Replace the paths of copies in a compiler's text by those of the originals."""
+    """Replace the paths of copies in a compiler's text by the paths of the originals."""
 
     def named(text: str) -> str:
         for copy, original in originals.items():
@@ -102,7 +102,7 @@ def _with_originals(result: CompileResult, originals: Mapping[str, Path]) -> Com
 
 
 def _in_original(library: str, original: Path, place: re.Match[str]) -> str:
-    """Return the file and line in a library for a place in its packed text."""
+    """Return the file and line in a library for a place in the library's packed text."""
     if not place[1]:
         return str(original)
     file, line = original_place(library, int(place[1]))
@@ -110,7 +110,7 @@ def _in_original(library: str, original: Path, place: re.Match[str]) -> str:
 
 
 def _readable(path: Path, folder: Path, changed: Mapping[Path, bytes]) -> str:
-    """Return a library's path for the compiler: that of a copy if the path is not UTF-8, or if a file has changed."""
+    """Return a library's path for the compiler; if this is not UTF-8, or a file has changed, the path of a copy."""
     inside = {file: content for file, content in changed.items() if file == path or path in file.parents}
     try:
         str(path).encode()

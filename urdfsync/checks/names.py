@@ -30,7 +30,7 @@ class NameCheck(NamedTuple):
     users: list[Diagnostic]
     """Findings in the user's files outside of the package."""
     users_files: Mapping[Path, bytes]
-    """The user's files that use the package: they name a class of the package, or of another such file."""
+    """The user's files that name a class of the package, or of another file that uses the package."""
     uses: Mapping[Path, Set[Path]]
     """For each of the user's files, the files whose classes it names."""
 
@@ -60,7 +60,7 @@ def check_names(package: RobotPackage, standard: Mapping[str, Path]) -> NameChec
             if any(other[: len(top)] == top and len(other) > len(top) for other in sources.seen):
                 using.add(path)
             seen = {Path(file) for file in sources.seen.values() if file}
-            # a file does not use the packages around it
+            # packages around a file do not count as used by the file
             around_it = {folder / "package.mo" for folder in path.parents}
             uses.setdefault(path, set()).update(seen - around_it)
     while more := {path for path, seen in uses.items() if path not in using and seen & using}:

@@ -37,15 +37,15 @@ class PackageTexts(msgspec.Struct, frozen=True):
     """A Modelica package that is stored as a folder. Paths are POSIX ones, below that folder."""
 
     name: str
-    """Its full name, as in `Plant.Robots.Arm`."""
+    """The package's full name, as in `Plant.Robots.Arm`."""
     folder: Path
-    """The folder for messages; it may not exist yet."""
+    """The package's folder for messages, which may not exist yet."""
     texts: Mapping[str, bytes]
-    """Its `.mo` and `package.order` files by path."""
+    """The package's `.mo` and `package.order` files by path."""
     owners: Mapping[str, str] = msgspec.field(default_factory=dict)
     """The element that a file belongs to, in the domain's words: `joint elbow`."""
     edited: Collection[str] = ()
-    """The files that differ from the generated ones."""
+    """The files whose texts differ from the generated texts."""
 
     def text(self, path: str) -> str:
         """Return the text of a file; bytes that are not UTF-8 are replaced."""
@@ -54,13 +54,13 @@ class PackageTexts(msgspec.Struct, frozen=True):
     def diagnostic(
         self, severity: Severity, code: str, message: str, path: str, line: int = 0, column: int = 0, hint: str = ""
     ) -> Diagnostic:
-        """Return a finding in one of the files, or in a folder; it names the element."""
+        """Return a finding in one of the files, or in a folder; the finding names the element."""
         owner = self.owners.get(path, "")
         message = f"{owner}: {message}" if owner else message
         return Diagnostic(severity, code, message, shown(self.folder / path), line, column, hint)
 
     def by_hand(self, path: str) -> str:
-        """Return a hint for a file that was edited; empty for others."""
+        """Return a hint for a file that was edited; empty for other files."""
         return "the file was edited by hand" if path in self.edited else ""
 
 
@@ -73,16 +73,16 @@ class RobotPackage(msgspec.Struct):
     errors: tuple[Diagnostic, ...]
     """Errors that a build would report, except those in Modelica files."""
     on_disk: Mapping[str, bytes]
-    """The Modelica files of the package on disk, by their path below it; none if there is no package."""
+    """The Modelica files of the package on disk, by their path below the package; none without a package."""
     in_step: bool
     conflicting: bool
     """Whether the package is out of step because of a conflict."""
     generated: Mapping[str, bytes]
-    """The generated files of the package, by their path below it."""
+    """The generated files of the package, by their path below the package."""
     own_files: Mapping[Path, bytes]
     """The user's own Modelica files in the package."""
     files: PackageTexts
-    """The checked texts: the package on disk, or the generated one if there is none."""
+    """The checked texts: those of the package on disk, or of the generated package if none is on disk."""
     around: Mapping[str, bytes]
     """See `files_around`."""
     users_files: Mapping[Path, bytes]
@@ -161,7 +161,8 @@ def files_around(config: Config, robot: RobotConfig, texts: Mapping[str, bytes])
     """Return the files of the top-level package around a robot's package, by their paths below the output folder.
 
     Packages of other robots are included if `texts`, those of the robot, or other files around mention them. If a
-    package around the robot's is missing, an empty one stands for it. Raises OutputError for a file that can't be read.
+    package around the robot's is missing, the result has an empty package in its place. Raises OutputError for a file
+    that can't be read.
     """
     output, parts = robot.output, robot.target.package.split(".")
     top = output / parts[0]

@@ -1,8 +1,8 @@
 """Writes each library as one text for the compiler: the classes that are needed, without graphics and documentation.
 
-rumoca 0.10.2 goes through all of every library for each model, so a model that names a tenth of the Modelica Standard
-Library compiles in a third of the time. A class is kept if its name, and that of each class around it, is a word of the
-compiled texts or of a kept class: nothing else can be reached. Comments name the file and line from which a text comes.
+rumoca 0.10.2 goes through all libraries for each model. With a tenth of the Modelica Standard Library, a model compiles
+in a third of the time. A class is kept if compiled texts or kept classes contain its name and the names of all classes
+around it. Models can reach no other class. Comments name the file and line from which a text comes.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ _BEGIN_OR_END = re.compile(
 )
 _OPERATORS = "constructor 0 String + - * / ^ == <> > < >= <= and or not".split()
 _UNNAMED = {"constructor", "destructor", "equalityConstraint", *(f"'{operator}'" for operator in _OPERATORS)}
-"""Functions that the language calls without their names."""
+"""Functions that Modelica calls although no text names them."""
 _WORD = re.compile(rf"{_STRING}|{_REMARK}|({_NAME})", re.DOTALL)
 
 
@@ -61,7 +61,7 @@ Library: TypeAlias = Sequence[Piece]
 
 
 def pieces(name: str, texts: Mapping[str, bytes]) -> list[Piece]:
-    """Return the pieces of a library, from its files by their path in its folder."""
+    """Return the pieces of a library; `files` are by their path in the library's folder."""
     inside = dict[str, list[str]]()
     for path in sorted(path for path in texts if path.endswith(".mo")):
         inside.setdefault(_stem(path).rpartition("/")[0], []).append(path)
@@ -71,7 +71,7 @@ def pieces(name: str, texts: Mapping[str, bytes]) -> list[Piece]:
 
 
 def names_in(text: str) -> frozenset[str]:
-    """Return the names in a text, keywords among them; comments and strings have none."""
+    """Return the names in a text, keywords included; names in comments and strings do not count."""
     return frozenset(filter(None, _WORD.findall(text)))
 
 
@@ -176,7 +176,7 @@ def _end_of(text: str, found: re.Match[str], end: int) -> int:
 
 
 def _semicolon(text: str, at: int, end: int) -> int:
-    """Return where a statement ends: behind its semicolon, or at `end` if it has none."""
+    """Return where a statement ends: behind its semicolon, or without a semicolon at `end`."""
     depth = 0
     for match in _SIGN.finditer(text, at, end):
         sign = match["sign"] or ""

@@ -1,6 +1,6 @@
 """Runs native code (a compiler, a reference) in a process of its own, with limits of time and memory.
 
-As a program it calls the function that is pickled on its stdin.
+As a program, this module calls the function that is pickled on stdin.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ T = TypeVar("T")
 _INTERVAL = 0.25
 """Seconds between two checks of memory and time; a check reads a file of each process of the system."""
 _GRACE = 10.0
-"""Seconds of processor time beyond the limit, after which a process ends itself if its parent has not."""
+"""Seconds of processor time beyond the limit after which a process ends itself: its parent has not ended it."""
 _MOST_IDLE = 60.0
 """Seconds by the clock after which an idle process is ended."""
 _WORK = 0.01
@@ -44,7 +44,7 @@ class Limits(msgspec.Struct):
     memory: float
     """Bytes."""
     times: dict[float, float] = {}
-    """Processor time so far of each process, by the time at which it began."""
+    """Processor time so far of each process, by the start time of the process."""
     peak: float = 0.0
     """The peak memory so far, in bytes."""
 
@@ -60,11 +60,11 @@ def limits_of(owner: str, seconds: float, gigabytes: float | None) -> Limits:
 
 
 class LimitError(UrdfsyncError):
-    """A process exceeded its time or memory; the code of the one diagnostic says which."""
+    """A process exceeded its time or memory; the code of the only diagnostic tells which of the two."""
 
 
 class BrokenProcessError(Exception):
-    """A process ended before it was done: the text is its exit code and its last words."""
+    """A process ended before its work was done: the text has the exit code and the last line of its errors."""
 
     def __init__(self, results: list[Any], code: int, words: str) -> None:
         super().__init__(": ".join(filter(None, (processes.exit_cause(code), words))))
@@ -138,7 +138,7 @@ def _wait(
                 if is_started:
                     started.add(child)
                 if is_started or child.pid == process.pid:
-                    seconds += sum(child.cpu_times()[:4])  # includes its ended children
+                    seconds += sum(child.cpu_times()[:4])  # includes ended children of the child
         limits.peak = max(limits.peak, used)
         if seconds > limits.times.get(begin, 0.0) + _WORK:
             limits.times[begin], worked = seconds, time.monotonic()
@@ -170,7 +170,7 @@ def main() -> None:
         # Ends this process if its parent is gone: native code may block all threads of Python.
         if sys.platform != "win32":
             signal.setitimer(signal.ITIMER_PROF, max(seconds, 0.0) + _GRACE)
-        processes.end_with_parent(lambda: os.read(0, 1))  # not by sys.stdin: its lock would disturb Python's exit
+        processes.end_with_parent(lambda: os.read(0, 1))  # not by sys.stdin, whose lock would disturb Python's exit
         last = None
         try:
             for result in function(*arguments):

@@ -1,4 +1,4 @@
-"""Results of checks in words: a line for each robot, its details indented below."""
+"""Results of checks in words: a line for each robot, with details in indented lines below."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ def _place(each: Difference) -> str:
 
 
 def _by_file(differences: Iterable[Difference]) -> Iterator[tuple[Difference, str]]:
-    """Yield the first differences in each file; the last of them comes with the count of the others."""
+    """Yield the first differences in each file; the last one comes with the number of further differences."""
     for _, group in itertools.groupby(differences, lambda each: each.file):
         own = list(group)
         more = f" (and {len(own) - _MOST} more there)" if len(own) > _MOST else ""

@@ -50,7 +50,7 @@ class CheckOptions(RunOptions, frozen=True):
     strict: bool = False
     """Treat the effects of edits as differences."""
     tools: tuple[Tool, ...] = (Tool(),)
-    """The compilers, one or both."""
+    """One compiler, or two."""
     jobs: int | None = None
     """The most robots checked at the same time; None: as many as cores and memory allow."""
     compilers: int = 1
@@ -68,7 +68,7 @@ class CheckStatus(enum.StrEnum):
 
     RIGHT = "right"
     INCOMPLETE = "incomplete"
-    """Nothing is wrong, but something could not be checked."""
+    """The check found no fault, but could not check all parts."""
     OUT_OF_STEP = "out of step"
     NOT_BUILT = "not built"
     DIFFERS = "differs"
@@ -90,7 +90,7 @@ class EditEffect(msgspec.Struct, frozen=True):
     """The effect of the user's edits on the robot, compared with the generated package."""
 
     files: tuple[str, ...]
-    """The edited files that cause it, below the package's folder; several if they work together."""
+    """The edited files that cause the effect, below the package's folder; several if they work together."""
     deviations: tuple[Deviation, ...]
     """The deviations beyond the tolerance, from the root outwards; none if the edits change no compared quantity."""
     owners: tuple[str, ...] = ()
@@ -132,15 +132,15 @@ class ToolResult(msgspec.Struct):
     """The effects of the user's edits, each apart if possible."""
     seconds: float = 0.0
     megabytes: float = 0.0
-    """The most memory that its processes took together, measured four times a second."""
+    """The most memory that all processes took together, measured four times a second."""
     times: tuple[TrialTime, ...] = ()
-    """Times of the comparison, if the compiler tells them."""
+    """Times of the comparison, if the compiler tells times."""
     curves: tuple[Curve, ...] = ()
     """Poses and efforts of the generated package in the first simulation, for a page."""
 
 
 class CheckResult(msgspec.Struct):
-    """The result for one robot. Only the check changes it."""
+    """The result for one robot. Only the check changes this object."""
 
     KEYS = (
         *("robot", "package", "folder", "failed", "built", "in_step", "conflicting", "strict", "status", "summary"),
@@ -163,9 +163,9 @@ class CheckResult(msgspec.Struct):
     edited: tuple[str, ...] = ()
     """The edited files below the package's folder, without those that differ in comments and blanks only."""
     tools: tuple[ToolResult, ...] = ()
-    """One for each compiler, in the order of their runs; none if nothing was compiled."""
+    """A result for each compiler, in the order of their runs; none if nothing was compiled."""
     between: tuple[Deviation, ...] | None = None
-    """Deviations of the second compiler from the first, for the generated package; None if one could not move it."""
+    """Deviations of the second compiler from the first, for the generated package; None without two simulations."""
     between_edited: tuple[Deviation, ...] = ()
     """Deviations of the second compiler from the first, for the package with the user's edits; none without edits."""
     notes: tuple[str, ...] = ()
@@ -178,7 +178,7 @@ class CheckResult(msgspec.Struct):
     seconds: float = 0.0
     """Time from beginning to end."""
     megabytes: float = 0.0
-    """The most memory that its processes took together, measured four times a second."""
+    """The most memory that all processes took together, measured four times a second."""
     folder: str = ""
     """The package's folder for messages; empty if the check broke off."""
     reference: str = ""
@@ -282,7 +282,7 @@ def worst(deviations: Iterable[Deviation]) -> dict[Part, Deviation]:
 
 
 def exit_code(results: Iterable[CheckResult]) -> Exit:
-    """Return 2 if anything failed; 0 if all is right, or only incomplete and not `strict`; else 1."""
+    """Return 2 for a failure, 0 if all is right, or without `strict` also incomplete, and else 1."""
     wrong = {result.status for result in results if result.strict or result.status is not CheckStatus.INCOMPLETE}
     wrong.discard(CheckStatus.RIGHT)
     if CheckStatus.FAILED in wrong:

@@ -37,7 +37,7 @@ def known_check(config: Config, robot: RobotConfig) -> CheckResult | None:
     """
     if config.check.tool != "rumoca":  # the key has OpenModelica's version, which only a start tells
         return None
-    if key := fingerprint(config, robot, CheckOptions()):  # computed once for both checks, since it reads all libraries
+    if key := fingerprint(config, robot, CheckOptions()):  # once for both checks: it reads all libraries
         cache = UserCache.default()
         return cache.load(f"{key}{PHYSICS}", CheckResult) or cache.load(key, CheckResult)
     return None
@@ -69,7 +69,7 @@ def check_robot(config: Config, robot: RobotConfig, options: CheckOptions, folde
         result = earlier or result
         result.folder, result.strict = shown(robot.folder), options.strict  # a saved check may have other values
         result.add(texts.missing_resources(package))  # the fingerprint does not cover these files
-    except Exception as error:  # noqa: BLE001 - of one robot
+    except Exception as error:  # noqa: BLE001 - only this robot fails
         result.add(findings_of(error))
     result.diagnostics = robot.without_ignored(result.diagnostics)
     result.seconds = time.monotonic() - begin
@@ -204,7 +204,7 @@ def _experiment(package: RobotPackage, options: CheckOptions, result: CheckResul
 def _experiments(domain: str, sample: Sample, step: float | None) -> Iterator[Experiment | str]:
     """Yield the experiment of a domain, in a process of its own."""
     checks: Checks | None = registry.domain(domain).checks
-    yield checks.experiment(sample, step) if checks else "there is no reference for such packages"
+    yield checks.experiment(sample, step) if checks else "there is no reference for packages of this domain"
 
 
 def run_compilations(

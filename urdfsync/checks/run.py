@@ -27,7 +27,7 @@ _PAUSE = 0.1  # s between two reports of progress
 def check_robots(
     config: Config, robots: Sequence[RobotConfig], options: CheckOptions, progress: Progress
 ) -> Iterator[CheckResult]:
-    """Check robots; the results come in their order, each as soon as it and those before it are known.
+    """Check robots; yield the results in the order of the robots, each as soon as all earlier results are known.
 
     `progress` gets the step of the work, and the number of finished robots. Raises CacheError if there is no place for
     the cache, ConfigError if no cluster answers.
