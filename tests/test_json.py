@@ -224,7 +224,7 @@ def test_the_other_events_look_as_shown() -> None:
         Severity.WARNING,
         "exec",
         "robot `arm`: the command of --exec ended with exit code 2",
-        hint="correct it: it runs again after the next build that changes something",
+        hint="correct the command: it runs again after the next build that changes a file",
     )
     failure = Diagnostic(Severity.ERROR, "system", "Permission denied", "arm.urdf")
     place, words = ("modelica/Arm/Arm.mo", 12, 3), "there is no class `Sensor`"

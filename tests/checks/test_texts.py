@@ -108,8 +108,8 @@ CAN_NOT = "can't be the name of a class; rename the file, or move it elsewhere [
         ),
         (
             {"Joints/elbow.mo": SMALL_ELBOW, ORDER: arm.text(ORDER) + "elbow\n"},
-            "Joints/elbow.mo: warning: `elbow` and `Elbow` differ only by case; rename one class: file systems that ignore "
-            "case do not hold both [same-but-for-case]",
+            "Joints/elbow.mo: warning: `elbow` and `Elbow` differ only by case; rename one class: file systems that "
+            "ignore case do not hold both [same-but-for-case]",
         ),
     ],
 )

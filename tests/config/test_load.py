@@ -90,7 +90,7 @@ MISTAKES = {
     ),
     "command = 'make'": '`command` must be a list of strings, not "make" [wrong-value]',
     "command_inputs = ['a']": (
-        "robot `arm`: `command_inputs` without `command`; add the command, or take them out [wrong-value]"
+        "robot `arm`: `command_inputs` without `command`; add the command, or take the inputs out [wrong-value]"
     ),
     "arguments = {}\ncommand = ['make']": (
         "robot `arm`: `command` writes a source that xacro does not expand; take one out [wrong-value]"

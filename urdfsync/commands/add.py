@@ -31,7 +31,7 @@ def add(commands: arguments.Commands) -> None:
         "add",
         help="add a robot to urdfsync.toml",
         description="Add a table to urdfsync.toml for each source, with guesses and their reasons. Existing tables "
-        "stay as they are.",
+        "stay unchanged.",
         epilog="examples: urdfsync add cad/gripper.urdf\n          urdfsync add ur.urdf.xacro ur_type:=ur10e",
     )
     sources = "the sources of the new robots; of xacro with arguments NAME:=VALUE"

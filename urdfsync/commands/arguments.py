@@ -21,11 +21,11 @@ from urdfsync.output.console import PURPOSES, Console, Format
 from urdfsync.overview import CODES
 
 DRIVER_ERROR = 255
-"""Exit code of a failed merge driver of git; lower ones count conflicts."""
+"""Exit code of a failed merge driver; git reads lower codes as numbers of conflicts."""
 
 
 class UsageError(UrdfsyncError):
-    """Wrong arguments; `usage` lists the right ones."""
+    """Wrong arguments; `usage` lists the right arguments."""
 
     def __init__(self, parser: argparse.ArgumentParser, message: str, hint: str = "") -> None:
         super().__init__(Diagnostic(Severity.ERROR, "usage", message, hint=hint or f"`{parser.prog} --help` says more"))
@@ -104,13 +104,13 @@ _SHARED: Mapping[str, dict[str, Any]] = {
         "help": "let the workers of a Dask scheduler that you trust do the work (tcp://HOST:PORT)",
     },
 }
-"""Arguments and options that more than one command takes."""
+"""Arguments and options that several commands take."""
 
 
 def add_command(commands: Commands, name: str, shared: str = "", *, formats: bool = False, **texts: Any) -> Parser:
     """Add the parser of a command, with some of `_SHARED` and with the options that every command has.
 
-    With `formats`, it writes its result in each `Format`.
+    With `formats`, the command can write its result in each `Format`.
     """
     texts["epilog"] += "" if "exit codes" in texts["epilog"] else f"\n\n{CODES}"
     parser = commands.add_parser(name, **texts)

@@ -16,7 +16,7 @@ from urdfsync.output.console import Console, line
 
 
 class LibraryDocument(msgspec.Struct):
-    """Where the library is, and a line for the shell that puts it on MODELICAPATH."""
+    """The library's folder, and a line for the shell that puts this folder on MODELICAPATH."""
 
     folder: str
     line: str
@@ -28,7 +28,7 @@ def add(commands: arguments.Commands) -> None:
         commands,
         "library",
         help="print where the Modelica library is",
-        description="Print the folder of the Modelica library, and the line that puts it on MODELICAPATH. "
+        description="Print the folder of the Modelica library, and the line that puts this folder on MODELICAPATH. "
         "A pipe or a file gets only the line.",
         epilog='example: eval "$(urdfsync library)"',
     )

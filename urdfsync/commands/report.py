@@ -34,14 +34,15 @@ def add(commands: arguments.Commands) -> None:
         "report",
         "--wait",
         help="write a page with a robot in 3D, and what changed",
-        description="Write one HTML file that needs nothing else: the robot in 3D with joints that you can move, its "
-        "tree and its diagram, what changed since the last build or another version, your edits and the conflicts.",
+        description="Write one HTML file that needs no other file. It shows the robot in 3D with joints that you "
+        "can move, its tree and diagram, the changes since the last build or another version, your edits and the "
+        "conflicts.",
         epilog="examples: urdfsync report arm\n          urdfsync report arm --against HEAD~1 -o review.html",
     )
     option = parser.add_argument
-    option("robots", nargs="*", metavar="ROBOT", help="the robot, if there is more than one")
+    option("robots", nargs="*", metavar="ROBOT", help="the robot, if the project has several")
     option("--against", metavar="VERSION", help="the older version: git revision, else file (default: the last build)")
-    option("-o", "--output", type=Path, metavar="FILE.html", help="where to write it (default: the robot's name, here)")
+    option("-o", "--output", type=Path, metavar="FILE.html", help="the page's file (default: the robot's name, here)")
 
 
 def run(args: argparse.Namespace, console: Console) -> int:

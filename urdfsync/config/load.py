@@ -1,6 +1,6 @@
 """Reads `urdfsync.toml` into a frozen `Config`; reports all faults at once, each with its line.
 
-All paths in the file count from its own folder. A robot's table may hold the keys of `Keys` and the options of its
+All paths in the file count from the file's folder. A robot's table may hold the keys of `Keys` and the options of its
 domain. `[defaults]` may hold the same keys without source, package and class, `[check]` the keys of `CheckConfig`.
 """
 
@@ -49,11 +49,11 @@ _WORDS = {
 }
 
 _fields = functools.cache(msgspec.structs.fields)
-"""The fields of each struct type. In the daemon, finding them takes a tenth of a small build's time."""
+"""The fields of each struct type. In the daemon, finding the fields would take a tenth of a small build's time."""
 
 
 def find(start: Path) -> Path:
-    """Find the configuration file in `start` or the nearest folder above it. Raises ConfigError if there is none."""
+    """Find the configuration file in `start` or the nearest folder above it. Raises ConfigError without such a file."""
     for folder in (start, *start.parents):
         # a pipe of this name counts, too: `load` reports it as unreadable
         if dependencies.file_type(folder / FILE_NAME) not in (0, stat.S_IFDIR):
@@ -132,7 +132,7 @@ def _is_finite(value: Any) -> bool:
 
 
 class _Table(NamedTuple):
-    """A table: its name in messages, its values, and the line of each key; the table's own line for `""`."""
+    """A table: its name in messages, its values, and the line of each key; `""` has the table's own line."""
 
     name: str
     values: Mapping[str, Any]
@@ -249,7 +249,7 @@ class _Reader:
         for old, new in keys.renamed.items():
             if (other := olds.setdefault(new, old)) != old:
                 message = f"robot `{name}`: both `{other}` and `{old}` are renamed to `{new}`"
-                self._report("wrong-rename", lines[f"renamed.{old}"], message, "take one of them out")
+                self._report("wrong-rename", lines[f"renamed.{old}"], message, "take one entry out")
         for key, message, hint in find_name_problems(keys.package, keys.class_):
             self._report("modelica-name", lines[key], message, hint)
         if keys.command and keys.arguments is not None:
@@ -257,7 +257,7 @@ class _Reader:
             self._report("wrong-value", lines["arguments"], message, hint)
         elif keys.command_inputs and not keys.command:
             message = f"robot `{name}`: `command_inputs` without `command`"
-            self._report("wrong-value", lines["command_inputs"], message, "add the command, or take them out")
+            self._report("wrong-value", lines["command_inputs"], message, "add the command, or take the inputs out")
         output = self._absolute(keys.output)
         for folder, owner in ((STATE_FOLDER, "urdfsync"), (".git", "git")):
             if Path(_folded(output)).is_relative_to(_folded(self._root / folder)):
@@ -323,7 +323,7 @@ class _Reader:
         return len(self.problems) > before
 
     def _path(self, kind: type, value: Any) -> Path:
-        """Return a path in the file as an absolute one; msgspec calls this, and reports the TypeError."""
+        """Return a path in the file as an absolute path; msgspec calls this function, and reports its TypeError."""
         if kind is not Path or not isinstance(value, str) or not value:  # "." is the folder of the configuration
             raise TypeError
         return self._absolute(Path(value))

@@ -17,7 +17,7 @@ _LINK = re.compile(r"\[([^\]]*)\]\([^)]*\)")
 
 
 def working_folder() -> Path:
-    """Return the working folder. Raises ConfigError if it was deleted."""
+    """Return the working folder. Raises ConfigError if the folder was deleted."""
     try:
         return Path.cwd()
     except FileNotFoundError:
@@ -49,7 +49,7 @@ def templates_folder(domain: Domain) -> Path:
 
 
 def explained(page: str) -> Iterator[tuple[str, list[str]]]:
-    """Yield the names in the first column of a page's tables, each with the cells beside it.
+    """Yield the names in the first column of a page's tables, each with the other cells of its row.
 
     SARIF and the schema take their explanations from the pages.
     """

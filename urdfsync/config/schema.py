@@ -1,6 +1,6 @@
 """Makes the JSON schema of `urdfsync.toml`, for editors, from the types that read it.
 
-A schema can't compare tables or paths. It misses clashing packages, one name for two elements, and an output in
+A schema can't compare tables or paths. So it misses clashing packages, one name for two elements, and an output in
 `.urdfsync`. `load` reports these.
 """
 

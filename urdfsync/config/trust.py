@@ -27,7 +27,7 @@ def find_untrusted_output(config: Config, robot: RobotConfig) -> Diagnostic | No
     """
     if robot.output.is_relative_to(config.root):
         return None
-    message = f"`output` leads out of the configuration's folder, to {robot.output}"  # in full: the user decides by it
+    message = f"`output` leads out of the configuration's folder, to {robot.output}"  # the user has to see the path
     return _find_untrusted(config, message, robot.lines.get("output", 0))
 
 
@@ -44,7 +44,7 @@ def find_untrusted_compiler(config: Config, compiler: str, title: str) -> Diagno
 
     Raises ConfigError. Models and libraries have external functions, by which a compiler may run other programs.
     """
-    key, reason = "tool", "models can start programs through it"
+    key, reason = "tool", "models can start programs through this compiler"
     if program := config.check.program(compiler):
         key, reason = compiler, program
     message = f"`{key}` in the table `[check]`: {title} was not run: {reason}"

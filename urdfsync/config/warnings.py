@@ -47,7 +47,7 @@ def _find_warnings(config: Config, robot: RobotConfig) -> Iterator[Diagnostic]:
 
 
 def _files(folder: Path) -> dict[str, Path]:
-    """Return the files below a folder by their names in it, POSIX; hidden ones are left out."""
+    """Return the files below a folder, except hidden ones, by their POSIX paths in the folder."""
     files = {path.relative_to(folder): path for path in map(Path, walk_files(folder))}
     return {
         name.as_posix(): path for name, path in files.items() if not any(part.startswith(".") for part in name.parts)

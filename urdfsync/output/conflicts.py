@@ -25,11 +25,11 @@ _WIDTH = 240
 _ELEMENTS = 5
 """The most changes of each side that are listed."""
 _SIGNS = {"+": "green", "-": "red", "@": "cyan"}
-"""Styles of the lines of a difference, by how they begin."""
+"""Styles of the lines of a difference, by the first characters of a line."""
 
 
 def conflict_lines(result: Result, console: Console) -> Iterator[StyledLine]:
-    """Yield all conflicts of one robot: the first ones in full, the others on a line each, and the command for all."""
+    """Yield all conflicts of one robot, the first ones in full, others on a line each, and the command for all."""
     conflicts = result.conflicts
     full = len(conflicts) if console.verbose else 0 if console.quiet else FULL
     menus = list[dict[str, str]]()
@@ -37,7 +37,7 @@ def conflict_lines(result: Result, console: Console) -> Iterator[StyledLine]:
         menu = _choices(target)
         yield line(("", ""))
         yield from _full_lines(target, console, menu)
-        if menu not in menus:  # the same choices are explained once
+        if menu not in menus:  # the same choices are explained only once
             width = max(map(len, menu))
             yield from (line((f"      {choice:<{width}}  {words}", "dim")) for choice, words in menu.items())
             menus.append(menu)
@@ -60,7 +60,7 @@ def conflict_lines(result: Result, console: Console) -> Iterator[StyledLine]:
 
 
 def _full_lines(target: DisputedFile, console: Console, choices: Mapping[str, str]) -> Iterator[StyledLine]:
-    """Yield lines about one conflict: the reason, the differences, the saved versions, and the first of the choices."""
+    """Yield lines about one conflict: the reason, the differences, the saved versions, and the first choice."""
     result, action, name = target.result, target.action, target.shown
     yield line(("  conflict   ", "bold red"), (name, "bold"), (f"  {action.owner}", "dim"))
     clauses = [reason(action, result.changes), target.relation]
@@ -126,7 +126,7 @@ def _choices(target: DisputedFile) -> dict[str, str]:
 
 
 def _element_lines(texts: Conflict) -> list[StyledLine]:
-    """Return the changes of each side by element, if they merge and both texts are classes."""
+    """Return the changes of each side by element, if the changes merge and both texts are classes."""
     from urdfsync.merge.edits import find_edits, in_words  # only conflicts need the merge
 
     if texts.base is None or texts.merge is None or texts.merge.text is None:
@@ -144,7 +144,7 @@ def _element_lines(texts: Conflict) -> list[StyledLine]:
 
 
 def _text_lines(texts: Conflict) -> Iterator[StyledLine]:
-    """Yield contradictions between markers, as `--edit` has them; if there are none, the changes of the merge."""
+    """Yield contradictions between markers, as in `--edit`; without contradictions, the changes of the merge."""
     if texts.merge is None:
         return difference_lines(texts.mine, texts.generated, "mine", "generated")
     old = (texts.merge.contradictions and texts.merge.with_mine) or texts.mine  # the merge of all other changes
@@ -184,5 +184,5 @@ def _command(arguments: Sequence[str], console: Console) -> str:
 
 
 def _sentence(clause: str) -> str:
-    """Return the clause as a sentence; the program's name keeps its small letter."""
+    """Return the clause as a sentence; the name `urdfsync` keeps its small letter."""
     return f"{clause if clause.startswith('urdfsync') else clause[:1].upper() + clause[1:]}."

@@ -34,17 +34,17 @@ Format: TypeAlias = Literal["text", "json", "markdown", "sarif"]
 PURPOSES: Mapping[Format, str] = {"markdown": "for a comment", "sarif": "for findings at their lines"}
 """What the help says of formats."""
 FEW = 5
-"""The most warnings of one code that are shown; the others are counted."""
+"""The most warnings of one code that are shown; further warnings are counted."""
 BAR_AFTER = 0.5
 """Seconds of work before a progress bar appears."""
 _SEVERITIES = {Severity.ERROR: "bold red", Severity.WARNING: "yellow", Severity.NOTE: "cyan"}
 
 
 class StyledLine(msgspec.Struct, frozen=True):
-    """One line as pieces of text, each with a style of rich; empty for none.
+    """One line as pieces of text, each with a style of rich; the style is empty for plain text.
 
-    Pipes and files get the text without rich: its import takes 20 of the 95 ms of a build of one changed mass, which
-    has a bar in docs/speed.md.
+    Pipes and files get the text without rich: its import takes 20 of the 95 ms in which a build writes one changed
+    mass.
     """
 
     parts: tuple[tuple[str, str], ...]
@@ -66,7 +66,7 @@ def line(*parts: tuple[str, str]) -> StyledLine:
 
 
 def first_lines(lines: Sequence[StyledLine], most: int, noun: str, *, verbose: bool) -> Sequence[StyledLine]:
-    """Return the first lines and, as the last of `most`, the number of the others; with `verbose` all lines."""
+    """Return at most `most` lines, of which the last gives the number of missing lines; with `verbose` all lines."""
     rest = len(lines) - most + 1
     if verbose or rest < 2:
         return lines
@@ -165,7 +165,7 @@ class Console:
         write_lines(lines, sys.stderr if error else sys.stdout)
 
     def tell(self, lines: Iterable[StyledLine]) -> None:
-        """Write lines on the output stream, unless it gets a document or --quiet is given."""
+        """Write lines on the output stream, unless it gets a document or the user gives --quiet."""
         if not (self.is_document or self.quiet):
             self.print(lines)
 
@@ -208,7 +208,7 @@ class Console:
         return json.dumps(plain(values), indent=indent) + "\n"
 
     def progress(self, what: str, done: int, total: int) -> None:
-        """Show a step of the work once it takes more than a moment."""
+        """Show the present step, if the command has worked for more than a moment."""
         is_wanted = not self.is_document and not self.quiet and sys.stderr.isatty()
         if not is_wanted or time.monotonic() - self._begin < BAR_AFTER:
             return

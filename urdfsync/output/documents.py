@@ -19,7 +19,7 @@ from urdfsync.diagnostics import Diagnostic
 
 Item = TypeVar("Item")
 JSON_VERSION: Literal[3] = 3
-"""Version of the JSON documents and events; it grows if a key is removed or changes its meaning."""
+"""Version of the JSON documents and events; the number grows if a key is removed or changes its meaning."""
 
 
 class Document(msgspec.Struct, Generic[Item], kw_only=True):

@@ -36,12 +36,12 @@ class Content(msgspec.Struct, frozen=True):
     section: Section
     """The changes in words."""
     numbers: Table
-    """Mass, reach, loads and the like, of both versions."""
+    """Mass, reach, loads and other properties of both versions."""
     against: str
     """The older version, in words."""
     picture: Picture
     statuses: Mapping[str, str]
-    """Elements that are `changed`, `added`, `removed` or `renamed`; the page adds those with other meshes."""
+    """Elements that are `changed`, `added`, `removed` or `renamed`; the page adds elements whose meshes changed."""
     renamed: Mapping[str, str]
     """New names of elements by the old ones."""
     changes: Mapping[str, Sequence[str]]

@@ -1,8 +1,8 @@
-"""Loads three.js from trimesh, which contains it for its own viewer.
+"""Loads three.js from trimesh, whose viewer contains three.js.
 
 This repository contains no third-party JavaScript. The page gets three.js from the installed trimesh, which reads
-meshes anyway: r140, 0.7 MB, under the MIT licence. meshcat and viser have it in one file with their own programs (0.9
-and 0.8 MB), and each would be a further dependency.
+meshes anyway: r140, 0.7 MB, under the MIT licence. meshcat and viser have three.js in one file with their own programs
+(0.9 and 0.8 MB), and would be further dependencies.
 """
 
 from __future__ import annotations

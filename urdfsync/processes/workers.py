@@ -1,6 +1,6 @@
 """Runs jobs at the same time, in processes of this machine or by the workers of a Dask cluster.
 
-Workers of a cluster see the project at the same path, such as on a shared file system, and have the same urdfsync.
+Workers of a cluster must see the project at the same path, and have the same urdfsync.
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ class Workers:
 def workers(count: int, address: str = "") -> Iterator[Workers]:
     """Start `count` processes, or use the Dask scheduler at an address. Raises ConfigError if no scheduler answers.
 
-    All processes end with the `with` block; after an exception they end at once, and a cluster drops waiting jobs.
+    All processes end with the `with` block. After an exception they end at once, and a cluster drops waiting jobs.
     """
     if address:
         with contextlib.closing(_connect(address)) as client:
@@ -94,7 +94,7 @@ def _connect(address: str) -> Any:
     Answers are unpickled, so the program at this address must be trusted.
     """
     try:
-        from distributed import Client  # an extra; takes a second to import
+        from distributed import Client  # Dask is an extra; its import takes a second
     except ImportError:
         message, hint = "`--executor` needs Dask, which is not installed", install_command("cluster")
         raise ConfigError.of("no-cluster", message, hint=hint) from None
@@ -127,7 +127,7 @@ def _safe_path() -> Iterator[None]:
 
 
 def _begin(end: Connection, steps: SimpleQueue[str]) -> None:
-    """Prepare a process: it ends when the command closes its end of a pipe, or ends; Ctrl-C does not end it."""
+    """Prepare a process, which ends when the command ends or closes its pipe; Ctrl-C does not end the process."""
     global _steps
     _steps = steps
     signal(SIGINT, SIG_IGN)  # the command gets the signal, too, and ends the workers

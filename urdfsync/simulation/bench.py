@@ -1,4 +1,4 @@
-"""The models and variables by which a package is simulated, and how `simulate` gets them from a domain."""
+"""The models and variables of a package for simulations, and the functions by which a domain gives them."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ class Signal(msgspec.Struct, frozen=True):
     variable: str
     unit: str
     limits: tuple[str, ...] = ()
-    """Parameters with the lower and the upper limit; a single one limits the absolute value; empty for no limit."""
+    """Parameters with the lower and the upper limit; a single one limits the absolute value; empty without a limit."""
     added: tuple[tuple[str, str], ...] = ()
     """Pairs of a parameter and a variable; the products are added to the value of `variable`."""
 

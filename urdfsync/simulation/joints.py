@@ -11,7 +11,7 @@ from urdfsync.simulation.bench import Axis, Bench, Signal
 from urdfsync.simulation.results import JointResult, LoopResult, PassedLimit, Range, Series
 
 _ENDLESS = 1e300
-"""A larger limit counts as none: compilers write infinity as their greatest number."""
+"""A larger limit is no limit: compilers write infinity as their greatest number."""
 _ROUNDING = 1e-6
 """The margin of `UrdfSync.Functions.isAtMost`: this number in the quantity's unit, plus this fraction of the limit."""
 _INTEGRATION = 1e-4
@@ -90,7 +90,7 @@ def _names(signal: Signal) -> Iterator[str]:
 
 
 def _values(signal: Signal, place: str, series: Series, parameters: Mapping[str, float]) -> Any:
-    """Return the numbers of a signal as an array; None if the model lacks it."""
+    """Return the numbers of a signal as an array; None if the model lacks the signal."""
     name = _below(place, signal.variable)
     if name not in series:
         return None

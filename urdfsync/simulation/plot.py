@@ -76,7 +76,7 @@ def _saved(figure: Figure, kind: str) -> bytes:
 
 
 def _columns(joints: Sequence[JointResult]) -> Iterator[Sequence[JointResult]]:
-    """Yield the joints of each column: those of one robot and one unit, six at most."""
+    """Yield the joints of each column: joints of one robot and one unit, six at most."""
     groups: dict[tuple[str, str], list[JointResult]] = {}
     for joint in joints:
         groups.setdefault((joint.robot, joint.position.unit if joint.position else ""), []).append(joint)

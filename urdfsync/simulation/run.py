@@ -148,7 +148,7 @@ def _task(options: SimulateOptions, prepared: Prepared) -> tuple[CompileTask, st
 
 
 def _probe(robot: RobotConfig, model: str, course: ModelicaMotion, changes: list[str]) -> str:
-    """Return a package with a model that extends another one; it names the libraries, since rumoca loads no others."""
+    """Return a package with a model that extends another one; its imports name the libraries for rumoca."""
     names = dict.fromkeys(("Modelica", robot.target.package.partition(".")[0], model.partition(".")[0]))
     imports = "".join(f"  import {name};\n" for name in names)
     lines = [*course.declarations, *(("equation", *course.equations) if course.equations else ())]

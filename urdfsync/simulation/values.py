@@ -64,7 +64,7 @@ def nearest_parameter(name: str, parameters: Iterable[str]) -> str:
 
 
 def modifiers(values: Mapping[str, str]) -> list[str]:
-    """Return modifiers of a model that give its parameters these values. Raises ConfigError for contradictions."""
+    """Return modifiers that give the parameters of a model these values. Raises ConfigError for contradictions."""
     tree: dict[str, Any] = {}
     for name, value in values.items():
         *path, last = name.split(".")

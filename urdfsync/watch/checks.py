@@ -21,15 +21,15 @@ _PATIENCE = 10.0
 
 
 class CheckJob(msgspec.Struct, frozen=True, eq=False):
-    """One check of a package; cancelled once it is no longer the newest of its robot."""
+    """One check of a package; a newer check of the same robot cancels this one."""
 
     robot: RobotConfig
     key: str | None
-    """The key of the check's inputs; None if one can't be read."""
+    """The key of the check's inputs; None if an input can't be read."""
 
 
 class CheckEnded(msgspec.Struct, frozen=True):
-    """A check has ended; `result` is None if it was cancelled."""
+    """A check has ended; `result` is None for a cancelled check."""
 
     job: CheckJob
     result: BuildCheck | None
@@ -40,7 +40,7 @@ class CancelledError(Exception):
 
 
 class CheckQueue:
-    """The newest check of each robot, in order. Leaving its context cancels all checks. Methods return events.
+    """The newest check of each robot, in order. The end of the `with` block cancels all checks. Methods return events.
 
     Only the check itself runs in a thread; its end comes through the daemon's queue, as `CheckEnded`.
     """

@@ -39,7 +39,7 @@ _HINTS = {
 }
 
 
-# watchdog warns of lost events; the next rescan makes up for them
+# watchdog warns of lost events, but the next rescan finds all changes
 logging.getLogger("watchdog").addHandler(logging.NullHandler())
 # watchdog also warns of a folder that was deleted and made again: the new watch replaces the old one
 warnings.filterwarnings("ignore", category=RuntimeWarning, module="watchdog")
@@ -53,7 +53,7 @@ class FileEvent(NamedTuple):
 
 
 class Observer(events.FileSystemEventHandler):
-    """Puts a message into a queue for each event in a watched folder, until it is closed."""
+    """Puts a message into a queue for each event in a watched folder, until `close` is called."""
 
     def __init__(self, queue: SimpleQueue[object]) -> None:
         self._queue = queue

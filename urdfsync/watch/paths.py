@@ -15,7 +15,7 @@ from urdfsync.config import Config
 _MAX_STEPS = 1000
 """The most folders and links on the way to a file: links may lead in a circle."""
 _FEW = 16
-"""The most folders that are watched one by one, since each takes threads; more are watched through their parents."""
+"""The most folders that are watched one by one, since each takes threads; of more folders, the parents are watched."""
 
 
 class WatchedFolders(msgspec.Struct, frozen=True):
@@ -63,7 +63,7 @@ def find_watched_folders(
 
 
 def _shows(place: str, above: set[str]) -> bool:
-    """Return whether to watch a place's folder: not the root of the disk, and not above a missing folder."""
+    """Return whether to watch the folder of a path: not the root of the disk, and not above a missing folder."""
     folder = os.path.dirname(place)  # noqa: PTH120
     return os.path.dirname(folder) != folder and (folder not in above or os.path.exists(place))  # noqa: PTH110, PTH120
 

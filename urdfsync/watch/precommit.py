@@ -1,7 +1,7 @@
 """Finds out whether pre-commit has stashed unstaged changes: then the files on disk lack these changes.
 
-While its hooks run, pre-commit keeps these changes in a file of its store named `patch<time>-<process>`. It never
-deletes the file, so only a patch of a running process counts.
+While its hooks run, pre-commit keeps these changes in a file of its store named `patch<time>-<process>`. pre-commit
+never deletes the file, so only a patch of a running process counts.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ _SLACK = 2.0
 
 
 def find_stash(root: Path) -> tuple[Path, int] | None:
-    """Return the patch with the stashed changes of the repository around `root`, and its process.
+    """Return the patch with the stashed changes of the repository around `root`, and the process that wrote it.
 
     None if nothing is stashed. A process with an unknown folder counts for every repository.
     """
