@@ -86,7 +86,7 @@ class UserCache:
             in_use = path.parent == self.libraries and now - used < _IN_USE
             if total - freed <= _AFTER * limit or in_use:
                 continue
-            with contextlib.suppress(OSError):  # links themselves, not their targets
+            with contextlib.suppress(OSError):  # deletes links, not their targets
                 if path.is_symlink() or not path.is_dir():
                     path.unlink()
                 else:

@@ -197,7 +197,7 @@ class Compilation:
     def _note_models(self, jobs: Mapping[str, _Job], done: Mapping[str, Sequence[CompileResult]]) -> None:
         """Record the models that were compiled by themselves."""
         compiled, files, users = list[CompiledModel](), self._package.files, self._users
-        failing: dict[str, list[Diagnostic]] = {}  # of the user's models
+        failing: dict[str, list[Diagnostic]] = {}  # findings by the names of the user's models
         for label, (_, tasks) in jobs.items():
             is_users = label == _USERS
             for task, answer in zip(tasks, done[label], strict=False):

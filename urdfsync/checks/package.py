@@ -34,7 +34,7 @@ from urdfsync.modelica.syntax import Class
 
 
 class PackageTexts(msgspec.Struct, frozen=True):
-    """A Modelica package that is stored as a folder. Paths are POSIX ones, below that folder."""
+    """A Modelica package that is stored as a folder. Paths are POSIX paths below this folder."""
 
     name: str
     """The package's full name, as in `Plant.Robots.Arm`."""

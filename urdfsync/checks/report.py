@@ -136,7 +136,7 @@ def _two_tools(result: CheckResult) -> Iterator[tuple[str, str]]:
         between = {deviation.key: deviation for deviation in result.between}
         for deviation in first.deviations or ():
             if deviation.key not in by_second or deviation.key not in between:
-                continue  # compiled by one compiler, or by none
+                continue  # a compiler has not simulated it
             three = deviation, by_second[deviation.key], between[deviation.key]
             if not all(each.agrees for each in three):
                 outlier = _outlier(first.tool, second.tool, reference, *three)
@@ -190,8 +190,8 @@ def closing_lines(results: Sequence[CheckResult]) -> Iterator[StyledLine]:
 def to_section(result: CheckResult, *, verbose: bool | None = None) -> Section:
     """Return the sentences about a robot, and how far each part agrees with the reference.
 
-    For documents `verbose` is None: the section also lists the parts that were not compared. On a terminal, True adds
-    each number.
+    For documents `verbose` is None: the section also lists the parts that were not compared. On a terminal,
+    `verbose=True` adds each number.
     """
     status, sentences = result.status, _sentences(result)
     rows = [

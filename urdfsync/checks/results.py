@@ -52,7 +52,7 @@ class CheckOptions(RunOptions, frozen=True):
     tools: tuple[Tool, ...] = (Tool(),)
     """One compiler, or two."""
     jobs: int | None = None
-    """The most robots checked at the same time; None: as many as cores and memory allow."""
+    """The most robots that are checked at the same time; None allows as many as cores and memory do."""
     compilers: int = 1
     """The most compilers that run at the same time for one robot."""
     executor: str = ""

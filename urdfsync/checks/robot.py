@@ -37,7 +37,7 @@ def known_check(config: Config, robot: RobotConfig) -> CheckResult | None:
     """
     if config.check.tool != "rumoca":  # the key has OpenModelica's version, which only a start tells
         return None
-    if key := fingerprint(config, robot, CheckOptions()):  # once for both checks: it reads all libraries
+    if key := fingerprint(config, robot, CheckOptions()):  # only once: hashing reads all libraries
         cache = UserCache.default()
         return cache.load(f"{key}{PHYSICS}", CheckResult) or cache.load(key, CheckResult)
     return None
@@ -120,7 +120,7 @@ def _check(
 
 
 def _compare_numbers(checks: Checks, package: RobotPackage, result: CheckResult) -> None:
-    """Compare the numbers of a package with its source. A difference only of the package on disk is the user's edit."""
+    """Compare the numbers of a package with its source. A difference only on disk is the user's edit."""
     tell(f"{package.robot.name}: reading the source again")
     source = package.inputs.source
     on_disk = package.on_disk if package.in_step else package.generated

@@ -171,7 +171,7 @@ class RobotFiles:
         index = self._commit.index
         if hidden := self.select(index.hidden):
             message = f"git ignores changes of {', '.join(sorted(hidden))}"
-            return self.fault("hidden", message, "`git help update-index` says how to undo it")
+            return self.fault("hidden", message, "`git help update-index` says how to undo this")
         if partly := self.select(self._commit.files & index.unstaged):
             hint = f"{self.adding(partly)}, or put the rest aside with `git stash push --keep-index`"
             return self.fault("partly-staged", f"partly staged: {', '.join(sorted(partly))}", hint)
@@ -201,7 +201,7 @@ class RobotFiles:
             inside = {path for path in index.unstaged | index.untracked if path.startswith(folder)}
             if len(inside) > 1 and inside <= names:  # then name the whole folder
                 names = names - inside | {folder.removesuffix("/")}
-        # hooks run at the top, the user's shell may not: `:/` is the top for git; a second colon ends its special signs
+        # the user's shell may be in any folder: for git `:/` is the top; a second colon protects odd first characters
         from_top = [f":/{'' if name[0].isalnum() or name[0] == '.' else ':'}{name}" for name in sorted(names)]
         return f"`{shlex.join(['git', 'add', *(['-f'] if ignored else []), *from_top])}`"
 

@@ -25,7 +25,7 @@ _SIGNALS = ("SIGINT", "SIGTERM", "SIGHUP", "SIGALRM")
 """Signals that end the daemon; the daemon's own timer sends the last one."""
 _TIMES = (
     ("settle", "MS", 300, "milliseconds without an event before a build"),
-    ("sample", "MS", 200, "milliseconds between two reads of files that must be equal"),
+    ("sample", "MS", 200, "milliseconds between two reads, which must find equal files"),
     ("patience", "S", 30, "seconds before an invalid source is reported as an error"),
     ("rescan", "S", 30, "seconds between two reads of all files: the system may drop events, and mounts send none"),
 )

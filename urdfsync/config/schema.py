@@ -47,7 +47,7 @@ def config_schema() -> dict[str, Any]:
         robots[name] = _robot({**keys, "domain": keys["domain"] | {"enum": [name]}, **own})
     inherited = {key: described for own in (keys, *options) for key, described in own.items() if key not in OWN_KEYS}
     robot: dict[str, Any] = {"$ref": f"#/$defs/{DEFAULT_DOMAIN}"}
-    for name in domains:  # conditions: with them editors show the faulty key, with alternatives only that none fits
+    for name in domains:  # `if`, since editors then show the faulty key; with `anyOf` they only say that no choice fits
         named = {"properties": {"domain": {"const": name}}, "required": ["domain"]}
         if name != DEFAULT_DOMAIN:
             robot = {"if": named, "then": {"$ref": f"#/$defs/{name}"}, "else": robot}

@@ -147,7 +147,7 @@ def _text_lines(texts: Conflict) -> Iterator[StyledLine]:
     """Yield contradictions between markers, as in `--edit`; without contradictions, the changes of the merge."""
     if texts.merge is None:
         return difference_lines(texts.mine, texts.generated, "mine", "generated")
-    old = (texts.merge.contradictions and texts.merge.with_mine) or texts.mine  # the merge of all other changes
+    old = (texts.merge.contradictions and texts.merge.with_mine) or texts.mine  # without contradictory changes
     return difference_lines(old, texts.merge.proposal, "mine", "merge")
 
 

@@ -32,7 +32,7 @@ R = TypeVar("R", bound=msgspec.Struct)
 Format: TypeAlias = Literal["text", "json", "markdown", "sarif"]
 """The format of the output stream."""
 PURPOSES: Mapping[Format, str] = {"markdown": "for a comment", "sarif": "for findings at their lines"}
-"""What the help says of formats."""
+"""The purpose of formats, for the help."""
 FEW = 5
 """The most warnings of one code that are shown; further warnings are counted."""
 BAR_AFTER = 0.5

@@ -32,7 +32,7 @@ class Document(msgspec.Struct, Generic[Item], kw_only=True):
     results: Sequence[Item]
     """One result for each finished robot."""
     diagnostics: Sequence[Diagnostic]
-    """Diagnostics about no robot."""
+    """Diagnostics that belong to no robot."""
 
 
 def plain(value: Any) -> Any:

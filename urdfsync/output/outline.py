@@ -25,7 +25,7 @@ _SAME = 1e-9
 """Up to this value, a relative change of a sum is rounding, and a length (m) or an angle (rad) can't be measured."""
 _COMPONENT = r"(.*)\[(\d+)\]"
 _MOVED = 3
-"""The most elements of a kind with exchanged names that have a row each."""
+"""If more elements of a kind exchanged their names, they share one row."""
 _WIDTH = 40
 """The most characters of a text that are shown."""
 _CONTEXT = 12

@@ -138,8 +138,8 @@ class Pictures(Protocol):
     ) -> tuple[Scene, Mapping[str, str]]:
         """Return the model as a picture whose joints can be moved, and the import of each mesh by its name. Pure.
 
-        Meshes of one file have one name, also if the model scales or mirrors the meshes. An import without facts is a
-        file that is too large for the package.
+        Meshes of one file have one name, also if the model scales or mirrors the meshes. A file that is too large for
+        the package has an import without facts.
         """
         ...
 

@@ -43,7 +43,7 @@ def end_with_parent(read: Callable[[], object]) -> None:
         with contextlib.suppress(EOFError, OSError):
             while read():
                 pass
-        import psutil  # 15 ms, and only a check needs it
+        import psutil  # takes 15 ms, and only a check needs it
 
         for child in psutil.Process().children(recursive=True):
             child.kill()  # a busy compiler may not notice the end of stdin

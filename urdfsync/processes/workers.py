@@ -74,7 +74,7 @@ def workers(count: int, address: str = "") -> Iterator[Workers]:
     try:
         yield Workers(executor, steps)
     except BaseException:
-        end[1].close()  # ends the workers: they read its other end
+        end[1].close()  # ends the workers, which read the other end of this pipe
         raise
     finally:
         executor.shutdown()

@@ -20,7 +20,7 @@ from urdfsync.watch.paths import WatchedFolders
 if TYPE_CHECKING:
     from watchdog.observers.api import BaseObserver, ObservedWatch
 
-# not opening or reading: the daemon must not wake itself
+# no events of opening or reading: the daemon's own reads would wake it
 _EVENTS: list[type[events.FileSystemEvent]] = [
     events.FileAttribEvent,
     events.FileClosedEvent,

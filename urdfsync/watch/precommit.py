@@ -20,7 +20,7 @@ def find_stash(root: Path) -> tuple[Path, int] | None:
 
     None if nothing is stashed. A process with an unknown folder counts for every repository.
     """
-    home = Path(os.path.expanduser("~"))  # noqa: PTH111 - Path.home() raises where there is none
+    home = Path(os.path.expanduser("~"))  # noqa: PTH111 - Path.home() raises without a home
     cache = Path(os.environ.get("XDG_CACHE_HOME") or home / ".cache")
     store = Path(os.environ.get("PRE_COMMIT_HOME") or cache / "pre-commit")
     patches = [path for path in store.glob("patch*") if _PATCH.fullmatch(path.name)]

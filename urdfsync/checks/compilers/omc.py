@@ -143,7 +143,7 @@ def work(job: CompileJob) -> Iterator[CompileResult]:
     """See `Compiler`: one script does all tasks. If a file can't be loaded, each task has that problem."""
     folder = Path(tempfile.mkdtemp())
     version = _ask(job, folder, ["getVersion()"])[0].value
-    is_webassembly = version.endswith("-rust")  # this edition needs no C compiler, and has no other target
+    is_webassembly = version.endswith("-rust")  # OpenModelica in Rust has only this target, without a C compiler
     flags = _MATCHING + " --simCodeTarget=wasm-jit" * is_webassembly
     if any(task.export for task in job.tasks):  # without a solver, co-simulation uses Euler's method
         flags += f" --fmiFlags=s:{'dassl' if is_webassembly else 'cvode'}"
