@@ -1,4 +1,4 @@
-"""What the documentation shows is what urdfsync does."""
+"""The documentation agrees with urdfsync."""
 
 from __future__ import annotations
 
@@ -87,7 +87,7 @@ def test_the_first_command_of_the_readme_prints_what_stands_below_it(folder: Pat
 
 
 def test_commands_install_what_there_is() -> None:
-    """urdfsync has no release: it comes from a clone or a git address, and its extras as packages of their own."""
+    """urdfsync has no release: users install a clone or a git address, and extras by the names of packages."""
     files = [*PAGES, REPOSITORY / ".pre-commit-hooks.yaml", *sorted((REPOSITORY / "urdfsync").rglob("*.py"))]
     files += sorted((REPOSITORY / "modelica/UrdfSync").rglob("*.mo"))
     for file in files:
@@ -104,7 +104,7 @@ def test_commands_install_what_there_is() -> None:
     [("watch", "watch"), ("check", "checking"), ("simulate", "simulate"), ("fmu", "fmu"), ("report", "report")],
 )
 def test_pages_name_options_that_their_command_has(command: str, page: str, capsys: pytest.CaptureFixture[str]) -> None:
-    """The help lists them all, and so does the site: no page repeats the list."""
+    """The help lists all options, and so does the site: no page repeats the list."""
     assert cli.main([command, "--help"]) == 0
     options = set(re.findall(r"--[a-z-]+", capsys.readouterr().out))
     (paragraph,) = re.findall(rf"^`urdfsync {command} --help`.*?\n\n", text_of(page), re.MULTILINE | re.DOTALL)
