@@ -25,7 +25,7 @@ class Value(NamedTuple):
     """One value in a text."""
 
     path: str
-    """`limits.effort` of a base class, `arm.inertial.mass` of a component; `connect` for a connection."""
+    """`limits.effort` of a base class, `arm.inertial.mass` or `condition of arm` of a component; else `connect`."""
     type: str
     """The base class, or the type of the component with its prefixes; `equation` for a connection or an equation."""
     text: str
@@ -99,6 +99,11 @@ def _of_statement(text: str, tokens: list[Token], read: Values) -> Iterator[Valu
     if words[at] == "=":
         end = next(k for k in range(at + 2, len(words)) if words[k] in (";", "annotation") or words[k].startswith('"'))
         yield Value(path, type_, text[tokens[at + 1].start : tokens[end].start].strip(), _line(text, tokens[at + 1]))
+        at = end
+    if words[at] == "if":
+        end = next(k for k in range(at, len(words)) if words[k] in (";", "annotation") or words[k].startswith('"'))
+        condition = text[tokens[at + 1].start : tokens[end].start].strip()
+        yield Value(f"condition of {path}", type_, condition, _line(text, tokens[at]))
         at = end
     if words[at].startswith('"'):
         read.titles[path] = str(literals(words[at]))

@@ -103,7 +103,7 @@ def test_a_robot_with_a_joint_that_nothing_drives_is_not_compared(kind: str, app
 def test_a_ball_turns_as_prescribed_and_freely_and_its_whole_torque_is_compared() -> None:
     ball = ARM.replace('type="revolute"', 'type="ball"')
     one = experiment(ball, approach=("package", "record"))
-    motion, free = one.trials
+    motion, free, _ = one.trials
     torques = [each for each in motion.compared if each.element == "joint elbow" and each.quantity is Quantity.EFFORT]
     assert [len(each.values) for each in torques] == [3, 3]
     spins = [each for each in free.compared if each.element == "joint elbow"]
@@ -126,7 +126,7 @@ def test_no_acceleration_follows_from_an_effort_on_no_mass() -> None:
         point = re.sub(rf'{name}="[^"]*"', f'{name}="0"', point)
     point = point.replace('xyz="0.02 -0.05 0.1"', 'xyz="0 0 0"')
     one = experiment(point)
-    assert [trial.name for trial in one.trials] == ["motion"]
+    assert [trial.name for trial in one.trials] == ["motion", "ways in Test"]
     assert any("moves no mass" in sentence for sentence in one.unchecked)
 
 
@@ -151,8 +151,8 @@ def test_laws_that_the_reference_does_not_have_are_named_and_made_simple() -> No
 @pytest.mark.parametrize("base", ["fixed", "floating"])
 def test_a_robot_with_loops_is_moved_by_its_states_and_its_loops_are_compared(base: str) -> None:
     one = experiment(to_urdf(FOUR_BAR), **to_options(FOUR_BAR), base=base, approach=("package", "record"))
-    assert [trial.name for trial in one.trials] == ["motion", "free motion"]
-    motion, free = one.trials
+    assert [trial.name for trial in one.trials] == ["motion", "free motion", "ways in Test"]
+    motion, free, _ = one.trials
     assert {each.element for each in motion.compared if each.quantity is Quantity.EFFORT} == {"joint crank_pivot"}
     gap, force, torque = (each for each in motion.compared if each.part is Part.LOOPS)
     assert [gap.quantity, force.unit, torque.unit] == [Quantity.CLOSURE, "N", "N·m"]
@@ -214,17 +214,16 @@ def test_test_moves_each_axis_within_its_limits_and_those_of_its_followers() -> 
         joint("hurried", "revolute", "e", "f", inside=[limit(1, 3)]),
         joint("brake", "prismatic", "f", "g", inside=[mimic("hurried", 2), limit(-9, 9, 0.3)]),
     ]
-    motion = experiment(robot(*links(**dict.fromkeys("abcdefg", 1.0), base=1.0), *joints)).trials[0]
-    sweeps = [each for each in motion.compared if each.quantity is Quantity.SWEEP]
+    motion, *_, test = experiment(robot(*links(**dict.fromkeys("abcdefg", 1.0), base=1.0), *joints)).trials
+    sweeps = [each for each in (*motion.compared, *test.compared) if each.quantity is Quantity.SWEEP]
     ways = {each.element.removeprefix("joint "): each for each in sweeps if not each.detail}
     expected = {"wide": 1, "near": -0.45, "slow": 0.09 / math.pi, "leader": 0.27, "hurried": 1 + 1.35 / math.pi}
-    assert {name: motion.expected[each.values[0]][5] for name, each in ways.items()} == pytest.approx(expected)
-    assert {name: motion.expected[each.values[0]][10] for name, each in ways.items()} == pytest.approx(
-        dict.fromkeys(expected, 0) | {"hurried": 1}
-    )
+    _, turns, ends = zip(*(test.expected[each.values[0]] for each in ways.values()), strict=True)
+    assert dict(zip(ways, turns, strict=True)) == pytest.approx(expected)
+    assert dict(zip(ways, ends, strict=True)) == pytest.approx(dict.fromkeys(expected, 0) | {"hurried": 1})
     ranges = {each.element: [motion.expected[v][0] for v in each.values] for each in sweeps if each.detail == "range"}
-    assert ranges["joint leader"] == pytest.approx([-0.1, 0.3, 10])
-    assert ranges["joint hurried"] == pytest.approx([1, 3, 0.15])
+    assert ranges["joint leader"] == pytest.approx([0, -0.1, 0.3, 10])
+    assert ranges["joint hurried"] == pytest.approx([1, 1, 3, 0.15])
 
 
 def test_the_record_alone_is_compared_through_the_generic_robot() -> None:
@@ -239,6 +238,6 @@ def test_the_record_alone_is_compared_through_the_generic_robot() -> None:
     assert elements - {"joint elbow of the generic robot"} == {each.element for each in package.trials[0].compared}
     both = experiment(ELBOW, approach=("package", "record"))
     assert [trial.name for trial in both.trials] == [
-        *("motion", "free motion"),
+        *("motion", "free motion", "ways in Test"),
         *("motion of the record", "free motion of the record"),
     ]

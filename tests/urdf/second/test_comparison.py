@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import shutil
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -275,6 +276,8 @@ TEMPLATES = {
         "Links/Arm.mo", "friction = parameters.contact.mu", "friction = 0", "contact1.friction"),
     "a contact without damping": ("Links/Arm.mo", "viscosity = parameters.contact.kd,", "", "contact1.viscosity"),
     "a contact of another shape": ("Links/Arm.mo", "Contacts.Box", "Contacts.Sphere", "type of contact1"),
+    "a visual that is never drawn": (
+        "Links/Arm.mo", "animation = animation)\n", "animation = animation) if false\n", "condition of visual1"),
     "a shape of another kind": (
         "Links/ArmParameters.mo", "Records.Box visual1", "Records.Sphere visual1", "visual1.shape"),
     "another gravity": ("BotTest.mo", "PartialMobileBench(", "PartialMobileBench(world(g = 1), ", "world.g"),
@@ -318,6 +321,29 @@ def test_what_a_template_writes_wrongly_is_found(fault: str, sound: Package) -> 
     assert (file, quantity) in {(each.file, each.quantity) for each in numbers.differences}
 
 
+@pytest.mark.parametrize(("kind", "old", "new", "quantity"), [
+    ("Box", "length = parameters.size[1]", "length = 0.5*parameters.size[1]", "shape.length"),
+    ("Cylinder", "- 0.5*parameters.length", "+ 0.5*parameters.length", "shape.r_shape"),
+    ("Sphere", "enableAnimation and animation", "enableAnimation and not animation", "condition of shape"),
+    ("Capsule", "+ 0.5*parameters.length", "- 0.5*parameters.length", "upperEnd.r_shape"),
+    ("Mesh", "widthDirection = R[:, 2]", "widthDirection = R[:, 3]", "shape.widthDirection"),
+])  # fmt: skip
+def test_a_shape_that_the_library_draws_otherwise_is_found(
+    kind: str, old: str, new: str, quantity: str, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    numbers = {"Box": 'size="1 2 3"', "Mesh": 'filename="cube.stl"'}.get(kind, 'length="2" radius="0.2"')
+    shape = f"<visual><geometry><{kind.lower()} {numbers}/></geometry></visual></link>"
+    source = urdf(link("base", 3.0).replace("</link>", shape)).encode()
+    shutil.copytree(corpus.REPOSITORY / "modelica", tmp_path / "modelica")
+    file = tmp_path / "modelica" / "UrdfSync" / "Visualizers" / f"{kind}.mo"
+    monkeypatch.setattr("urdfsync.urdf.second.classes.library_folder", lambda: tmp_path / "modelica")
+    assert compare(source).differences == ()
+    assert old in file.read_text()
+    file.write_text(file.read_text().replace(old, new))
+    found = {(each.file, each.element, each.quantity) for each in compare(source).differences}
+    assert found == {(str(file), f"UrdfSync.Visualizers.{kind}", quantity)}
+
+
 # Loops, and options
 
 
@@ -346,8 +372,9 @@ def test_a_loop_that_is_read_otherwise_is_found(fault: str) -> None:
     ("crank_pivot = 1.2", "crank_pivot = -1.2", "BotStart.mo", "start"),
     *(("translations = [1, 0, 0; 0, 1, 0]", f"translations = {other}", "Joints/Rocker_pinParameters.mo", "translations")
       for other in ("[1, 0, 0; 1, 0, 0]", "{1, 2}", "2*x")),
+    ("parameters.childRotations)", "parameters.childRotations, decay = 1)", "Joints/Rocker_pin.mo", "constraint.decay"),
 ])  # fmt: skip
-def test_a_loop_that_does_not_close_is_found(old: str, new: str, file: str, quantity: str) -> None:
+def test_a_loop_that_closes_otherwise_is_found(old: str, new: str, file: str, quantity: str) -> None:
     def change(texts: Any) -> Any:
         assert old in texts[file]
         return {**texts, file: texts[file].replace(old, new)}

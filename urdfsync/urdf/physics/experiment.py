@@ -80,7 +80,7 @@ def _trials(subject: Subject, approach: str, step: float | None) -> Iterator[Tri
     names = probe.robot_variables(subject, approach)
     label = " of the record" if len(subject.options.approach) > 1 and approach == "record" else ""
     pairs = list(quantities.bodies(subject, names))
-    pairs += quantities.sweeps(subject, names)
+    pairs += quantities.ranges(subject, names)
     limits = list[quantities.Pair]()
     if approach == "package":
         pairs += quantities.sensors(subject, names)
@@ -96,6 +96,10 @@ def _trials(subject: Subject, approach: str, step: float | None) -> Iterator[Tri
     every = [Trial(f"motion{label}", moving, *table, *quantities.table(over_time, times))]
     if approach == "record" or len(subject.axes) <= _MOST_AXES:
         every += _free(subject, names, f"free motion{label}")
+    if approach == "package" and (sweeps := list(quantities.sweeps(subject))):
+        values = [value for compared, _ in sweeps for value in compared.values]
+        table = quantities.table(sweeps, quantities.SWEEP_TIMES)
+        every.append(Trial("ways in Test", probe.sweeping_probe(subject, values), *table))
     for each in every:
         least = _ITERATED if subject.tree.loops else 0.0
         compared = tuple(
@@ -122,7 +126,7 @@ def _free(subject: Subject, names: RobotVariables, name: str) -> Iterator[Trial]
     rows = reference.coordinates()
     for k, joint in enumerate(subject.axes, 1):
         unit, row = "m/s²" if MOTION_KINDS.get(joint.type) == "translational" else "rad/s²", rows[joint.name]
-        read = tuple(f"gain{k}[{i}]" for i in (1, 2, 3)) if joint.type == "ball" else (f"push{k}.a",)
+        read = tuple(f"gain{k}[{i}]" for i in (1, 2, 3)) if joint.type == "ball" else (names.accelerations[joint.name],)
         what = Quantity.ACCELERATION, f"joint {joint.name}", unit, read, time, Part.FREE_MOTION
         pairs.append((Compared(*what, least_tolerance=doubt), [gains[row : row + len(read)].tolist()]))
     if is_free:
@@ -165,7 +169,8 @@ def _not_compared(subject: Subject) -> Iterator[str]:
     if in_loops:
         yield f"the limits of joints in loops beyond where {', '.join(in_loops)} move{'s' * (len(in_loops) == 1)} them"
     yield "the motion of Run, and models around the robot (they are only compiled)"
-    yield "how shapes are drawn"
+    if options.visualizer != "standard":
+        yield "how Visualization2 draws shapes"
     if axes > _MOST_AXES:
         yield f"free motion of more than {_MOST_AXES} axes, which takes a compiler too much memory"
     if "record" in options.approach and subject.tree.loops:
@@ -173,7 +178,7 @@ def _not_compared(subject: Subject) -> Iterator[str]:
     elif "record" in options.approach and obstacles(subject.tree.joints):
         yield "the record: it has no tables for robots with ball joints"
     elif "record" in options.approach:
-        yield "warnings, sensors, contacts and `frame_b` of the generic robot"
+        yield "warnings, sensors, shapes, contacts and `frame_b` of the generic robot"
 
 
 def _robot(reading: RobotReading) -> Robot:

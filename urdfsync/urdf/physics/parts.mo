@@ -57,8 +57,6 @@
   model RotationalPush "Pushes a flange"
     parameter Real effort = 0;
     Modelica.Mechanics.Rotational.Interfaces.Flange_b flange;
-    Real v = der(flange.phi);
-    Real a = der(v);
   equation
     flange.tau = -effort;
   end RotationalPush;
@@ -66,8 +64,6 @@
   model TranslationalPush "Pushes a flange"
     parameter Real effort = 0;
     Modelica.Mechanics.Translational.Interfaces.Flange_b flange;
-    Real v = der(flange.s);
-    Real a = der(v);
   equation
     flange.f = -effort;
   end TranslationalPush;

@@ -45,6 +45,8 @@ class RobotVariables(msgspec.Struct, frozen=True):
     """An expression: the sum of mass times place over all links, in kg·m."""
     flanges: Mapping[str, str]
     """Connector of the axis of each joint that can be driven."""
+    accelerations: Mapping[str, str]
+    """Acceleration of each of these joints. Derivatives of `flanges` take a compiler 3 s more for six."""
     places: Mapping[str, tuple[str, ...]]
     """Place of each link's frame."""
     axes: Mapping[str, tuple[str, ...]]
@@ -68,14 +70,15 @@ def robot_variables(subject: Subject, approach: str) -> RobotVariables:
     if is_package:
         declaration = f"{target.package}.{target.name} robot(animation = false, "
         flanges = {name: f"robot.{drive.axis}" for name, drive in names.drives.items()}
+        mover = {"rotational": "revolute", "translational": "prismatic"}
+        moving = (joint for joint in tree.joints if joint.type in MOTION_KINDS)
+        accelerations = {joint.name: f"{joints[joint.name]}.{mover[MOTION_KINDS[joint.type]]}.a" for joint in moving}
     else:
         record = f"{target.package}.{target.name}Parameters"
         declaration = f"UrdfSync.Robots.GenericRobot robot(redeclare parameter {record} data, checkLimits = false, "
-        flanges = {
-            joint.name: f"robot.{kind}Axis[{number}]"
-            for kind in MOTIONS
-            for number, joint in enumerate(tree.axes(kind), 1)
-        }
+        numbered = [(joint.name, kind, k) for kind in MOTIONS for k, joint in enumerate(tree.axes(kind), 1)]
+        flanges = {name: f"robot.{kind}Axis[{k}]" for name, kind, k in numbered}
+        accelerations = {name: f"robot.{'a_phi' if kind == 'rotational' else 'a_s'}[{k}]" for name, kind, k in numbered}
     for k, link in enumerate(tree.links, 1):
         if is_package:
             part = f"robot.{tree.link(link.name).component}"
@@ -91,7 +94,7 @@ def robot_variables(subject: Subject, approach: str) -> RobotVariables:
             moments.append(f"robot.data.linkMasses[{k}]*(robot.r_0[{k}, :] + {centre})")
     loops = {loop.name: f"robot.{tree.loop(loop.name).component}" for loop in tree.loops if is_package}
     moment = " + ".join(moments)
-    return RobotVariables(declaration, is_package, moment, flanges, places, axes, joints, sensors, loops)
+    return RobotVariables(declaration, is_package, moment, flanges, accelerations, places, axes, joints, sensors, loops)
 
 
 def moving_probe(
@@ -126,10 +129,8 @@ def moving_probe(
         declarations.append(f"{drive}Drive drive{k}(ways = {matrix(motion.ways(courses), 6)})")
         connections.append(f"drive{k}.flange, {names.flanges[joint.name]}")
     for k, (joint, *_) in enumerate(subject.sweeps(), 1):
-        declarations.append(f"Real range{k}[3] = {{{', '.join(_range(subject, joint, names.joints))}}}")
-        if names.is_package:
-            declarations += _sweep(k, joint, names.joints[joint.name], loop_reaches(subject.assembly))
-            connections += (f"sweep{k}.support, housing{k}.flange", f"sweep{k}.flange, weight{k}.flange_a")
+        limits = list(_range(subject, joint, names.joints))
+        declarations.append(f"Real range{k}[{len(limits)}] = {{{', '.join(limits)}}}")
     if names.is_package:
         flanges = connector_names(subject.tree, options).drives
         for k, (name, torque) in enumerate(subject.motor_torques.items(), 1):
@@ -155,28 +156,39 @@ def moving_probe(
     return Probe(source, "Probe_.Probe", last, step, tuple(values), tuple(optional), tolerance)
 
 
-def _sweep(k: int, joint: Joint, component: str, reaches: Mapping[str, Mapping[str, str]]) -> Iterator[str]:
-    """Yield a drive like Test's, connected only to its housing, and the housing."""
-    kind = MOTION_KINDS[joint.type]
-    q, v = ("phi", "w") if kind == "rotational" else ("s", "v")
-    modifiers = [f"{name} = {component}.{name}" for name in (f"{q}_start", f"{q}_min", f"{q}_max", f"{v}_max")]
-    if joint.name in reaches:
-        modifiers.append(f"reach = robot.startPositions.{reaches[joint.name]['parameter']}")
-    modifiers += (f"{q}(fixed = true)", f"{v}(fixed = true)")
-    components, effort = f"Modelica.Mechanics.{kind.capitalize()}.Components", "tau" if q == "phi" else "f"
-    yield f"UrdfSync.Drives.{kind.capitalize()}Sweep sweep{k}({', '.join(modifiers)})"
-    yield f"{components}.Fixed housing{k}"
-    yield f"{components}.Inertia weight{k}(J = 1)" if q == "phi" else f"{components}.Mass weight{k}(m = 1)"
-    yield f"Real balance{k} = sweep{k}.flange.{effort} + sweep{k}.support.{effort}"
+def sweeping_probe(subject: Subject, values: Iterable[str]) -> Probe:
+    """Return a model of drives like Test's, each connected only to a weight and a housing.
+
+    They get the expected numbers, which `moving_probe` compares with the robot's: among the robot's equations they took
+    a compiler almost as long as the robot itself.
+    """
+    declarations, connections = list[str](), list[str]()
+    for k, (joint, way) in enumerate(subject.sweeps(), 1):
+        kind = MOTION_KINDS[joint.type]
+        q, v, effort = ("phi", "w", "tau") if kind == "rotational" else ("s", "v", "f")
+        numbers = zip((f"{q}_start", f"{q}_min", f"{q}_max", f"{v}_max", "reach"), way.numbers, strict=False)
+        modifiers = [f"{name} = {number!r}" for name, number in numbers if abs(number) < motion.ENDLESS]
+        modifiers += (f"{q}(fixed = true)", f"{v}(fixed = true)")
+        components = f"Modelica.Mechanics.{kind.capitalize()}.Components"
+        declarations += (
+            f"UrdfSync.Drives.{kind.capitalize()}Sweep sweep{k}({', '.join(modifiers)})",
+            f"{components}.Fixed housing{k}",
+            f"{components}.Inertia weight{k}(J = 1)" if q == "phi" else f"{components}.Mass weight{k}(m = 1)",
+            f"Real balance{k} = sweep{k}.flange.{effort} + sweep{k}.support.{effort}",
+        )
+        connections += (f"sweep{k}.support, housing{k}.flange", f"sweep{k}.flange, weight{k}.flange_a")
+    source = text(subject.target, subject.options, "", declarations, connections)
+    return Probe(source, "Probe_.Probe", motion.PERIOD, motion.PERIOD / 2, tuple(values))
 
 
 def _range(subject: Subject, joint: Joint, components: Mapping[str, str]) -> Iterator[str]:
-    """Yield the range and the greatest speed of an axis."""
-    for name in (
-        ("phi_min", "phi_max", "w_max") if MOTION_KINDS[joint.type] == "rotational" else ("s_min", "s_max", "v_max")
-    ):
-        own = components.get(joint.name)
+    """Yield start, range and greatest speed of an axis in the robot, and Test's reach for it if loops restrict it."""
+    q, v = ("phi", "w") if MOTION_KINDS[joint.type] == "rotational" else ("s", "v")
+    own = components.get(joint.name)
+    for name in (f"{q}_start", f"{q}_min", f"{q}_max", f"{v}_max"):
         yield f"{own}.{name}" if own else f"robot.{name}[{_number(subject, joint)}]"
+    if own and (reach := loop_reaches(subject.assembly).get(joint.name)):
+        yield f"robot.startPositions.{reach['parameter']}"
 
 
 def _sweeps_of_record(subject: Subject) -> Iterator[str]:

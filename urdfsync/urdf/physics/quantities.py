@@ -24,6 +24,8 @@ from urdfsync.urdf.second.reading import origin, pose
 Pair: TypeAlias = tuple[Compared, Sequence[Iterable[float]]]
 """A quantity, and its expected values at each of its instants."""
 
+SWEEP_TIMES = (0.0, motion.PERIOD / 2, motion.PERIOD)
+"""Times in Test at which its ways are compared."""
 _CLEAR = 1e-5
 """Relative distance from which on a value clearly passes or keeps a limit: warnings have some slack."""
 
@@ -116,20 +118,29 @@ def loops(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
             yield Compared(Quantity.REACTION, element, unit, values, COMPARED, Part.LOOPS), expected
 
 
-def sweeps(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
-    """Yield the positions between which Test moves the axes, with their ranges and the efforts of Test's drives."""
-    for k, (joint, start, end, limits) in enumerate(subject.sweeps(), 1):
-        times, unit = (0.0, motion.PERIOD / 2, motion.PERIOD), _unit(joint)
+def ranges(subject: Subject, names: RobotVariables) -> Iterator[Pair]:
+    """Yield start, range and greatest speed of the axes, and the ways on which the generic robot's bench moves them."""
+    for k, (joint, way) in enumerate(subject.sweeps(), 1):
+        given = way.numbers if names.is_package and joint.name in subject.assembly.reach else way.numbers[:4]
+        numbers = {f"range{k}[{i}]": number for i, number in enumerate(given, 1) if abs(number) < motion.ENDLESS}
         what = f"joint {joint.name}{'' if names.is_package else ' of the generic robot'}"
-        value = f"sweep{k}.{'phi' if unit == 'rad' else 's'}" if names.is_package else probe.swept(subject, joint)
-        yield Compared(Quantity.SWEEP, what, unit, (value,), times, Part.BENCHES), [[start], [end], [start]]
-        numbers = {f"range{k}[{i}]": limit for i, limit in enumerate(limits, 1) if abs(limit) < motion.ENDLESS}
-        if numbers:
-            range_ = Compared(Quantity.SWEEP, what, unit, tuple(numbers), (0.0,), Part.BENCHES, "range")
-            yield range_, [numbers.values()]
-        if names.is_package:
-            effort = "N·m" if unit == "rad" else "N"
-            yield Compared(Quantity.EFFORT, what, effort, (f"balance{k}",), times, Part.BENCHES, "Test"), [[0.0]] * 3
+        range_ = Compared(Quantity.SWEEP, what, _unit(joint), tuple(numbers), (0.0,), Part.BENCHES, "range")
+        yield range_, [numbers.values()]
+        if not names.is_package:
+            swept = Compared(
+                Quantity.SWEEP, what, _unit(joint), (probe.swept(subject, joint),), SWEEP_TIMES, Part.BENCHES
+            )
+            yield swept, [[way.numbers[0]], [way.end], [way.numbers[0]]]
+
+
+def sweeps(subject: Subject) -> Iterator[Pair]:
+    """Yield the ways on which Test's drives move the axes, and the sums of the efforts at axis and housing."""
+    for k, (joint, way) in enumerate(subject.sweeps(), 1):
+        what, unit = f"joint {joint.name}", _unit(joint)
+        (q, effort), start = ("phi", "N·m") if unit == "rad" else ("s", "N"), way.numbers[0]
+        swept = Compared(Quantity.SWEEP, what, unit, (f"sweep{k}.{q}",), SWEEP_TIMES, Part.BENCHES)
+        yield swept, [[start], [way.end], [start]]
+        yield Compared(Quantity.EFFORT, what, effort, (f"balance{k}",), SWEEP_TIMES, Part.BENCHES, "Test"), [[0.0]] * 3
 
 
 def _unit(joint: Joint) -> str:

@@ -7,6 +7,7 @@ import itertools
 import math
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 from numpy.polynomial import Polynomial
@@ -30,6 +31,15 @@ _MARGIN = 0.9
 _REACH = {"rotational": 1.0, "translational": 0.1}
 """The longest way of an axis in Test, in rad or m, unless loops allow less."""
 _SHARES = tuple(0.25**k for k in range(8))
+
+
+class Sweep(NamedTuple):
+    """The way of an axis in Test."""
+
+    numbers: tuple[float, float, float, float, float]
+    """Start, range, greatest speed and reach. Range and speed are those that all joints that follow the axis allow."""
+    end: float
+    """The turning point."""
 
 
 class Subject:
@@ -108,13 +118,8 @@ class Subject:
                 effort += torque * joints[motor].number("transmission.otherReduction")
         return effort
 
-    def sweeps(self) -> Iterator[tuple[Joint, float, float, tuple[float, float, float]]]:
-        """Yield each axis with the ends of its way in Test: the start, and the farther end of the range, with a margin.
-
-        Its range and its greatest speed come last, as the joints that follow it allow.
-
-        The axis moves along a cosine: its greatest speed is pi/period times the way.
-        """
+    def sweeps(self) -> Iterator[tuple[Joint, Sweep]]:
+        """Yield each axis with its way in Test: to the farther end of its range, as far as reach and speed allow."""
         ranges, followers = position_ranges(self.tree), self.tree.followers_by_leader()
 
         def speed(joint: Joint) -> float:
@@ -126,10 +131,11 @@ class Subject:
             if joint.type in MOTION_KINDS:
                 start, (lower, upper) = self.starts[joint.name], ranges[joint.name]
                 reach = self.assembly.reach.get(joint.name, _REACH[MOTION_KINDS[joint.type]])
+                # the axis moves along a cosine: its greatest speed is pi/period times the way
                 most = min(reach, _MARGIN * speed(joint) * motion.PERIOD / math.pi)
                 above, below = (min(most, _MARGIN * room) for room in (upper - start, start - lower))
                 end = start + above if above >= below else start - below
-                yield joint, start, end, (lower, upper, speed(joint))
+                yield joint, Sweep((start, lower, upper, speed(joint), reach), end)
 
     def is_in_loop(self, joint: Joint) -> bool:
         """Return whether loops restrict the motion of a joint."""

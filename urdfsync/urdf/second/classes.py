@@ -13,7 +13,9 @@ from typing import TypeAlias
 import msgspec
 
 from urdfsync.checks.experiment import Sample
-from urdfsync.modelica.values import Value, Values
+from urdfsync.config.paths import library_folder
+from urdfsync.modelica.names import LIBRARY
+from urdfsync.modelica.values import Value, Values, read_values
 from urdfsync.urdf.second import models
 from urdfsync.urdf.second.models import WORDS, pairs
 from urdfsync.urdf.second.reading import COMMANDS, MOVES, TURNS, Element, Reading
@@ -34,7 +36,7 @@ class Edge(msgspec.Struct, frozen=True):
 class Classes:
     """The classes of a package, as texts, with the components that its records name."""
 
-    def __init__(self, read: Mapping[str, Values], reading: Reading, sample: Sample) -> None:
+    def __init__(self, read: dict[str, Values], reading: Reading, sample: Sample) -> None:
         self.read, self.reading, self.options, self.name = read, reading, sample.options, sample.target.name
         kinds = ("link", "joint", "loop", "sensor")
         all_elements = (reading.links, reading.joints, reading.loops, reading.sensors)
@@ -133,9 +135,21 @@ class Classes:
                     expected |= {f"{contact}.corners": f"parameters.{part}Corners"} if kind == "Mesh" else {}
                     numbers = {n: field for n, field in models.SURFACE.items() if f"contact.{n}" in link.values}
                     expected |= {f"{contact}.{field}": f"parameters.contact.{n}" for n, field in numbers.items()}
-        own = re.compile(rf"(type of )?(contact{'|visual|collision' * is_standard})\d")
+        own = re.compile(rf"((type|condition) of )?(contact{'|visual|collision' * is_standard})\d")
         texts = {path: value for path, value in self.texts(file).items() if own.match(path)}
         return file, texts, {f"link {link.name}": (link.line, expected)}
+
+    def drawings(self) -> Iterable[tuple[str, dict[str, Value], Texts]]:
+        """Yield the file of each model in the library that draws shapes of this robot, and what it states."""
+        every = (stated for link in self.reading.links.values() for stated in link.values.items())
+        kinds = {stated.value.capitalize() for path, stated in every if path.endswith(".shape")}
+        for kind in sorted(kinds if self.options.visualizer == "standard" else ()):
+            path = library_folder() / LIBRARY / "Visualizers" / f"{kind}.mo"
+            self.read[file := str(path)] = read_values(path.read_text("utf-8"))
+            expected = pairs(models.VISUALIZER, kind=kind)
+            for s, words in models.DRAWINGS[kind].items():
+                expected |= pairs(models.DRAWING, s=s, **words)
+            yield file, self.statements(file), {f"{LIBRARY}.Visualizers.{kind}": (0, expected)}
 
     def laws(self, joint: Element, component: str) -> tuple[str, dict[str, Value], Texts]:
         """Return the law of friction and the spring in the model of a joint, and the file with those that it has."""
@@ -153,6 +167,15 @@ class Classes:
         own = re.compile(r"(type of )?(FrictionLaw|friction|elasticity)\b")
         texts = {path: value for path, value in self.statements(file).items() if own.match(path)}
         return file, texts, {f"joint {joint.name}": (joint.line, expected)}
+
+    def closing(self, loop: Element, component: str) -> tuple[str, dict[str, Value], Texts]:
+        """Return what closes a loop in its model, and the file."""
+        file = f"Joints/{_class(component)}.mo"
+        if file not in self.read:
+            return file, {}, {}
+        own = re.compile(r"(type of |condition of )?constraint\b")
+        texts = {path: value for path, value in self.statements(file).items() if own.match(path)}
+        return file, texts, {f"loop {loop.name}": (loop.line, pairs(models.CONSTRAINT))}
 
     def texts(self, file: str) -> dict[str, Value]:
         """Return all that a class states, by paths: see `models`. A vector of inputs has a path for each item."""

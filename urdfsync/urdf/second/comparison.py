@@ -71,7 +71,7 @@ class _Comparison:
         joints = reading.joints.values()
         # the reference lacks all other laws: it compares the models of joints that have none
         self.has_laws = any(joint.friction not in ("", "smooth") or joint.is_elastic for joint in joints)
-        if self.has_laws:
+        if self.has_laws or reading.loops:
             needed |= {path for path in texts if path.startswith("Joints/") and path != "Joints/package.mo"}
         self.read = {path: read_values(texts[path].decode(errors="replace")) for path in sorted(needed & texts.keys())}
         self.values = {path: each.values for path, each in self.read.items()}
@@ -107,6 +107,10 @@ class _Comparison:
                 self._complete(*own.shapes(part, component))
             elif kind == "joint" and part.type in MOVES and self.has_laws:
                 self._complete(*own.laws(part, component))
+            elif kind == "loop":
+                self._complete(*own.closing(part, component))
+        for drawing in own.drawings():
+            self._complete(*drawing)
         for kind, elements in self.elements.items():
             for name in sorted(elements.keys() - {name for of, name in self.components if of == kind}):
                 if kind in ("link", "joint") or "package" in self.sample.options.approach:

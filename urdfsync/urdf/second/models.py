@@ -5,6 +5,8 @@ A path leads to a value, to the type of a component, to the base classes, or fro
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 WORDS = {
     True: dict(zip("qvf", ("phi", "w", "tau"), strict=True), Q='"rad"', V='"rad/s"', F='"N.m"', push="Torque"),
     False: dict(zip("qvf", ("s", "v", "f"), strict=True), Q='"m"', V='"m/s"', F='"N"', push="Force"),
@@ -99,6 +101,39 @@ SHAPE = (
     "type of {part} = UrdfSync.Visualizers.{kind}; {part}.frame_a = frame_a; {part}.parameters = parameters.{part}; "
     "{part}.animation = {shown}"
 )
+CONSTRAINT = (
+    "type of constraint = UrdfSync.Loops.Constraint; constraint.translations = parameters.translations; "
+    "constraint.rotations = parameters.rotations; constraint.childRotations = parameters.childRotations"
+)
+"""What closes a loop."""
+VISUALIZER = (
+    "extends = UrdfSync.Visualizers.PartialShape; type of parameters = parameterUrdfSync.Records.{kind}; "
+    "type of R = finalparameterReal; R = UrdfSync.Functions.rotation(parameters.origin.rpy)"
+)
+DRAWING = (
+    "type of {s} = Modelica.Mechanics.MultiBody.Visualizers.Advanced.Shape; {s}.shapeType = {form}; "
+    "condition of {s} = world.enableAnimationandanimation; {s}.r = frame_a.r_0; {s}.R = frame_a.R; "
+    "{s}.r_shape = parameters.origin.xyz{shift}; {s}.lengthDirection = R[:,{along}]; "
+    "{s}.widthDirection = R[:,{across}]; {s}.length = {length}; {s}.width = {width}; {s}.height = {height}; "
+    "{s}.color = parameters.color"
+)
+"""A shape of MSL: it begins at `r_shape`, and its length goes along `lengthDirection`."""
+_BALL = {"form": '"sphere"', "along": 3, "across": 1} | dict.fromkeys(
+    ("length", "width", "height"), "2*parameters.radius"
+)
+_ROUND = _BALL | {"form": '"cylinder"', "length": "parameters.length", "shift": "-0.5*parameters.length*R[:,3]"}
+_END = "{sign}0.5*parameters.length*R[:,3]-parameters.radius*R[:,3]"
+_SIZE = {name: f"parameters.size[{k}]" for k, name in enumerate(("length", "width", "height"), 1)}
+_PLAIN = {"along": 1, "across": 2}
+DRAWINGS: Mapping[str, Mapping[str, Mapping[str, object]]] = {
+    "Box": {"shape": _PLAIN | _SIZE | {"form": '"box"', "shift": "-0.5*parameters.size[1]*R[:,1]"}},
+    "Cylinder": {"shape": _ROUND},
+    "Sphere": {"shape": _BALL | {"shift": "-parameters.radius*R[:,3]"}},
+    "Capsule": {"shape": _ROUND}
+    | {f"{end}End": _BALL | {"shift": _END.format(sign=sign)} for end, sign in (("lower", "-"), ("upper", "+"))},
+    "Mesh": {"shape": _PLAIN | {"form": "parameters.uri", "shift": ""} | dict.fromkeys(_SIZE, "1")},
+}
+"""The shapes of MSL by which the library draws a shape of URDF."""
 CONTACT = "type of {c} = UrdfSync.Contacts.{kind}; {c}.frame_a = frame_a; {c}.parameters = parameters.{part}"
 
 
