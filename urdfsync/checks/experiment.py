@@ -53,7 +53,7 @@ class Quantity(enum.StrEnum):
     LAW = "law"
     """By how much the effort of a friction or a spring differs from its equation."""
     ENERGY = "energy"
-    """Energy that a friction or a spring supplies without having stored it, as a fraction of the exchanged energy."""
+    """Energy that a friction or a spring returns beyond what it received, as a fraction of the exchanged energy."""
 
 
 TOLERANCE = 1e-10

@@ -60,7 +60,7 @@ def run(args: argparse.Namespace, console: Console) -> int:
         raise ConfigError.of("no-fmpy", "`--check` needs FMPy, which is not installed", hint=install_command("fmu"))
     if args.motion and (args.kind == "me" or not args.check):
         message = "`--input` is the motion for `--check` of co-simulation"
-        raise arguments.UsageError(args.parser, message, "give both, with `--kind cs` or `both`")
+        raise arguments.UsageError(args.parser, message, "give `--check`, too, and `--kind cs` or `both`")
     if args.output and args.output.suffix.lower() != ".fmu":
         raise not_writable(args.output, "an FMU's name ends with .fmu", "name such a file")
     if args.output:

@@ -47,7 +47,7 @@ def parse(text: str, file: str, error: type[UrdfsyncError]) -> dict[str, Any]:
                 message = f"the table `{'.'.join(re.findall(_QUOTED, twice[1]))}` is there twice"
                 hint = "put the keys of both into one table"
             elif message == "cannot overwrite a value":
-                message, hint = "a key is set twice", "remove one of them"
+                message, hint = "a key is set twice", "remove one of the two"
             elif message == "invalid value":
                 hint = "put strings into quotes"
     except ValueError:  # from int(), which refuses to read thousands of digits

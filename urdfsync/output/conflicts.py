@@ -55,7 +55,7 @@ def conflict_lines(result: Result, console: Console) -> Iterator[StyledLine]:
     yield from (line(("", "")), line((f"  {_command(command, console)}", "bold"), (f"  {what}", "dim")))
     never_built = all(action.base is None for action in result.actions)
     if never_built and all(target.action.reason is Reason.UNOWNED for target in conflicts):
-        what = "takes them for your edits, and lists these"
+        what = "takes the files for your edits, and lists them"
         yield line((f"  {_command(['adopt', result.robot], console)}", "bold"), (f"  {what}", "dim"))
 
 

@@ -88,7 +88,7 @@ def _step(old: str, new: str) -> int:
 
 
 def _title(elements: Sequence[str]) -> str:
-    """Return elements in words; the common kind is written once."""
+    """Return elements in words, with their common kind only once."""
     first, space, _ = elements[0].partition(" ")
     begin = f"{first} " if space and all(element.startswith(f"{first} ") for element in elements) else ""
     names = [element.removeprefix(begin) for element in elements]

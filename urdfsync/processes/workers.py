@@ -130,7 +130,7 @@ def _begin(end: Connection, steps: SimpleQueue[str]) -> None:
     """Prepare a process, which ends when the command ends or closes its pipe; Ctrl-C does not end the process."""
     global _steps
     _steps = steps
-    signal(SIGINT, SIG_IGN)  # the command gets the signal, too, and ends the workers
+    signal(SIGINT, SIG_IGN)  # Ctrl-C also reaches the command, which ends the workers
     end_with_parent(end.recv_bytes)
 
 

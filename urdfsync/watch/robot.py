@@ -37,7 +37,7 @@ def look_at(entry: Entry, facts: tuple[int, ...] | None = None) -> str | tuple[i
 
 
 def _recall(reads: Dependencies, entry: Entry, facts: tuple[int, ...]) -> str | tuple[int, ...]:
-    """Return the state of an entry as a build read it; the facts of a file that changed before its hash was known."""
+    """Return the state of an entry as a build read it: the content's hash, or the facts if a file changed meanwhile."""
     known = unchanged_state(entry[1], facts)
     if sha256 := reads.hashes.get(entry) or (known and known.sha256):
         return sha256
@@ -56,7 +56,7 @@ class WatchedRobot(msgspec.Struct):
     due: float = math.inf
     """When to look at the files next, in seconds of a monotonic clock; infinite at rest."""
     is_told: bool = False
-    """Whether `Settling` was reported, which does not follow the daemon's own writes."""
+    """Whether `Settling` was reported; the daemon's own writes cause no report."""
     sample: Looks | None = None
     """The state at the look before the last; None if an event came since. Two equal looks: the robot has settled."""
     invalid_until: float = 0.0
