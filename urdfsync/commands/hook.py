@@ -201,7 +201,7 @@ class RobotFiles:
             inside = {path for path in index.unstaged | index.untracked if path.startswith(folder)}
             if len(inside) > 1 and inside <= names:  # then name the whole folder
                 names = names - inside | {folder.removesuffix("/")}
-        # the user's shell may be in any folder: for git `:/` is the top; a second colon protects odd first characters
+        # to git `:/` means the top, from any folder; after a second colon, a name may begin with a special sign
         from_top = [f":/{'' if name[0].isalnum() or name[0] == '.' else ':'}{name}" for name in sorted(names)]
         return f"`{shlex.join(['git', 'add', *(['-f'] if ignored else []), *from_top])}`"
 

@@ -134,7 +134,7 @@ def find_model(scopes: Scopes, package: str, name: str, content: Callable[[str],
 
 
 def _near(scopes: Scopes, package: str, name: str) -> str:
-    """Return the most similar name in the deepest existing package of a missing name; empty without one."""
+    """Return the name most similar to a missing one, in the deepest existing package around it; empty without one."""
     around, _, last = name.rpartition(".")
     for place in dict.fromkeys((around or package, package)):
         node = scopes.node(place.split("."))
