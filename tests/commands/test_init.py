@@ -77,7 +77,7 @@ def test_what_a_model_leaves_out_is_allowed(execute: Execute, folder: Path) -> N
     (folder / "arm.urdf").write_text(f'<robot name="arm"><link name="world"/>\n{loop}</robot>')
     said = execute("init", "arm.urdf")
     assert "arm.urdf:2: warning: loop bar has type='prismatic', which is no kind of loop" in said.words
-    assert '    allow = ["loop-joint"]  guessed: the model leaves this out, see the warnings' in said.lines
+    assert '    allow = ["loop-joint"]  guessed: the model leaves this part out, see the warnings' in said.lines
     assert "[loop-joint]" in execute("build").err
     (folder / "leg.urdf").write_text('<robot name="leg"><link name="world"/><inertial/></robot>')
     execute("add", "leg.urdf")

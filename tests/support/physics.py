@@ -27,9 +27,9 @@ class Case:
     experiment: Experiment
     package: Package
 
-    def only(self, trial: str) -> Case:
-        """The case with only this simulation, or with none for an empty name."""
-        trials = tuple(each for each in self.experiment.trials if each.name == trial)
+    def only(self, *names: str) -> Case:
+        """The same with only the simulations of these names."""
+        trials = tuple(each for each in self.experiment.trials if each.name in names)
         return Case(msgspec.structs.replace(self.experiment, trials=trials), self.package)
 
     def without(self, *beginnings: str) -> Case:

@@ -27,9 +27,9 @@ _EDIT = "This file may be edited: urdfsync then keeps it, and reports when the U
 
 
 def artifacts(robot: Robot, imports: Mapping[str, Import], target: Target, options: Options) -> list[Artifact | Order]:
-    """Return every file of the robot's package, without imported meshes.
+    """Return every file of the robot's package but imported meshes.
 
-    Raises KeyError or ValueError for a robot that fails a check, or has meshes without facts.
+    Raises KeyError or ValueError for an invalid robot, or for a mesh without facts.
     """
     tree, package, folders = _tree(robot, target), target.package, dict[str, list[Artifact]]()
     names, closed = connector_names(tree, options), assembly(tree, options)
@@ -66,7 +66,7 @@ def artifacts(robot: Robot, imports: Mapping[str, Import], target: Target, optio
         files += parameters
         root, *others = tree.links
         if not any(link.inertial for link in tree.links):
-            # Modelica's frames need a root body: a robot without masses gets one without mass
+            # Modelica's frames need a root body: a robot without masses gets a massless one
             root = msgspec.structs.replace(root, inertial=Inertial())
         folders["Links"] = [file for link in (root, *others) for file in _link(tree, link, imports, package, options)]
         joints = [
@@ -104,9 +104,9 @@ def _classes(files: Sequence[Artifact]) -> tuple[str, ...]:
 
 
 def record(robot: Robot, target: Target, options: Options) -> Artifact:
-    """Return the record of the whole robot without a package around it; `target` names the record itself.
+    """Return the record of the whole robot without a package around it; `target` names the record.
 
-    Its text equals the record in a package, if the names are equal and the robot has no mesh.
+    For a robot without meshes, the record in a package with the same names is equal.
     """
     robot_target = Target(target.package, target.name.removesuffix(_PARAMETERS) or target.name)
     tree = _tree(robot, robot_target)
@@ -116,7 +116,7 @@ def record(robot: Robot, target: Target, options: Options) -> Artifact:
 
 
 def models(joints: Sequence[Joint], target: Target, options: Options) -> tuple[str, ...]:
-    """Return the classes of the package that have to compile by themselves, the main one first."""
+    """Return the classes of the package that compilers check, the main class first."""
     suffixes = ("", "Run", "Test") if "package" in options.approach else (_PARAMETERS,)
     generic = ("Generic",) if has_bench(joints, options) else ()
     return tuple(f"{target.name}{suffix}" for suffix in (*suffixes, *generic))
@@ -130,14 +130,14 @@ def has_bench(joints: Sequence[Joint], options: Options) -> bool:
 def _tree(robot: Robot, target: Target) -> KinematicTree:
     tree = KinematicTree.of(robot, taken=(target.name,))
     if len(tree.leaders_first()) < len(tree.joints):
-        raise ValueError("a joint follows one that is not there, or itself")
+        raise ValueError("a joint follows itself or a missing joint")
     return tree
 
 
 def _of_robot(
     suffix: str, target: Target, options: Options, data: Mapping[str, Any], role: Role = Role.MODEL
 ) -> Artifact:
-    """Return a file of the robot itself; its name is the robot's name with a suffix."""
+    """Return a file of the robot itself, named after the robot with a suffix."""
     name = target.name
     record_name = f"{name}{suffix if role is Role.RECORD else _PARAMETERS}"
     common = {"within": target.package, "type": name, "title": f"robot {name}", "record": record_name}
@@ -186,7 +186,7 @@ def _element(
     data: tuple[Mapping[str, Any], Mapping[str, Any]],
     note: str,
 ) -> Iterator[Artifact]:
-    """Yield model and record of an element by their templates and data; the model has a note."""
+    """Yield model and record of an element; the note becomes the documentation of the model."""
     identifier, folder = tree.names[kind, name], "Links" if kind == "link" else "Joints"
     named = {"within": f"{package}.{folder}", "type": identifier.type, "record": identifier.record, "title": title}
     (model, record), of_model = templates, {**data[0], "note": f"{note} {_EDIT}"}
