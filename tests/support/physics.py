@@ -28,7 +28,7 @@ class Case:
     package: Package
 
     def only(self, *names: str) -> Case:
-        """The same with only the simulations of these names."""
+        """The case with only the simulations of these names."""
         trials = tuple(each for each in self.experiment.trials if each.name in names)
         return Case(msgspec.structs.replace(self.experiment, trials=trials), self.package)
 
