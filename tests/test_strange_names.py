@@ -1,4 +1,4 @@
-"""Files and folders whose names are not UTF-8: at the most one error of the robot that has them."""
+"""Files and folders whose names are not UTF-8: at most one error of their robot."""
 
 from __future__ import annotations
 

@@ -108,8 +108,8 @@ CAN_NOT = "can't be the name of a class; rename the file, or move it elsewhere [
         ),
         (
             {"Joints/elbow.mo": SMALL_ELBOW, ORDER: arm.text(ORDER) + "elbow\n"},
-            "Joints/elbow.mo: warning: `elbow` and `Elbow` differ only by case; rename one: file systems that ignore "
-            "case do not hold both [same-but-for-case]",
+            "Joints/elbow.mo: warning: `elbow` and `Elbow` differ only by case; rename one class: file systems that "
+            "ignore case do not hold both [same-but-for-case]",
         ),
     ],
 )
@@ -134,7 +134,7 @@ def test_a_top_level_package_may_say_that_it_is_in_none() -> None:
 
 
 def test_a_folder_of_classes_is_a_package() -> None:
-    hint = "add one, or move the files elsewhere"
+    hint = "add this file, or move the classes elsewhere"
     assert findings({"Joints/package.mo": None}) == [
         f"Joints: error: the folder holds classes, but no package.mo; {hint} [no-package-file]"
     ]

@@ -80,7 +80,7 @@ def test_robots_of_a_fleet_have_names_and_arguments_of_their_own(folder: Path, e
         error = execute("add", source, "kind:=s", code=2).err
         assert f"{source} is the source of `cart` already; give xacro other arguments" in error
         error = execute("add", source, "kind:=m", "name:=Cart", code=2).err
-        assert error.startswith(f"{source}: error: another robot or package has the name `Cart`; give another one")
+        assert error.startswith(f"{source}: error: another robot or package has the name `Cart`; give another name")
         assert "`kind:=` is an argument of xacro, and no source is named" in execute("add", "kind:=m", code=2).err
     execute("add", source, "kind:=3", "-q")
     assert config.load(folder / "urdfsync.toml").robots[1].name == "cart_3"

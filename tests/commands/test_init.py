@@ -146,7 +146,7 @@ def test_a_broken_source_is_passed_over_if_nobody_named_it(execute: Execute, bar
     streams = execute(*INIT)
     (line,) = streams.err.splitlines()
     assert line.startswith("bad.rcnetwork:1: warning: ")
-    assert line.endswith("; left out; correct it and add it, or run `urdfsync init bad.rcnetwork` [json]")
+    assert line.endswith("; left out; correct the source and add it, or run `urdfsync init bad.rcnetwork` [json]")
     assert [robot.name for robot in config.load(bare / "urdfsync.toml").robots] == ["good"]
 
 

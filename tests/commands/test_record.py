@@ -99,8 +99,8 @@ def test_what_is_in_a_file_is_not_lost_unless_one_says_so(execute: Execute, fold
     file = folder / "Twig.mo"
     file.write_text("model Twig end Twig;")
     assert execute("record", TWIG, "-o", "Twig.mo", code=2).errors[-1] == (
-        "Twig.mo: error: the file exists, and holds something else; name another one, or replace it with --force "
-        "[file-exists]"
+        "Twig.mo: error: the file exists, and holds something else; name another file, or replace this one "
+        "with --force [file-exists]"
     )
     assert file.read_text() == "model Twig end Twig;"
     execute("record", TWIG, "-o", "Twig.mo", "--force")

@@ -76,7 +76,8 @@ class Classes:
         for kind, element, component in self.parts():
             expected = dict[str, str]()
             if kind == "sensor" and is_run:
-                for letter in models.OUTPUTS.get(element.type, ""):
+                _, letters = models.SENSORS[element.type]
+                for letter in letters:
                     text, unit = f"robot.{component}.{letter}", models.UNITS[letter]
                     expected |= pairs(models.OUTPUT, o=f"{component}_{letter}", value=text, unit=unit)
             elif kind == "joint" and element.type in MOVES and not element.leader:
@@ -282,7 +283,7 @@ class RobotModel:
         return expected
 
     def _sensor(self, c: str) -> None:
-        kind = models.SENSORS.get(self.part.type, "Imu")
+        kind, _ = models.SENSORS[self.part.type]
         self._state(models.SENSOR, c=c, kind=kind)
         if kind in ("Camera", "Lidar"):
             self._show("Frame", f"{c}.frame_b", c)

@@ -12,7 +12,6 @@ WORDS = {
     False: dict(zip("qvf", ("s", "v", "f"), strict=True), Q='"m"', V='"m/s"', F='"N"', push="Force"),
 }
 """For turning (True) and sliding joints: letters and units of position, speed and effort, and the effort's source."""
-OUTPUTS = {"imu": "aw", "accelerometer": "a", "gyroscope": "w", "force_torque": "ft"}
 UNITS = {"a": '"m/s2"', "w": '"rad/s"', "f": '"N"', "t": '"N.m"'}
 """Units of the outputs of sensors."""
 SURFACE = {"kp": "stiffness", "kd": "viscosity", "mu": "friction", "minDepth": "minDepth"}
@@ -33,8 +32,11 @@ FOLLOWER = (
 COUPLING = "{m}.{q}_min = {c}.{q}_min; {m}.{q}_max = {c}.{q}_max; {m}.{v}_max = {c}.{v}_max"
 GEAR = "{g}.parameters = {c}.parameters.transmission; type of {g} = UrdfSync.Drives.SharedGear"
 SENSOR = "type of {c} = UrdfSync.Sensors.{kind}; {c}.parameters = sensorParameters.{c}"
-SENSORS = {"camera": "Camera", "lidar": "Lidar", "force_torque": "ForceTorque"}
-"""Classes of sensors by kind; all other sensors are an Imu."""
+SENSORS = {
+    "imu": ("Imu", "aw"), "accelerometer": ("Imu", "a"), "gyroscope": ("Imu", "w"),
+    "force_torque": ("ForceTorque", "ft"), "camera": ("Camera", ""), "lidar": ("Lidar", ""),
+}  # fmt: skip
+"""Class of a sensor and letters of its outputs, by kind."""
 CONNECTORS = {
     "Frame": "MultiBody.Interfaces.Frame_b", "Axis": "{kind}.Interfaces.Flange_a",
     "Support": "{kind}.Interfaces.Flange_b", "Motor": "Rotational.Interfaces.Flange_a",
