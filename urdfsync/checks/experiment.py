@@ -228,6 +228,8 @@ class Sample(msgspec.Struct, frozen=True):
     target: Target
     options: Any
     imports: Mapping[str, Import]
+    texts: Mapping[str, bytes] = {}
+    """The package on disk, by paths. Its edits may have other variables."""
 
 
 class Checks(Protocol):

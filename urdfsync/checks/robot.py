@@ -155,7 +155,7 @@ def _compare_numbers(checks: Checks, package: RobotPackage, result: CheckResult)
 def _sample(package: RobotPackage) -> Sample:
     robot, generation = package.robot, package.generation
     content, imports = package.inputs.source.content, generation.now.imports or {}
-    return Sample(content, shown(robot.source), robot.target, robot.options, imports)
+    return Sample(content, shown(robot.source), robot.target, robot.options, imports, package.on_disk)
 
 
 def _find_missing(config: Config, options: CheckOptions, needed: Libraries, result: CheckResult) -> Diagnostic | None:

@@ -127,7 +127,11 @@ def _free(subject: Subject, names: RobotVariables, name: str) -> Iterator[Trial]
     rows = reference.coordinates()
     for k, joint in enumerate(subject.axes, 1):
         unit, row = "m/s²" if MOTION_KINDS.get(joint.type) == "translational" else "rad/s²", rows[joint.name]
-        read = tuple(f"gain{k}[{i}]" for i in (1, 2, 3)) if joint.type == "ball" else (names.accelerations[joint.name],)
+        read = (
+            tuple(f"gain{k}[{i}]" for i in (1, 2, 3))
+            if joint.type == "ball"
+            else (names.accelerations.get(joint.name, f"gain{k}"),)
+        )
         what = Quantity.ACCELERATION, f"joint {joint.name}", unit, read, time, Part.FREE_MOTION
         pairs.append((Compared(*what, least_tolerance=doubt), [gains[row : row + len(read)].tolist()]))
     if is_free:

@@ -49,7 +49,7 @@ class Subject:
         options: Options = sample.options
         self.assembly = closed = assembly(tree, options)
         self.tree, self.target, self.options = closed.tree, sample.target, options
-        self.content = sample.content
+        self.content, self.texts = sample.content, sample.texts
         driven = (joint for joint in motion.driven_axes(tree) if joint.name not in closed.dependent)
         self.balls = tuple(joint for joint in tree.joints if joint.type == "ball")
         self.axes = (*driven, *self.balls)
