@@ -121,7 +121,7 @@ class Difference(msgspec.Struct, frozen=True):
     given: str
     """The package's value."""
     file: str
-    """Path below the package's folder."""
+    """Path below the package's folder; absolute for a file of the library."""
     line: int
     source: str
     """The source's file."""

@@ -92,7 +92,7 @@ class EditEffect(msgspec.Struct, frozen=True):
     files: tuple[str, ...]
     """The edited files that cause the effect, below the package's folder; several if they work together."""
     deviations: tuple[Deviation, ...]
-    """The deviations beyond the tolerance, from the root outwards; none if the edits change no compared quantity."""
+    """The deviations beyond the tolerance, from the root outwards; none without an effect."""
     owners: tuple[str, ...] = ()
     """The elements that the files belong to, in the domain's words."""
 
