@@ -26,7 +26,7 @@ from urdfsync.spelling import counted
 _MARKS = {CheckStatus.RIGHT: Mark.FINE, CheckStatus.DIFFERS: Mark.WRONG, CheckStatus.FAILED: Mark.WRONG}
 _ADVICE = "; your edits are not the cause: check your own `templates`, or report a bug, with the source"
 _MOST = 3
-"""The most differing numbers of one file that are reported."""
+"""The greatest number of differing numbers of one file that are reported."""
 _STATED = {
     Quantity.WARNING: "the warning “{detail}” is missing, or comes elsewhere",
     Quantity.ENERGY: "{detail} gives energy away",

@@ -242,9 +242,8 @@ def _findings(compilations: Sequence[Compilation]) -> list[Diagnostic]:
     for compilation in compilations:
         for finding in compilation.diagnostics:
             if place(finding) not in shared:
-                findings.append(
-                    msgspec.structs.replace(finding, message=f"{compilation.result.tool} alone: {finding.message}")
-                )
+                message = f"only {compilation.result.tool} reports: {finding.message}"
+                findings.append(msgspec.structs.replace(finding, message=message))
             elif compilation is compilations[0]:
                 findings.append(finding)
     return findings
