@@ -43,8 +43,8 @@ class Closure(msgspec.Struct, frozen=True):
     """The reason for fewer equations than the kind has; None also for a planar loop."""
 
 
-class Assembly(msgspec.Struct, frozen=True, kw_only=True):
-    """A robot with closed loops, or the faults of its loops; a robot without loops has only drives."""
+class ClosedLoops(msgspec.Struct, frozen=True, kw_only=True):
+    """The closed loops of a robot, or their faults, and the driven joints; without loops, only these are set."""
 
     tree: KinematicTree
     """The robot; joints that move a loop begin in a closed pose: at the start of the source, if that is closed."""
@@ -79,7 +79,7 @@ class Assembly(msgspec.Struct, frozen=True, kw_only=True):
         return frozenset(self.joints).difference(self.states)
 
 
-def find_loop_findings(closed: Assembly) -> Iterator[Finding]:
+def find_loop_findings(closed: ClosedLoops) -> Iterator[Finding]:
     """Yield why loops have no model, or else how their model differs from the source."""
     start = ", ".join(f"{json.dumps(name)} = {value:g}" for name, value in closed.proposed.items())
     hint = f"let its joints start elsewhere, as in `start = {{ {start} }}`" if 0 < len(closed.proposed) < 10 else ""
