@@ -44,7 +44,7 @@ class Closure(msgspec.Struct, frozen=True):
 
 
 class ClosedLoops(msgspec.Struct, frozen=True, kw_only=True):
-    """The closed loops of a robot, or their faults, and the driven joints; without loops, only these are set."""
+    """The closed loops of a robot, or their faults, and its driven joints; a robot without loops has only drives."""
 
     tree: KinematicTree
     """The robot; joints that move a loop begin in a closed pose: at the start of the source, if that is closed."""
